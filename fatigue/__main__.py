@@ -1,0 +1,5 @@
+"""``python -m fatigue``."""
+
+from fatigue.cli import main
+
+main()

@@ -1,0 +1,20 @@
+"""``case.toml`` <-> frozen models: what is assessed, with which curve, over which mission."""
+
+from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, load_case
+from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
+
+__all__ = [
+    "Body",
+    "Case",
+    "Counting",
+    "Curve",
+    "CustomCurve",
+    "Event",
+    "Mission",
+    "Spectrum",
+    "case_schema",
+    "check_distance",
+    "check_files",
+    "event_length_km",
+    "load_case",
+]

@@ -1,0 +1,165 @@
+"""What is wrong with a case file, in the words of that file: place, value and remedy instead of a validator's terms."""
+
+import difflib
+import json
+import math
+import re
+import tomllib
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+
+from fatigue.errors import CaseError, Problem
+
+SHARE_TOLERANCE = 1e-6  # of the sum of all shares
+
+Place: TypeAlias = tuple[int | str, ...]
+Models: TypeAlias = Mapping[tuple[str, ...], type[BaseModel]]
+
+
+class Contradictions(ValueError):
+    """Keys of one table that do not fit together; ``where`` of each problem is the key inside that table."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        super().__init__()
+        self.problems = problems
+
+
+def clash(key: str, what: str, remedy: str) -> Problem:
+    """Describe values of one table that do not fit together."""
+    return Problem("contradiction", key, what, remedy)
+
+
+def absent(key: str, what: str, remedy: str) -> Problem:
+    """Describe a key that the others of its table call for."""
+    return Problem("missing_key", key, what, remedy)
+
+
+def read_text(path: Path) -> str:
+    """Read a text file as UTF-8, with or without byte order mark."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        problem = Problem("missing_file", str(path), "there is no such file", "Give the path of a case.toml")
+    except IsADirectoryError:
+        problem = Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it")
+    except OSError as error:
+        problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        problem = Problem(
+            "not_utf8",
+            f"{path.name}: line {line}",
+            f"the byte {error.object[error.start]:#04x} is not UTF-8 text",
+            "Save the file as UTF-8",
+        )
+    raise CaseError(problem)
+
+
+def syntax_problem(text: str, error: tomllib.TOMLDecodeError) -> Problem:
+    """Name line and column of a text that is not TOML."""
+    found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", str(error), re.DOTALL)
+    what, line, column = found.groups() if found else (str(error), None, None)
+    place = f"line {line}, column {column}" if line else f"line {max(1, len(text.splitlines()))}"
+    return Problem("toml_syntax", place, f"not valid TOML: {what}", "Correct the line")
+
+
+def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -> Iterator[Problem]:
+    """Translate one finding of the models; ``models`` holds the model of every table by its keys."""
+    place, value = details["loc"], details["input"]
+    where = _named(place, raw)
+    *table, key = _keys(place)
+    fields = models[tuple(table)].model_fields
+    remedy = f"Give {fields[key].description}" if key in fields else ""
+    match details["type"]:
+        case "missing":
+            yield Problem("missing_key", where, "the key is missing", remedy)
+        case "extra_forbidden":
+            near = difflib.get_close_matches(key, fields, n=1)
+            remedy = f"Write {near[0]!r}" if near else f"Remove it; the keys are {', '.join(fields)}"
+            yield Problem("unknown_key", where, f"unknown key with the value {_shown(value)}", remedy)
+        case "too_short" if value:
+            return  # an item of the list is wrong, and that is reported by itself
+        case "too_short" | "string_too_short":
+            yield Problem("bad_value", where, f"{_shown(value)} is empty", remedy)
+        case "value_error" if isinstance(cause := details["ctx"]["error"], Contradictions):
+            for problem in cause.problems:
+                yield replace(problem, where=_named((*place, problem.where), raw))
+        case "value_error":
+            yield Problem("bad_value", where, str(details["ctx"]["error"]), remedy)
+        case _:
+            finding = details["msg"].removeprefix("Input ").replace("tuple", "list")
+            finding = re.sub(r"a valid dictionary.*", "a table", finding)
+            yield Problem("bad_value", where, f"{_shown(value)} {finding}", remedy)
+
+
+def curve_problems(raw: dict[str, Any], catalogue: Collection[str]) -> Iterator[Problem]:
+    """Check the names of the curves: the one chosen exists, none of the user's own hides one of the catalogue."""
+    own, chosen = raw.get("curves"), raw.get("curve")
+    own = own if isinstance(own, dict) else {}
+    for name in own:
+        if name in catalogue:
+            yield Problem(
+                "duplicate", f"curves.{name}", f"{name!r} is a curve of the catalogue", "Give it another name"
+            )
+    name = chosen.get("name") if isinstance(chosen, dict) else None
+    if isinstance(name, str) and name and name not in (known := sorted({*catalogue, *own})):
+        near = difflib.get_close_matches(name, known, n=1)
+        remedy = f"Write {near[0]!r}" if near else f"Add it under [curves], or use one of {', '.join(known)}"
+        yield Problem("unknown_curve", "curve.name", f"there is no curve {name!r}", remedy)
+
+
+def mission_problems(raw: dict[str, Any]) -> Iterator[Problem]:
+    """Check the events together, on the file's own values, so that a mistake elsewhere does not hide these."""
+    mission = raw.get("mission")
+    events = mission.get("event") if isinstance(mission, dict) else None
+    if not isinstance(events, list) or not all(isinstance(event, dict) for event in events):
+        return
+    first: dict[str, int] = {}
+    for position, event in enumerate(events, 1):
+        name = event.get("name")
+        if isinstance(name, str) and first.setdefault(name, position) < position:
+            yield Problem(
+                "duplicate",
+                f"mission.event[{position}].name",
+                f"{name!r} is already the name of mission.event[{first[name]}]",
+                "Give every event its own name",
+            )
+    shares = [event.get("share", 0) for event in events]
+    if not any("share" in event for event in events) or not all("share" in e or "per_1000_km" in e for e in events):
+        return
+    if any(isinstance(share, bool) or not isinstance(share, int | float) for share in shares):
+        return
+    if math.isfinite(total := math.fsum(shares)) and abs(total - 1) > SHARE_TOLERANCE:
+        summands = " + ".join(f"{event['share']:g}" for event in events if "share" in event)
+        yield Problem(
+            "shares",
+            "mission.event.share",
+            f"the shares {summands} sum to {total:.9g}, not to 1",
+            "Correct them, they are not rescaled",
+        )
+
+
+def _keys(place: Place) -> list[str]:
+    """List the keys of a place, without list positions and without the names of the user's own curves."""
+    keys = [part for part in place if isinstance(part, str)]
+    return keys[:1] + keys[2:] if keys[0] == "curves" else keys
+
+
+def _named(place: Place, raw: dict[str, Any]) -> str:
+    """Spell a place as the file does, with the name of its event: ``mission.event[2].share ('worn')``."""
+    text = "".join(f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in place)[1:]
+    if place[:2] == ("mission", "event") and len(place) > 3 and place[3] != "name":
+        name = raw["mission"]["event"][place[2]].get("name")
+        return f"{text} ({name!r})" if isinstance(name, str) else text
+    return text
+
+
+def _shown(value: object) -> str:
+    """Spell a value as TOML does, cut where it is long."""
+    text = json.dumps(value, ensure_ascii=False) if isinstance(value, bool | str) else str(value)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,284 @@
+"""The tables of ``case.toml`` as frozen models: every key, its unit, its range, and what must agree with what.
+
+Nothing is converted silently: a text is never taken for a number, and an unknown key is always an error.
+"""
+
+import itertools
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Literal, Self, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
+
+from fatigue.case.problems import Contradictions, absent, clash
+from fatigue.errors import Problem
+from fatigue.life.curves import Applies, Extension, Survival, catalogue
+from fatigue.life.damage import ThicknessRule
+from fatigue.life.history import Residue
+
+BODY_FILES = ("modes", "welds", "weld_nodes", "nodal_forces", "element_forces", "weld_elements", "nodes", "elements")
+
+_Positive: TypeAlias = Annotated[float, Field(gt=0)]
+_NotNegative: TypeAlias = Annotated[float, Field(ge=0)]
+_Text: TypeAlias = Annotated[str, Field(min_length=1)]
+
+
+class _Table(BaseModel):
+    """One table of the case: no unknown key, no conversion, no NaN or infinity, never changed once read."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+    @model_validator(mode="after")
+    def _agrees_with_itself(self) -> Self:
+        if problems := list(self._contradictions()):
+            raise Contradictions(problems)
+        return self
+
+    def _contradictions(self) -> Iterator[Problem]:
+        """Find the keys of this table that are fine alone and wrong together."""
+        yield from ()
+
+
+class Body(_Table):
+    """The flexible body: files in the neutral format, relative to the case file."""
+
+    modes: _Text = Field(description="the file of the modes (.parquet or .csv)")
+    welds: _Text = Field(description="the file of the welds (.parquet or .csv)")
+    weld_nodes: _Text = Field(description="the file of the nodes of every weld line (.parquet or .csv)")
+    nodal_forces: _Text | None = Field(
+        default=None, description="the file of modal nodal forces [N, N mm], summed over the assessed plate side"
+    )
+    element_forces: _Text | None = Field(
+        default=None, description="the file of modal element nodal forces [N, N mm], one row per element corner"
+    )
+    weld_elements: _Text | None = Field(
+        default=None, description="the file of the elements of each weld's assessed side"
+    )
+    nodes: _Text | None = Field(
+        default=None, description="the file of all nodes [mm], for the balance check and for pictures"
+    )
+    elements: _Text | None = Field(default=None, description="the file of the elements' corner nodes, for pictures")
+    force_convention: Literal["on_element", "on_node"] = Field(
+        description="the sense of the nodal forces: 'on_element' (K_e u_e) or 'on_node' (the opposite; MSC Nastran, "
+        "ANSYS and Abaqus write this one)"
+    )
+    ignore_modes: Annotated[tuple[int, ...], Field(strict=False)] = Field(
+        default=(), description="a list of mode ids left out of the forces and of the histories"
+    )
+
+    def _contradictions(self) -> Iterator[Problem]:
+        if self.nodal_forces and self.element_forces:
+            yield clash("nodal_forces", "nodal_forces and element_forces are both given", "Keep one of them")
+        if not self.nodal_forces and not self.element_forces:
+            remedy = "Give nodal_forces, or element_forces with weld_elements"
+            yield absent("nodal_forces", "neither nodal_forces nor element_forces is given", remedy)
+        if self.element_forces and not self.weld_elements:
+            what = f"the key is missing although element_forces = {self.element_forces!r} is given"
+            yield absent("weld_elements", what, "Give the file of the elements of each weld's assessed side")
+        if self.weld_elements and not self.element_forces:
+            what = f"weld_elements = {self.weld_elements!r} is given without element_forces"
+            yield clash("weld_elements", what, "Give element_forces or remove weld_elements")
+        if self.elements and not self.nodes:
+            what = f"the key is missing although elements = {self.elements!r} is given"
+            yield absent("nodes", what, "Give the file of the nodes the elements refer to")
+
+
+class Curve(_Table):
+    """The S-N curve of every weld that names no other, and how it is used."""
+
+    name: _Text = Field(description="the key of a curve of the catalogue or of [curves]")
+    survival: Survival | None = Field(
+        default=None,
+        description="the survival level; left out: mean-2sigma on curves with scatter, as tabulated on the others",
+    )
+    thickness_rule: ThicknessRule = Field(
+        default="actual", description="the thickness in dS: 'actual', or 'asme' (at least 16 mm, at most 150 mm)"
+    )
+    extension: Extension = Field(
+        default="none", description="the curve beyond knee_cycles: 'none', 'haibach' or 'cutoff'"
+    )
+    knee_cycles: _Positive = Field(
+        default=1e7, description="the number of cycles [-] at the knee of the extension, above 0"
+    )
+    mean_stress: Literal["none", "asme"] = Field(
+        default="none", description="the mean stress correction: 'none' or 'asme'"
+    )
+    yield_MPa: _Positive | None = Field(  # noqa: N815  (the unit keeps its spelling)
+        default=None, description="the yield strength [MPa], above 0"
+    )
+
+    def _contradictions(self) -> Iterator[Problem]:
+        if self.mean_stress == "asme" and self.yield_MPa is None:
+            what = "the key is missing although mean_stress = 'asme' is given"
+            yield absent("yield_MPa", what, "Give the yield strength [MPa] or set mean_stress = 'none'")
+
+
+class CustomCurve(_Table):
+    """An S-N curve of the user: straight lines in log-log, the first one fixed by its range at 2e6 cycles."""
+
+    slopes: Annotated[tuple[_Positive, ...], Field(strict=False, min_length=1)] = Field(
+        description="a list of the slopes [-] from large ranges to small ones, each above 0"
+    )
+    knees_cycles: Annotated[tuple[_Positive, ...], Field(strict=False)] = Field(
+        default=(),
+        description="a list of the cycles [-] at the knees, ascending; as many as slopes: the last one is a cut-off",
+    )
+    range_at_2e6_MPa: _Positive = Field(  # noqa: N815
+        description="the range at 2e6 cycles, of stress [MPa] or of dS [MPa mm^-0.222], above 0"
+    )
+    applies: Applies = Field(
+        description="the range the curve is for: 'structural' (stress) or 'dS' (equivalent structural stress)"
+    )
+    source: _Text = Field(description="the source: document, edition, clause")
+    log10_scatter: _Positive | None = Field(
+        default=None,
+        description="the standard deviation of log10 of the cycles [-], above 0; the curve is then the mean",
+    )
+    thickness_reference_mm: _Positive | None = Field(
+        default=None, description="the thickness [mm] above which the range is increased by (t / reference) ^ exponent"
+    )
+    thickness_exponent: _NotNegative | None = Field(default=None, description="the thickness exponent [-], at least 0")
+
+    def _contradictions(self) -> Iterator[Problem]:
+        knees, slopes = self.knees_cycles, self.slopes
+        if any(after <= before for before, after in itertools.pairwise(knees)):
+            yield clash("knees_cycles", f"{list(knees)} does not ascend", "Sort the knees by cycles")
+        if len(knees) not in (len(slopes) - 1, len(slopes)):
+            what = f"{len(knees)} knees do not go with {len(slopes)} slopes"
+            yield clash("knees_cycles", what, "Give one knee less than slopes, or as many for a cut-off at the last")
+        if (self.thickness_reference_mm is None) != (self.thickness_exponent is None):
+            without = "thickness_reference_mm" if self.thickness_reference_mm is None else "thickness_exponent"
+            what = "thickness_reference_mm and thickness_exponent need each other"
+            yield absent(without, what, "Give both or neither")
+
+
+class Counting(_Table):
+    """How cycles are counted."""
+
+    residue: Residue = Field(default="repeat", description="the treatment of the residue: 'repeat' or 'half'")
+    upsample: int | Literal["auto"] = Field(
+        default=1, description="the upsampling factor before counting: 1, 2, 4, 8 ... or 'auto'"
+    )
+
+    @field_validator("upsample", mode="before")
+    @classmethod
+    def _power_of_two(cls, value: object) -> object:
+        whole = isinstance(value, int) and not isinstance(value, bool)
+        if value == "auto" or (whole and value > 0 and value & (value - 1) == 0):  # type: ignore[operator]
+            return value
+        raise ValueError(f"{value!r} is neither a power of 2 nor 'auto'")
+
+
+class Spectrum(_Table):
+    """How spectra are estimated: Hann windows, 50 % overlap, constant detrend."""
+
+    segment_s: _Positive = Field(default=4.0, description="the length of one segment [s], above 0")
+    upper_hz: _Positive | None = Field(
+        default=None,
+        description="the upper frequency [Hz], above 0; left out: 0.4 of the sampling rate or 1.5 x the highest normal "
+        "mode, whichever is lower",
+    )
+
+
+class Event(_Table):
+    """One operating condition: a history that recurs over a share of the mileage, or so many times per 1000 km."""
+
+    name: _Text = Field(description="a name of the event, unique in the mission")
+    history: _Text = Field(description="the file of the modal coordinates over time (.parquet or .csv)")
+    share: Annotated[float, Field(ge=0, le=1)] | None = Field(
+        default=None, description="the share of the mileage [-], 0 to 1; all shares sum to 1"
+    )
+    speed_km_h: _Positive | None = Field(default=None, description="the speed [km/h], above 0")
+    length_km: _Positive | None = Field(
+        default=None, description="the length [km] of the kept part of the history, above 0"
+    )
+    per_1000_km: _NotNegative | None = Field(
+        default=None, description="how often the event happens in 1000 km [-], at least 0, instead of a share"
+    )
+    start_s: _NotNegative = Field(
+        default=0.0, description="the time [s] cut off at the start of the history, at least 0"
+    )
+    stress_factor: _Positive = Field(default=1.0, description="the factor [-] on all stresses of the event, above 0")
+    residue: Residue | None = Field(
+        default=None,
+        description="the treatment of the residue of this event: 'repeat' or 'half'; left out: that of [counting], "
+        "or 'half' for an event counted by number",
+    )
+
+    def _contradictions(self) -> Iterator[Problem]:
+        by_share, by_number = self.share is not None, self.per_1000_km is not None
+        if by_share and by_number:
+            what = f"share = {self.share:g} and per_1000_km = {self.per_1000_km:g} are both given"
+            yield clash("share", what, "Keep one of them")
+        elif not by_share and not by_number:
+            remedy = "Give the share of the mileage, or per_1000_km for an event counted by number"
+            yield absent("share", "neither share nor per_1000_km is given", remedy)
+        elif by_share and self.speed_km_h is None and self.length_km is None:
+            what = f"neither speed_km_h nor length_km is given with share = {self.share:g}"
+            yield absent("speed_km_h", what, "Give the speed [km/h] or the length of the kept part [km]")
+        for key, value in (("speed_km_h", self.speed_km_h), ("length_km", self.length_km)):
+            if by_number and not by_share and value is not None:
+                what = f"{value:g} is given for an event counted by number, per_1000_km = {self.per_1000_km:g}"
+                yield clash(key, what, "Remove it, or give a share instead of per_1000_km")
+
+
+class Mission(_Table):
+    """What the vehicle does, and how long it has to last."""
+
+    target_km: _Positive = Field(description="the target mileage [km], above 0")
+    km_per_year: _Positive = Field(description="the mileage per year [km], above 0")
+    damage_limit: _Positive = Field(
+        default=1.0, description="the allowed damage sum [-] at the target mileage, above 0"
+    )
+    event: Annotated[tuple[Event, ...], Field(strict=False, min_length=1)] = Field(
+        description="one [[mission.event]] table per operating condition"
+    )
+
+
+class Case(_Table):
+    """One assessment: body, curve, counting and mission, with the text and the place they came from."""
+
+    title: str = Field(default="Untitled", description="the title of the report")
+    body: Body = Field(description="a [body] table")
+    curve: Curve = Field(description="a [curve] table")
+    curves: dict[str, CustomCurve] = Field(default={}, description="one [curves.<name>] table per curve of your own")
+    counting: Counting = Field(default=Counting(), description="a [counting] table")
+    spectrum: Spectrum = Field(default=Spectrum(), description="a [spectrum] table")
+    mission: Mission = Field(description="a [mission] table")
+    _path: Path = PrivateAttr(Path())
+    _text: str = PrivateAttr("")
+
+    def read_from(self, path: Path, text: str) -> Self:
+        """Remember the file and its text."""
+        self._path, self._text = path, text
+        return self
+
+    @property
+    def path(self) -> Path:
+        """The case file."""
+        return self._path
+
+    @property
+    def text(self) -> str:
+        """The case file as it was written, comments included."""
+        return self._text
+
+    def resolve(self, name: str) -> Path:
+        """Find a file the case names: relative to the folder of the case file."""
+        return self._path.parent / name
+
+    def input_files(self) -> dict[str, Path]:
+        """List every file the case names, by its key: ``body.modes``, ``mission.event[1].history``."""
+        body = {f"body.{key}": getattr(self.body, key) for key in BODY_FILES}
+        histories = {f"mission.event[{i}].history": event.history for i, event in enumerate(self.mission.event, 1)}
+        return {key: self.resolve(name) for key, name in (body | histories).items() if name is not None}
+
+    def curve_names(self) -> set[str]:
+        """List the curves a weld may name: the catalogue's and the case's own."""
+        return {*catalogue(), *self.curves}
+
+    def residue(self, event: Event) -> Residue:
+        """Residue rule of an event: its own, else ``half`` for one counted by number, else that of ``[counting]``."""
+        if event.residue is not None:
+            return event.residue
+        return self.counting.residue if event.per_1000_km is None else "half"

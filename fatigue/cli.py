@@ -1,0 +1,212 @@
+"""The command line: parse, call, print. Heavy imports stay inside the commands, so that ``--help`` is quick."""
+
+import json
+import logging
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+
+from fatigue import __version__
+from fatigue.errors import FatigueError, Problem
+
+log = logging.getLogger("fatigue")
+
+EXIT_CODES = """
+\b
+Exit codes: 0 done; 1 done, but a weld misses its target; 2 wrong usage;
+3 bad case or data; 4 numerical failure; 130 interrupted.
+"""
+
+_CASE = click.Path(path_type=Path)
+_FOLDER = click.Path(path_type=Path, file_okay=False)
+
+as_json = click.option(
+    "--json", "as_json", is_flag=True, help="Print JSON for machines (null: infinite or not available)."
+)
+strict = click.option("--strict", is_flag=True, help="Take unknown columns in the tables for errors.")
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]}, epilog=EXIT_CODES)
+@click.version_option(__version__, prog_name="fatigue")
+@click.option("-q", "--quiet", is_flag=True, help="No progress and no log on stderr; errors only.")
+@click.option("-v", "--verbose", is_flag=True, help="Log what is done on stderr, and tracebacks of program errors.")
+def cli(quiet: bool, verbose: bool) -> None:
+    """Weld fatigue life, in km, of a flexible body from a multibody simulation.
+
+    \b
+    Examples:
+      fatigue example demo                       write the shipped car body to ./demo
+      fatigue check demo/case.toml               read and check everything, assess nothing
+      fatigue assess demo/case.toml -o result    life of every point of every weld
+      fatigue show result --top 20               the worst points
+    """
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("%(levelname)s %(message)s"))
+    handler.setLevel(logging.ERROR if quiet else logging.INFO if verbose else logging.WARNING)
+    log.handlers[:] = [handler]
+    log.setLevel(logging.INFO)
+    click.get_current_context().obj = {"quiet": quiet, "verbose": verbose}
+
+
+@cli.command()
+@click.argument("case_file", metavar="CASE", type=_CASE)
+@strict
+@as_json
+def check(case_file: Path, strict: bool, as_json: bool) -> None:
+    """Read and check a case and all its files; print sizes and the estimated time.
+
+    \b
+    Example:
+      fatigue check body/case.toml --strict
+    """
+    from fatigue.case import load_case
+    from fatigue.check import check_case
+
+    found = check_case(load_case(case_file), strict=strict)
+    if as_json:
+        _print_json(found.as_record())
+        return
+    click.echo(found.as_text())
+    _print_warnings(found.warnings)
+
+
+@cli.command()
+@click.argument("case_file", metavar="CASE", type=_CASE)
+@click.option(
+    "-o", "--output", type=_FOLDER, required=True, metavar="DIR", help="Result folder, made if it is not there."
+)
+@click.option("--threads", type=click.IntRange(min=1), default=None, help="Threads; default: one per processor core.")
+@click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue did not write.")
+@click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
+@strict
+@as_json
+@click.pass_obj
+def assess(
+    options: dict[str, bool],
+    case_file: Path,
+    output: Path,
+    threads: int | None,
+    force: bool,
+    exit_zero: bool,
+    strict: bool,
+    as_json: bool,
+) -> None:
+    """Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
+
+    An interrupted run goes on where it was when the same command is given again.
+
+    \b
+    Example:
+      fatigue assess body/case.toml -o result
+    """
+    from fatigue.assess import assess as run
+    from fatigue.case import load_case
+    from fatigue.summary import result_summary
+
+    case = load_case(case_file)
+    with _progress(quiet=options["quiet"]) as progress:
+        done = run(case, output, threads=threads, strict=strict, force=force, progress=progress)
+    _print_warnings(done.warnings)
+    found = result_summary(output, top=10)
+    if as_json:
+        _print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+    if not done.fulfilled and not exit_zero:
+        raise SystemExit(1)
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--top", type=click.IntRange(min=1), default=10, show_default=True, help="How many points to show.")
+@click.option("--weld", "welds", multiple=True, help="Only this weld; may be given several times.")
+@as_json
+def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
+    """Print the welds and the worst points of a result folder.
+
+    \b
+    Examples:
+      fatigue show result --top 20
+      fatigue show result --weld W1_roof_bracket_neg --json
+    """
+    from fatigue.summary import result_summary
+
+    found = result_summary(folder, top=top, only=welds)
+    if as_json:
+        _print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+
+
+@contextmanager
+def _progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None]]:
+    """Give a progress callback: a bar with time left, on stderr and only on a terminal."""
+    if quiet or not sys.stderr.isatty():
+        yield lambda label, done, total: None
+        return
+    bars: dict[str, Any] = {}
+
+    def progress(label: str, done: int, total: int) -> None:
+        if label not in bars:
+            bars[label] = click.progressbar(length=total, label=label, file=sys.stderr, show_eta=True)
+            bars[label].__enter__()
+        bars[label].update(done - bars[label].pos)
+        if done == total:
+            bars.pop(label).__exit__(None, None, None)
+
+    try:
+        yield progress
+    finally:
+        for bar in bars.values():
+            bar.__exit__(None, None, None)
+
+
+def _print_json(record: Any) -> None:
+    from fatigue.results import json_ready
+
+    click.echo(json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def _print_warnings(problems: tuple[Problem, ...]) -> None:
+    """Log the first warning of each kind and how many more there are; all of them are in provenance.json."""
+    kinds: dict[str, list[Problem]] = {}
+    for problem in problems:
+        kinds.setdefault(problem.code, []).append(problem)
+    for same in kinds.values():
+        more = f" (and {len(same) - 1} more of this kind, see provenance.json)" if len(same) > 1 else ""
+        log.warning("%s%s", same[0], more)
+
+
+def main() -> None:
+    """Run the command line; every known failure is one clear line and its exit code."""
+    verbose = bool({"-v", "--verbose"} & set(sys.argv[1:]))
+    try:
+        cli.main(standalone_mode=False)
+    except FatigueError as error:
+        for problem in error.problems:
+            click.echo(f"error: {problem}", err=True)
+        sys.exit(error.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (KeyboardInterrupt, click.exceptions.Abort):
+        click.echo("interrupted: the same command goes on from here", err=True)
+        sys.exit(130)
+    except BrokenPipeError:  # the reader of our output went away, as `| head` does
+        sys.stderr.close()
+        sys.exit(0)
+    except MemoryError:
+        click.echo("error: out of memory: close other programs, or assess fewer welds at once", err=True)
+        sys.exit(4)
+    except Exception as error:
+        if verbose:
+            raise
+        click.echo(
+            f"error: this should not have happened ({type(error).__name__}: {error}). Run again with -v and report it",
+            err=True,
+        )
+        sys.exit(4)

@@ -1,0 +1,1 @@
+"""From stress histories to damage and kilometres."""

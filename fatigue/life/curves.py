@@ -1,0 +1,210 @@
+"""S-N curves: the catalogue, a user's own, and the damage law one assessment draws from them."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import CaseError, Problem
+
+Applies = Literal["structural", "dS"]
+Survival = Literal["mean", "mean-1sigma", "mean-2sigma", "mean-3sigma"]
+Extension = Literal["none", "haibach", "cutoff"]
+
+DEFAULT_SURVIVAL: Survival = "mean-2sigma"
+TABULATED = "as tabulated"
+SIGMAS_BELOW_MEAN: dict[str, int] = {"mean": 0, "mean-1sigma": 1, "mean-2sigma": 2, "mean-3sigma": 3}
+
+
+@dataclass(frozen=True, slots=True)
+class SNCurve:
+    """A published or user-given S-N curve in stress ranges, straight segments in log-log axes.
+
+    Attributes
+    ----------
+    name : key in the catalogue or in the case
+    applies : "dS", the equivalent structural stress range of the master curve [MPa mm^-0.222], or "structural", the
+        structural stress range itself [MPa]
+    slopes : k of each segment of N = A / range**k, from few cycles to many
+    knees_cycles : cycles where the next segment begins; as many knees as slopes: no damage beyond the last one
+    reference_cycles : cycles at which ``reference_range`` holds
+    reference_range : range at the reference cycles for each survival level, or for "as tabulated" only
+    thickness_reference, thickness_exponent : f = (t / reference)**exponent on the range, t above the reference [mm]
+    source : where the numbers come from, edition and clause
+    """
+
+    name: str
+    applies: Applies
+    slopes: tuple[float, ...]
+    knees_cycles: tuple[float, ...]
+    reference_cycles: float
+    reference_range: Mapping[str, float]
+    source: str
+    thickness_reference: float | None = None
+    thickness_exponent: float = 0.0
+
+    @property
+    def has_scatter(self) -> bool:
+        """Whether survival levels can be told apart."""
+        return TABULATED not in self.reference_range
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DamageLaw:
+    """Damage of one cycle as a function of its equivalent range x: ``d(x) = x**k / A`` between knees.
+
+    Attributes
+    ----------
+    slopes : (s,) k of each segment, from large ranges to small ones
+    log_constants : (s,) ln A of each segment
+    knees : (s - 1,) equivalent range at which segment j ends and segment j + 1 begins, descending
+    cutoff : equivalent range strictly below which a cycle does no damage; 0: every cycle damages
+    """
+
+    slopes: NDArray[np.float64]
+    log_constants: NDArray[np.float64]
+    knees: NDArray[np.float64]
+    cutoff: float
+
+    @property
+    def is_straight(self) -> bool:
+        """One slope for all cycles: damage then scales with load**k exactly."""
+        return len(self.slopes) == 1 and self.cutoff == 0.0
+
+
+def user_curve(
+    name: str,
+    slopes: tuple[float, ...],
+    knees_cycles: tuple[float, ...],
+    range_at_2e6: float,
+    applies: Applies,
+    source: str,
+    log10_scatter: float | None = None,
+    thickness_reference: float | None = None,
+    thickness_exponent: float = 0.0,
+) -> SNCurve:
+    """Describe a curve by its range at 2e6 cycles, as European classes are.
+
+    With ``log10_scatter``, the standard deviation of log10 N, ``range_at_2e6`` [MPa] is the mean curve and the survival
+    levels follow from it at constant slope; without, the curve has the one level its source gives it.
+    """
+    reference_cycles = 2e6
+    k = slopes[_segment(knees_cycles, len(slopes), reference_cycles)]
+    if log10_scatter is None:
+        ranges = {TABULATED: range_at_2e6}
+    else:
+        ranges = {level: range_at_2e6 * 10 ** (-s * log10_scatter / k) for level, s in SIGMAS_BELOW_MEAN.items()}
+    return SNCurve(
+        name=name,
+        applies=applies,
+        slopes=slopes,
+        knees_cycles=knees_cycles,
+        reference_cycles=reference_cycles,
+        reference_range=ranges,
+        source=source,
+        thickness_reference=thickness_reference,
+        thickness_exponent=thickness_exponent,
+    )
+
+
+@cache
+def catalogue() -> Mapping[str, SNCurve]:
+    """Read the curves shipped with the program, each with edition, clause and source (``curves.toml`` beside this file)."""
+    with (Path(__file__).parent / "curves.toml").open("rb") as file:
+        tables = tomllib.load(file)
+    curves = {}
+    for name, table in tables.items():
+        source = f"{table['source']}, edition {table['edition']}, {table['clause']}"
+        if "C" in table:  # master curve, N = (C / dS)**(1 / h): C is the range at one cycle
+            curves[name] = SNCurve(
+                name=name,
+                applies="dS",
+                slopes=(1.0 / table["h"],),
+                knees_cycles=(),
+                reference_cycles=1.0,
+                reference_range=table["C"],
+                source=source,
+            )
+        else:
+            curves[name] = user_curve(
+                name=name,
+                slopes=tuple(table["slopes"]),
+                knees_cycles=tuple(table["knees_cycles"]),
+                range_at_2e6=table["range_at_2e6_MPa"],
+                applies="structural",
+                source=source,
+                thickness_reference=table.get("thickness_reference_mm"),
+                thickness_exponent=table.get("thickness_exponent", 0.0),
+            )
+    return curves
+
+
+def survival_level(curve: SNCurve, survival: Survival | None) -> str:
+    """Name the survival level used: as asked; mean-2sigma, or the only one there is, when nothing is asked.
+
+    Raises
+    ------
+    CaseError : a level is asked of a curve without scatter
+    """
+    if survival is None:
+        return DEFAULT_SURVIVAL if curve.has_scatter else TABULATED
+    if not curve.has_scatter:
+        raise CaseError(
+            Problem(
+                "survival",
+                "curve.survival",
+                f"'{survival}' is asked of curve '{curve.name}', which has no scatter",
+                "Give log10_scatter with the curve, or leave survival out to use the curve as tabulated",
+            )
+        )
+    return survival
+
+
+def damage_law(curve: SNCurve, survival: Survival | None, extension: Extension, knee_cycles: float) -> DamageLaw:
+    """Turn a curve at one survival level, with its extension, into the damage of a cycle.
+
+    Knees stay at their number of cycles and move in stress with the survival level. ``haibach`` continues below the
+    stress at ``knee_cycles`` with slope 2 k - 1 (Haibach 1970); ``cutoff`` ends damage there.
+
+    Raises
+    ------
+    CaseError : survival level without scatter, or an extension of a curve that has its own knees
+    """
+    level = survival_level(curve, survival)
+    knees_cycles, slopes = curve.knees_cycles, curve.slopes
+    if extension != "none":
+        if knees_cycles:
+            raise CaseError(
+                Problem(
+                    "extension",
+                    "curve.extension",
+                    f"'{extension}' is asked of curve '{curve.name}', which has its own knee at {knees_cycles[0]:g} cycles",
+                    'Set extension = "none", or give the curve without knees',
+                )
+            )
+        knees_cycles = (knee_cycles,)
+        slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
+
+    log_knees = np.log(np.asarray(knees_cycles, dtype=np.float64))
+    k = np.asarray(slopes, dtype=np.float64)
+    log_a = np.empty(len(k))
+    reference = _segment(knees_cycles, len(k), curve.reference_cycles)
+    log_a[reference] = np.log(curve.reference_range[level] ** k[reference]) + np.log(curve.reference_cycles)
+    for j in range(reference, len(k) - 1):  # continuity at each knee: ln A_j - k_j ln S = ln N_knee on both sides
+        log_a[j + 1] = log_knees[j] + k[j + 1] * (log_a[j] - log_knees[j]) / k[j]
+    for j in range(reference, 0, -1):
+        log_a[j - 1] = log_knees[j - 1] + k[j - 1] * (log_a[j] - log_knees[j - 1]) / k[j]
+    segment = np.arange(len(log_knees))
+    knee_ranges = np.exp((log_a[segment] - log_knees) / k[segment])
+    cutoff = float(knee_ranges[-1]) if len(log_knees) == len(k) else 0.0
+    return DamageLaw(slopes=k, log_constants=log_a, knees=knee_ranges[: len(k) - 1], cutoff=cutoff)
+
+
+def _segment(knees_cycles: tuple[float, ...], segments: int, cycles: float) -> int:
+    """Index of the segment in which a number of cycles lies."""
+    return min(sum(cycles > knee for knee in knees_cycles), segments - 1)

@@ -1,0 +1,129 @@
+"""Geometry of an FE model as weld lines need it, the same for every solver and file format."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.weld.mesh import NONE, ShellMesh
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FeModel:
+    """Shells, displacement frames and the markers a user may have set at the welds; in the file's own unit of length.
+
+    Attributes
+    ----------
+    source : file
+    mesh : shells and all grids
+    frame_node : (k,) grids whose displacement frame (CD) is not the basic one, ascending
+    frame : (k, 3, 3) axes of their displacement frames, one in each row, in basic components
+    section_doubt : why the thickness of a property cannot be taken for the stress formulas, by property id
+    element_doubt : the same, by element id
+    node_sets : node sets by their id
+    marker_edges : pairs of grids joined by plot elements or bars, (p, 2), by card name ("PLOTEL", "CBAR", "CBEAM")
+    other_cards : how many cards of elements other than shells there are, by name
+    remarks : doubts met while reading
+    """
+
+    source: str
+    mesh: ShellMesh
+    frame_node: NDArray[np.int64]
+    frame: NDArray[np.float64]
+    section_doubt: Mapping[int, str] = field(default_factory=dict)
+    element_doubt: Mapping[int, str] = field(default_factory=dict)
+    node_sets: Mapping[int, NDArray[np.int64]] = field(default_factory=dict)
+    marker_edges: Mapping[str, NDArray[np.int64]] = field(default_factory=dict)
+    other_cards: Mapping[str, int] = field(default_factory=dict)
+    remarks: tuple[Problem, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A shell property: thickness, offset of the reference plane, and what makes the thickness doubtful."""
+
+    thickness: float
+    offset: float = 0.0
+    doubt: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Shell:
+    """A shell element as a file gives it: grid ids, 0 for a mid-side node left out."""
+
+    element: int
+    pid: int
+    corners: tuple[int, ...]
+    mids: tuple[int, ...] = ()
+    thickness: float | None = None  # its own instead of the property's
+    offset: float = 0.0
+    doubt: str = ""
+
+
+def shell_mesh(
+    source: str, grids: Mapping[int, NDArray[np.float64]], shells: list[Shell], sections: Mapping[int, Section]
+) -> ShellMesh:
+    """Join grids, shells and sections to a mesh.
+
+    Raises
+    ------
+    DataError : no shells, an element id used twice, a grid that does not exist or is used twice in one element
+    """
+    if not shells:
+        raise DataError(
+            Problem("no_shells", source, "the model has no shell elements", "Give the bulk data that holds the plates")
+        )
+    shells = sorted(shells, key=lambda shell: shell.element)
+    node = np.array(sorted(grids), np.int64)
+    index = {int(n): i for i, n in enumerate(node)}
+    refuse(DataError, _shell_problems(source, shells, index))
+    corner = np.full((len(shells), 4), NONE, np.int64)
+    mid = np.full((len(shells), 4), NONE, np.int64)
+    for row, shell in enumerate(shells):
+        corner[row, : len(shell.corners)] = [index[n] for n in shell.corners]
+        mid[row, : len(shell.mids)] = [index[n] if n else NONE for n in shell.mids]
+    section = [sections.get(shell.pid, Section(np.nan)) for shell in shells]
+    return ShellMesh(
+        node=node,
+        xyz=np.array([grids[int(n)] for n in node], np.float64).reshape(-1, 3),
+        element=np.array([shell.element for shell in shells], np.int64),
+        corner=corner,
+        mid=mid,
+        pid=np.array([shell.pid for shell in shells], np.int64),
+        thickness=np.array(
+            [s.thickness if shell.thickness is None else shell.thickness for shell, s in zip(shells, section, strict=True)]
+        ),
+        offset=np.array([shell.offset + s.offset for shell, s in zip(shells, section, strict=True)]),
+    )
+
+
+def _shell_problems(source: str, shells: list[Shell], index: Mapping[int, int]) -> list[Problem]:
+    """Duplicate elements, missing grids and collapsed elements, at most ten of them."""
+    problems = []
+    for before, shell in zip([None, *shells], shells, strict=False):
+        where = f"{source}, element {shell.element}"
+        used = [*shell.corners, *(n for n in shell.mids if n)]
+        if before is not None and before.element == shell.element:
+            problems.append(Problem("element_twice", where, "the element id is used twice", "Give it another id"))
+        if missing := [n for n in used if n not in index]:
+            problems.append(Problem("no_grid", where, f"its grid {missing[0]} does not exist", "Include the grid's file"))
+        elif len(set(used)) < len(used):
+            problems.append(Problem("collapsed", where, f"a grid is used twice: {used}", "Use a triangle"))
+        if len(problems) >= 10:
+            break
+    return problems
+
+
+def to_basic(values: NDArray[np.floating], node: NDArray[np.int64], model: FeModel) -> NDArray[np.floating]:
+    """Rotate (m, r, 6) forces or shapes at ``node`` (r,) from the displacement frames to the basic one."""
+    at = np.minimum(np.searchsorted(model.frame_node, node), max(model.frame_node.size - 1, 0))
+    turned = np.flatnonzero(model.frame_node[at] == node) if model.frame_node.size else np.empty(0, np.int64)
+    if not turned.size:
+        return values
+    axes = model.frame[at[turned]].astype(values.dtype)
+    rotated = values.copy()
+    for part in (slice(0, 3), slice(3, 6)):
+        rotated[:, turned, part] = np.einsum("rij,mri->mrj", axes, values[:, turned, part])
+    return rotated

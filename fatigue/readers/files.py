@@ -1,0 +1,140 @@
+"""Open one table of the neutral format, Parquet or CSV; a file that is no such table is refused with the reason."""
+
+import csv
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.csv as pa_csv
+import pyarrow.parquet as pq
+
+from fatigue.errors import DataError, Problem
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columns:
+    """An open file: names and types of its columns, number of rows, and how to read one column by its position."""
+
+    names: tuple[str, ...]
+    kinds: tuple[pa.DataType, ...]
+    rows: int
+    read: Callable[[int], pa.ChunkedArray]
+
+
+def open_columns(path: Path, texts: Collection[str]) -> Columns:
+    """Open a ``.parquet`` or ``.csv`` file; ``texts`` are the columns that hold names, never numbers.
+
+    Raises
+    ------
+    DataError
+        missing, unreadable, damaged, not UTF-8, without header or without rows
+    """
+    opener = {".parquet": _open_parquet, ".csv": _open_csv}.get(path.suffix.lower())
+    if path.is_dir():
+        raise DataError(Problem("not_a_file", str(path), "this is a folder", "Give a .parquet or .csv file"))
+    if opener is None:
+        raise DataError(
+            Problem(
+                "unknown_format", str(path), f"unknown kind of file {path.suffix!r}", "Give a .parquet or .csv file"
+            )
+        )
+    try:
+        columns = opener(path, texts)
+    except FileNotFoundError:
+        raise DataError(Problem("missing_file", str(path), "there is no such file", "Correct the path")) from None
+    except PermissionError:
+        raise DataError(Problem("unreadable_file", str(path), "may not be read", "Check its permissions")) from None
+    except (pa.ArrowException, OSError) as error:
+        raise DataError(_damaged(path, error)) from None
+    if columns.rows == 0:
+        raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
+    return columns
+
+
+def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
+    schema = pq.read_schema(path)
+    names = tuple(schema.names)
+    file = pq.ParquetFile(path, read_dictionary=[name for name in names if name.strip() in texts])
+
+    def read(position: int) -> pa.ChunkedArray:
+        try:
+            return file.read(columns=[names[position]]).column(0)
+        except (pa.ArrowException, OSError) as error:
+            raise DataError(_damaged(path, error)) from None
+
+    return Columns(names, tuple(schema.types), file.metadata.num_rows, read)
+
+
+def _open_csv(path: Path, texts: Collection[str]) -> Columns:
+    try:
+        names = next(_csv_rows(path), [])
+    except UnicodeDecodeError:
+        raise DataError(_not_utf8(path)) from None
+    if not names:
+        raise DataError(Problem("empty_table", path.name, "the first line is empty", "Write the column names there"))
+    for separator, word in ((";", "semicolons"), ("\t", "tabs")):
+        if len(names) == 1 and separator in names[0]:
+            raise DataError(
+                Problem(
+                    "csv_separator",
+                    f"{path.name}: line 1",
+                    f"the columns are separated by {word}",
+                    "Write the file with commas between columns and points in numbers",
+                )
+            )
+    # Arrow wants unique names; positions serve, and repeated names are told by whoever knows which columns matter
+    positions = [str(i) for i in range(len(names))]
+    try:
+        table = pa_csv.read_csv(
+            path,
+            pa_csv.ReadOptions(column_names=positions, skip_rows=1),
+            convert_options=pa_csv.ConvertOptions(
+                column_types={i: pa.string() for i, name in zip(positions, names, strict=True) if name.strip() in texts}
+            ),
+        )
+    except pa.ArrowInvalid as error:
+        raise DataError(_csv_problem(path, len(names), error)) from None
+    return Columns(tuple(names), tuple(table.schema.types), table.num_rows, table.column)
+
+
+def _csv_rows(path: Path) -> Iterator[list[str]]:
+    with path.open(encoding="utf-8-sig", newline="") as stream:
+        yield from csv.reader(stream)
+
+
+def _csv_problem(path: Path, width: int, error: Exception) -> Problem:
+    """Find out what Arrow stumbled over: an undecodable byte, a row with too few or many cells, or something else."""
+    try:
+        rows = (cells for cells in _csv_rows(path) if cells)
+        for row, cells in enumerate(rows):
+            if len(cells) != width:
+                return Problem(
+                    "ragged_row",
+                    f"{path.name}: row {row}",
+                    f"{len(cells)} cells in a table of {width} columns",
+                    "Write one cell per column, texts with commas in double quotes",
+                )
+    except UnicodeDecodeError:
+        return _not_utf8(path)
+    except csv.Error as broken:
+        return _damaged(path, broken)
+    return _damaged(path, error)
+
+
+def _not_utf8(path: Path) -> Problem:
+    data = path.read_bytes()
+    try:
+        data.decode()
+    except UnicodeDecodeError as error:
+        line, byte = data.count(b"\n", 0, error.start) + 1, data[error.start]
+        return Problem("not_utf8", f"{path.name}: line {line}", f"byte {byte:#04x} is not UTF-8", "Save it as UTF-8")
+    raise AssertionError("the file changed while it was read")
+
+
+def _damaged(path: Path, error: Exception) -> Problem:
+    kind = "Parquet" if path.suffix.lower() == ".parquet" else "CSV"
+    reason = str(error).strip().splitlines()[0].rstrip(".")
+    return Problem(
+        "damaged_file", path.name, f"cannot be read as {kind}, it is damaged or cut short ({reason})", "Write it again"
+    )

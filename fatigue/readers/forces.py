@@ -1,0 +1,193 @@
+"""Modal nodal forces in the neutral format, as on_element forces per unit modal coordinate of the simulation.
+
+The sign convention of the file and the scale of each mode are applied here, once.
+"""
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import Problem
+from fatigue.readers.body import Modes, Weld
+from fatigue.readers.tables import Table, open_table
+from fatigue.weld.element_forces import ElementForces
+from fatigue.weld.line import WeldLine
+
+Convention: TypeAlias = Literal["on_element", "on_node"]
+COMPONENTS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
+BLOCK = 1 << 20  # rows whose stations are looked up at a time, so that a large file needs little memory beside it
+
+
+def read_nodal_forces(
+    path: Path,
+    lines: Sequence[WeldLine],
+    modes: Modes,
+    convention: Convention,
+    ignore_modes: Collection[int],
+    *,
+    strict: bool,
+) -> tuple[tuple[NDArray[Any], ...], list[Problem]]:
+    """Read ``weld, node, mode, fx_N ... mz_Nmm``: the forces on the elements of each line, (n, m, 6) [N, N mm].
+
+    Nodes are in the order of the line, modes in that of ``modes``; float32 where the file has float32. Rows of ignored
+    modes and of nodes that are not on the weld's line are skipped.
+
+    Raises
+    ------
+    DataError
+        a (weld, node, mode) missing or given twice, an unknown weld or mode, a value that is no finite number
+    """
+    table = open_table(path, texts=("weld",))
+    table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
+    names, code = table.groups("weld")
+    node, mode = table.integers("node"), table.integers("mode")
+    table.known("weld", names, code, {line.weld for line in lines}, "the welds")
+    column = _mode_columns(table, mode, modes, ignore_modes)
+    table.refuse()
+    station = _stations(names, code, node, lines)
+    if (stray := station < 0).any():
+        row = int(stray.argmax())
+        table.warnings.append(
+            Problem(
+                "extra_node",
+                table.where("node", row),
+                f"node {node[row]} is not on the line of weld {names[code[row]]}; {np.count_nonzero(stray)} rows of "
+                "such nodes are not used",
+                "Remove them, or add the nodes to the weld's line",
+            )
+        )
+    slots = sum(line.node.size for line in lines) * modes.mode.size
+    slot = np.where(stray | (column < 0), -1, station.astype(np.int64) * modes.mode.size + column)
+    del station, stray, column
+    filled = np.zeros(slots, dtype=np.bool_)
+    filled[slot[slot >= 0]] = True
+    if np.count_nonzero(filled) < np.count_nonzero(slot >= 0):
+        table.unique({"weld": code, "node": node, "mode": mode}, {"weld": names})
+    del code, node, mode
+    first = np.cumsum([line.node.size for line in lines])[:-1]
+    for line, present in zip(lines, np.split(filled.reshape(-1, modes.mode.size), first), strict=True):
+        table.problems.extend(_gaps(path, line, modes, present))
+    table.refuse()
+
+    single = table.single_precision(COMPONENTS)
+    force = np.empty((slots, 6), dtype=np.float32 if single else np.float64)
+    used = slice(None) if slots == table.rows else slot >= 0
+    for axis, name in enumerate(COMPONENTS):
+        force[slot[used], axis] = table.numbers(name)[used]
+    table.refuse()
+    by_mode = force.reshape(-1, modes.mode.size, 6)
+    by_mode *= _factor(modes, convention)[:, np.newaxis].astype(force.dtype)
+    return tuple(np.split(by_mode, first)), table.warnings
+
+
+def read_element_forces(
+    path: Path, modes: Modes, convention: Convention, ignore_modes: Collection[int], *, strict: bool
+) -> tuple[ElementForces, list[Problem]]:
+    """Read ``mode, node, element, fx_N ... mz_Nmm``, one row per element corner, as forces on the element.
+
+    Raises
+    ------
+    DataError
+        a row given twice, an unknown mode, a value that is no finite number
+    """
+    table = open_table(path)
+    table.expect(("mode", "node", "element", *COMPONENTS), (), strict=strict)
+    mode, node, element = (table.integers(name) for name in ("mode", "node", "element"))
+    column = _mode_columns(table, mode, modes, ignore_modes)
+    table.unique({"mode": mode, "node": node, "element": element})
+    force = np.column_stack([table.numbers(name) for name in COMPONENTS])
+    table.refuse()
+    used = column >= 0
+    force = force[used] * _factor(modes, convention)[column[used], np.newaxis].astype(force.dtype)
+    return ElementForces(mode[used], node[used], element[used], force), table.warnings
+
+
+def read_weld_elements(
+    path: Path, welds: Sequence[Weld], *, strict: bool
+) -> tuple[dict[str, NDArray[np.int64]], list[Problem]]:
+    """Read ``weld, element``: the elements of the assessed side of each weld, ascending.
+
+    Raises
+    ------
+    DataError
+        a weld without elements, an unknown weld, an element named twice
+    """
+    table = open_table(path, texts=("weld",))
+    table.expect(("weld", "element"), (), strict=strict)
+    names, code = table.groups("weld")
+    element = table.integers("element")
+    table.known("weld", names, code, {weld.name for weld in welds}, "the welds")
+    table.unique({"weld": code, "element": element}, {"weld": names})
+    table.complete("weld", names, [weld.name for weld in welds], "elements")
+    table.refuse()
+    return {name: np.sort(element[code == i]) for i, name in enumerate(names)}, table.warnings
+
+
+def _factor(modes: Modes, convention: Convention) -> NDArray[np.float64]:
+    """Factor of each mode that turns the file's forces into on_element forces of the simulation's mode."""
+    return modes.scale if convention == "on_element" else -modes.scale
+
+
+def _mode_columns(
+    table: Table, mode: NDArray[np.int64], modes: Modes, ignore_modes: Collection[int]
+) -> NDArray[np.int32]:
+    """Position of each row's mode among the used ones (r,), -1 where it is ignored; an unknown mode is a mistake."""
+    column = _positions(modes.mode, mode)
+    unused = np.flatnonzero(column < 0)
+    unknown = unused[~np.isin(mode[unused], list(ignore_modes))]
+    if unknown.size:
+        ids = ", ".join(map(str, np.unique(mode[unknown])))
+        table.problems.append(
+            Problem(
+                "unknown_id",
+                table.where("mode", unknown[0]),
+                f"modes {ids} are not in the table of modes",
+                "Add them there or to ignore_modes",
+            )
+        )
+    return column
+
+
+def _stations(
+    names: Sequence[str], code: NDArray[np.int32], node: NDArray[np.int64], lines: Sequence[WeldLine]
+) -> NDArray[np.int32]:
+    """Position of each row's (weld, node) along all lines one after another (r,), -1 where the line lacks the node."""
+    nodes = np.unique(np.concatenate([line.node for line in lines]))
+    keys = np.concatenate([i * nodes.size + np.searchsorted(nodes, line.node) for i, line in enumerate(lines)])
+    along = np.argsort(keys)
+    index = {line.weld: i for i, line in enumerate(lines)}
+    line_of = np.array([index[name] for name in names])
+    station = np.empty(node.size, dtype=np.int32)
+    for start in range(0, node.size, BLOCK):
+        rows = slice(start, start + BLOCK)
+        rank = _positions(nodes, node[rows])
+        at = _positions(keys[along], np.where(rank < 0, -1, line_of[code[rows]] * nodes.size + rank))
+        station[rows] = np.where(at < 0, -1, along[at])
+    return station
+
+
+def _positions(ids: NDArray[np.int64], values: NDArray[np.int64]) -> NDArray[np.int32]:
+    """Position of each value in ascending ids, -1 where it is not among them."""
+    at = np.searchsorted(ids, values).astype(np.int32)
+    at[at == ids.size] = 0
+    at[ids[at] != values] = -1
+    return at
+
+
+def _gaps(path: Path, line: WeldLine, modes: Modes, present: NDArray[np.bool_]) -> list[Problem]:
+    """Name the first node and mode of a line without forces; ``present`` is (n, m)."""
+    if present.all():
+        return []
+    i, j = np.argwhere(~present)[0]
+    missing = np.count_nonzero(~present)
+    return [
+        Problem(
+            "missing_row",
+            f"{path.name}: weld {line.weld}, node {line.node[i]}, mode {modes.mode[j]}",
+            f"no forces are given ({missing} of the weld's {present.size} pairs of node and mode are missing)",
+            "Write the forces of every node and mode, zeros too, or list the mode under ignore_modes",
+        )
+    ]

@@ -1,0 +1,230 @@
+"""Grid point forces and geometry from an MSC Nastran HDF5 file (``MDLPRM,HDF5,1``)."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
+from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, assemble
+from fatigue.readers.nastran_frames import FrameCard, Frames
+
+_COMPONENTS = ("F1", "F2", "F3", "M1", "M2", "M3")
+_SHAPE = ("X", "Y", "Z", "RX", "RY", "RZ")
+_STATIC, _MODES = 1, 2  # ANALYSIS in the table of domains
+_SHELLS = {"CQUAD4": 4, "CQUADR": 4, "CQUAD8": 4, "CTRIA3": 3, "CTRIAR": 3, "CTRIA6": 3}
+_MOST_COMPRESSED = 1100  # deflate cannot do better; a larger claim is damage
+
+Rows = NDArray[Any]
+
+
+def read_h5(path: Path, subcase: int | None = None) -> FeResults:
+    """Read the grid point forces of a real modal run or of static subcases, in double precision.
+
+    Raises
+    ------
+    DataError : h5py missing, damaged file, no GRID_FORCE table, other than modal and static results, superelements
+    """
+    with _open(path) as read:
+        forces_table = read("NASTRAN/RESULT/NODAL/GRID_FORCE")
+        domains = {int(d["ID"]): d for d in read("NASTRAN/RESULT/DOMAINS", required=False)}
+        shapes_table = read("NASTRAN/RESULT/NODAL/EIGENVECTOR", required=False)
+        summary = read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
+        forces = []
+        for key, rows in _by_domain(forces_table):
+            domain, where = domains.get(key), f"{path}, domain {key}"
+            _check_domain(domain, where)
+            forces.append(_force_block(domain, rows, where))
+        shapes = [
+            ShapeBlock(
+                int(domains[key]["SUBCASE"]), int(domains[key]["MODE"]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE)
+            )
+            for key, rows in _by_domain(shapes_table)
+            if key in domains
+        ]
+        eigenvalues = {int(row["MODE"]): Eigenvalue(float(row["FREQ"]), float(row["MASS"])) for row in summary}
+    return assemble(str(path), "MSC Nastran", forces, shapes, eigenvalues, subcase)
+
+
+def read_h5_model(path: Path) -> FeModel:
+    """Read grids, coordinate systems, shells and shell properties of the same file.
+
+    Raises
+    ------
+    DataError : as ``read_h5``, and geometry that contradicts itself
+    """
+    source = str(path)
+    with _open(path) as read:
+        grid = read("NASTRAN/INPUT/NODE/GRID")
+        cards = _frame_cards(read)
+        sections, doubts = _sections(read)
+        shells = [shell for name in _SHELLS for shell in _shells(name, read(f"NASTRAN/INPUT/ELEMENT/{name}", required=False))]
+        plotel = read("NASTRAN/INPUT/ELEMENT/PLOTEL", required=False)
+        row_of = {int(n): k for k, n in enumerate(grid["ID"])}
+        if len(row_of) < len(grid) or ("SEID" in grid.dtype.names and grid["SEID"].any()):
+            raise DataError(Problem("superelement", source, "grids of superelements", "Give the residual structure alone"))
+        position: dict[int, NDArray[np.float64]] = {}
+
+        def find(node: int) -> NDArray[np.float64]:
+            if node not in position:
+                if node not in row_of:
+                    raise DataError(Problem("no_grid", source, f"grid {node} does not exist", "Write the file again"))
+                row = grid[row_of[node]]
+                position[node] = frames.position(int(row["CP"]), tuple(float(x) for x in row["X"]))  # type: ignore[arg-type]
+            return position[node]
+
+        frames = Frames(source, cards, find)
+        xyz = {node: find(node) for node in row_of}
+        turned = sorted(node for node, k in row_of.items() if grid[k]["CD"])
+        axes = [frames.axes_at(int(grid[row_of[n]]["CD"]), xyz[n]) for n in turned]
+    for pid in {shell.pid for shell in shells} - sections.keys():
+        doubts[pid] = f"property {pid} is not a PSHELL or PCOMP of this model"
+    return FeModel(
+        source=source,
+        mesh=shell_mesh(source, xyz, shells, sections),
+        frame_node=np.array(turned, np.int64),
+        frame=np.array(axes).reshape(-1, 3, 3),
+        section_doubt=doubts,
+        element_doubt={shell.element: shell.doubt for shell in shells if shell.doubt},
+        marker_edges={"PLOTEL": plotel["G"].astype(np.int64)} if len(plotel) else {},
+    )
+
+
+def _h5py() -> ModuleType:
+    """Import h5py, which only this format needs."""
+    try:
+        import h5py  # noqa: PLC0415
+    except ImportError as error:
+        raise DataError(
+            Problem("no_h5py", "MSC HDF5 input", "the package h5py is not installed", "Run: pip install 'fatigue[nastran]'")
+        ) from error
+    return h5py  # type: ignore[no-any-return]
+
+
+@contextmanager
+def _open(path: Path) -> Iterator[Any]:
+    """Open the file and give a function that reads one table; every failure of the library becomes a DataError."""
+    h5py = _h5py()
+
+    def read(name: str, required: bool = True) -> Rows:
+        table = file.get(name)
+        if not isinstance(table, h5py.Dataset):
+            if not required:
+                return np.empty(0, [])
+            raise DataError(
+                Problem(
+                    "no_table",
+                    str(path),
+                    f"there is no table {name}",
+                    "Request GPFORCE with MDLPRM,HDF5,1, which also stores the model",
+                )
+            )
+        if table.size * table.dtype.itemsize > _MOST_COMPRESSED * path.stat().st_size:
+            raise _damaged(path, f"table {name} claims {table.size} rows")
+        rows: Rows = table[:]
+        return rows
+
+    try:
+        with h5py.File(path, "r") as file:
+            yield read
+    except FatigueError:
+        raise
+    except Exception as error:  # h5py raises nearly every kind of exception on a damaged file
+        raise _damaged(path, str(error) or type(error).__name__) from error
+
+
+def _damaged(path: Path, found: str) -> DataError:
+    return DataError(
+        Problem("h5_damaged", str(path), f"the file is no sound MSC HDF5 file: {found}", "Copy it again, or repeat the run")
+    )
+
+
+def _by_domain(rows: Rows) -> Iterator[tuple[int, Rows]]:
+    """Rows of every domain, in ascending order of domain."""
+    if len(rows):
+        for key in np.unique(rows["DOMAIN_ID"]):
+            yield int(key), rows[rows["DOMAIN_ID"] == key]
+
+
+def _columns(rows: Rows, names: tuple[str, ...]) -> NDArray[np.float64]:
+    return np.stack([rows[name] for name in names], axis=1)
+
+
+def _check_domain(domain: Any, where: str) -> None:
+    """Refuse what is not a real static or modal result of the residual structure."""
+    if domain is None:
+        raise DataError(Problem("no_domain", where, "the table of domains lacks it", "Copy the file again"))
+    if int(domain["ANALYSIS"]) not in (_STATIC, _MODES):
+        raise DataError(
+            Problem("wrong_analysis", where, f"analysis type {domain['ANALYSIS']} is neither static nor modal", "Use SOL 103")
+        )
+    if int(domain["SE"]):
+        raise DataError(
+            Problem("superelement", where, f"results of superelement {domain['SE']}", "Run without superelements")
+        )
+
+
+def _force_block(domain: Any, rows: Rows, where: str) -> ForceBlock:
+    distinct, which = np.unique(rows["ELNAME"], return_inverse=True)
+    kind = np.array([name.decode("ascii").strip() for name in distinct.tolist()], dtype=np.str_)
+    mode = int(domain["MODE"]) if int(domain["ANALYSIS"]) == _MODES else 0
+    return ForceBlock(
+        where,
+        int(domain["SUBCASE"]),
+        mode,
+        rows["ID"].astype(np.int64),
+        rows["EID"].astype(np.int64),
+        kind[which],
+        _columns(rows, _COMPONENTS),
+    )
+
+
+def _frame_cards(read: Any) -> dict[int, FrameCard]:
+    found = {}
+    for kind in "RCS":
+        for row in read(f"NASTRAN/INPUT/COORDINATE_SYSTEM/CORD2{kind}", required=False):
+            points = tuple(tuple(float(row[f"{p}{k}"]) for k in (1, 2, 3)) for p in "ABC")
+            found[int(row["CID"])] = FrameCard(kind, int(row["RID"]), points)  # type: ignore[arg-type]
+        for row in read(f"NASTRAN/INPUT/COORDINATE_SYSTEM/CORD1{kind}", required=False):
+            found[int(row["CID"])] = FrameCard(kind, grids=tuple(int(row[name]) for name in ("G1", "G2", "G3")))
+    return found
+
+
+def _sections(read: Any) -> tuple[dict[int, Section], dict[int, str]]:
+    """Shell properties, and those whose thickness needs a confirmation by hand."""
+    sections, doubts = {}, {}
+    for row in read("NASTRAN/INPUT/PROPERTY/PSHELL", required=False):
+        pid = int(row["PID"])
+        sections[pid] = Section(float(row["T"]))
+        if row["MID2"] not in (row["MID1"], -1) or abs(float(row["BK"]) - 1.0) > 1e-6 or row["MID4"] > 0:
+            doubts[pid] = f"PSHELL {pid} has a bending stiffness of its own"
+    ply = read("NASTRAN/INPUT/PROPERTY/PCOMP/PLY", required=False)
+    for row in read("NASTRAN/INPUT/PROPERTY/PCOMP/IDENTITY", required=False):
+        pid, first = int(row["PID"]), int(row["PLY_POS"])
+        total = float(ply["T"][first : first + int(row["PLY_LEN"])].sum())
+        sections[pid] = Section(total)
+        doubts[pid] = f"PCOMP {pid} is a layered section"
+    return sections, doubts
+
+
+def _shells(name: str, rows: Rows) -> Iterator[Shell]:
+    corners = _SHELLS[name]
+    for row in rows:
+        given = np.asarray(row["T"][:corners], np.float64)
+        own = given[given > 0]  # -1 where the property's thickness holds
+        grids = [int(g) for g in row["G"]]
+        uneven = own.size and (own.size < corners or np.ptp(own) > 0.01 * own.max() or int(row["TFLAG"]))
+        yield Shell(
+            int(row["EID"]),
+            int(row["PID"]),
+            tuple(grids[:corners]),
+            tuple(grids[corners:]),
+            float(own.mean()) if own.size else None,
+            float(row["ZOFFS"]),
+            f"{name} {row['EID']} has corner thicknesses of its own" if uneven else "",
+        )

@@ -1,0 +1,95 @@
+"""Grid point forces from a NASTRAN punch file (``GPFORCE(PUNCH)``): text lines of four fields of 18 characters."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from fatigue.errors import DataError, Problem
+from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, assemble
+
+_HEADING = "$GRID POINT FORCE BALANCE"
+_EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
+_SUBCASE = re.compile(r"\$SUBCASE ID\s*=\s*(\d{1,9})", re.ASCII)
+_SORT2 = ("$POINT ID", "$ELEMENT ID")
+
+
+def read_punch(path: Path, subcase: int | None = None) -> FeResults:
+    """Read the grid point force balances of a punch file; it holds no mode shapes and no generalised masses.
+
+    Raises
+    ------
+    DataError : unreadable, no grid point forces, complex or SORT2 output, a damaged or incomplete line
+    """
+    try:
+        lines = path.read_text("ascii", errors="replace").splitlines()
+    except OSError as error:
+        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+    heads = [k for k, line in enumerate(lines) if line.startswith(_HEADING)]
+    if not heads:
+        raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
+    eigenvalues: dict[int, Eigenvalue] = {}
+    blocks = [_block(path, lines, head, eigenvalues) for head in heads]
+    return assemble(str(path), "", blocks, [], eigenvalues, subcase)
+
+
+def _block(path: Path, lines: list[str], head: int, eigenvalues: dict[int, Eigenvalue]) -> ForceBlock:
+    """One balance: its $ lines, then three lines for each row."""
+    where = f"{path}, line {head + 1}"
+    number, mode, at = 0, 0, head + 1
+    while at < len(lines) and lines[at].startswith("$"):
+        line = lines[at][:72]
+        if found := _SUBCASE.match(line):
+            number = int(found[1])
+        if found := _EIGENVALUE.match(line):
+            mode = int(found[2])
+            eigenvalue = _real(path, at, found[1])
+            eigenvalues[mode] = Eigenvalue(float(np.sqrt(abs(eigenvalue)) / (2 * np.pi)), float("nan"))
+        if not line.startswith("$REAL OUTPUT") and "REAL-IMAGINARY" in line or "MAGNITUDE" in line:
+            raise DataError(Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103"))
+        if line.startswith(_SORT2):
+            raise DataError(Problem("sort2", where, "the forces are sorted by grid (SORT2)", "Request SORT1"))
+        at += 1
+    if number < 1:
+        raise DataError(Problem("no_subcase", where, "no line $SUBCASE ID follows", "Copy the punch file again"))
+    node, element, kind, force = [], [], [], []
+    while at < len(lines) and not lines[at].startswith("$"):
+        if not lines[at].strip():
+            at += 1
+            continue
+        first = lines[at]
+        following = [lines[k] if k < len(lines) else "" for k in (at + 1, at + 2)]
+        if first.startswith("-CONT-") or not all(line.startswith("-CONT-") for line in following):
+            raise _bad(path, at, "a row of one line and two -CONT- lines was expected")
+        node.append(_id(path, at, first[:18]))
+        element.append(_id(path, at, first[18:36] or "0"))
+        kind.append(first[36:54].strip())
+        force.append([_real(path, at, line[k : k + 18]) for line in following for k in (18, 36, 54)])
+        at += 3
+    return ForceBlock(
+        f"{where}, subcase {number} mode {mode}",
+        number,
+        mode,
+        np.array(node, np.int64),
+        np.array(element, np.int64),
+        np.array(kind, np.str_),
+        np.array(force, np.float64).reshape(-1, 6),
+    )
+
+
+def _id(path: Path, at: int, text: str) -> int:
+    digits = text.strip() or "0"
+    if not (digits.isascii() and digits.isdigit() and len(digits) < 12):
+        raise _bad(path, at, f"{digits!r} is no id")
+    return int(digits)
+
+
+def _real(path: Path, at: int, text: str) -> float:
+    try:
+        return float(text.strip().upper().replace("D", "E").replace("_", "?"))
+    except ValueError:
+        raise _bad(path, at, f"{text.strip()!r} is no number") from None
+
+
+def _bad(path: Path, at: int, found: str) -> DataError:
+    return DataError(Problem("punch_damaged", f"{path}, line {at + 1}", found, "Copy the punch file again in text mode"))

@@ -1,0 +1,269 @@
+"""Columns of one table as numpy arrays; what is wrong with them is told with file, column, row and value.
+
+A column is read when it is asked for, so a large Parquet file never stands in memory as a whole. Mistakes in the values
+are collected and raised together by ``Table.refuse``: until then an array with a mistake in it must not be used. Rows
+are counted from 1, the header not included.
+"""
+
+import difflib
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.types as pt
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.readers.files import Columns, open_columns
+
+LARGEST_ID = 2**53  # whole numbers beyond it are not exact once a file has stored them as floating-point numbers
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Table:
+    """An open table of the neutral format.
+
+    Attributes
+    ----------
+    path : the file
+    columns : its columns
+    position : where each column stands, by its trimmed name
+    problems : mistakes found so far
+    warnings : unknown columns and other doubts
+    """
+
+    path: Path
+    columns: Columns
+    position: dict[str, int]
+    problems: list[Problem] = field(default_factory=list)
+    warnings: list[Problem] = field(default_factory=list)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return self.columns.rows
+
+    def expect(self, required: Collection[str], optional: Collection[str], *, strict: bool) -> None:
+        """Refuse a table without a required column; an unknown column is a doubt, or a mistake where strict."""
+        refuse(DataError, self._missing_columns(required))
+        known = (*required, *optional)
+        for name in self.position.keys() - set(known):
+            near = difflib.get_close_matches(name, set(known) - self.position.keys(), n=1)
+            remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
+            found = Problem("unknown_column", self.where(name), "the column is unknown and not read", remedy)
+            (self.problems if strict else self.warnings).append(found)
+
+    def where(self, column: str, row: int | None = None) -> str:
+        """Name a place in the file; ``row`` is an index from 0."""
+        place = f"{self.path.name}: column {column}"
+        return place if row is None else f"{place}, row {row + 1}"
+
+    def single_precision(self, names: Collection[str]) -> bool:
+        """Whether every one of these columns is stored as float32."""
+        return all(self.columns.kinds[self.position[name]] == pa.float32() for name in names)
+
+    def report(self, bad: NDArray[np.bool_], code: str, column: str, what: str, remedy: str) -> None:
+        """Note a mistake at the first row marked in ``bad``, with the number of further rows."""
+        if not bad.any():
+            return
+        row, more = int(bad.argmax()), int(np.count_nonzero(bad)) - 1
+        also = f" (and {more} more row{'s' if more > 1 else ''})" if more else ""
+        self.problems.append(Problem(code, self.where(column, row), what + also, remedy))
+
+    def refuse(self) -> None:
+        """Raise everything found so far."""
+        refuse(DataError, self.problems)
+
+    def numbers(
+        self, name: str, *, default: float | None = None, least: float | None = None, above: float | None = None
+    ) -> NDArray[Any]:
+        """Numbers (r,), float32 where the file has float32, else float64.
+
+        An empty cell or an absent column takes the default; without a default it is a mistake, as is an infinity.
+        """
+        values = self._floats(name)
+        if default is not None:
+            values = np.where(np.isnan(values), values.dtype.type(default), values)
+        if not np.isfinite(values).all():
+            missing, infinite = np.isnan(values) & (default is None), np.isinf(values)
+            self.report(missing, "missing_value", name, "the value is missing or NaN", "Give a number")
+            self.report(
+                infinite, "bad_value", name, f"{_first(values, infinite)} is not finite", "Give a finite number"
+            )
+        if least is not None:
+            low = values < least
+            self.report(
+                low, "bad_value", name, f"{_first(values, low):g} is below {least:g}", f"Give at least {least:g}"
+            )
+        if above is not None:
+            low = values <= above
+            self.report(
+                low, "bad_value", name, f"{_first(values, low):g} is not above {above:g}", f"Give more than {above:g}"
+            )
+        return values
+
+    def integers(self, name: str, *, default: int | None = None) -> NDArray[np.int64]:
+        """Whole numbers (r,); an empty cell or an absent column takes the default, without one it is a mistake."""
+        if name in self.position:
+            column = self._column(name)
+            if pt.is_integer(column.type) and column.null_count == 0 and column.type != pa.uint64():
+                return np.asarray(column.to_numpy()).astype(np.int64, copy=False)
+        values = self.numbers(name, default=default)
+        broken = np.isfinite(values) & ((values != np.rint(values)) | (np.abs(values) > LARGEST_ID))
+        self.report(broken, "bad_value", name, f"{_first(values, broken)} is not a whole number", "Give a whole number")
+        return np.where(np.isfinite(values) & ~broken, values, 0).astype(np.int64)
+
+    def flags(self, name: str, *, default: bool) -> NDArray[np.bool_]:
+        """Truth values (r,), true and false or 1 and 0; an empty cell or an absent column takes the default."""
+        column = self._column(name) if name in self.position else pa.chunked_array([pa.nulls(self.rows)])
+        if pt.is_boolean(column.type):
+            return np.array(column.fill_null(default).to_numpy(), dtype=np.bool_)
+        if _is_text(column.type):
+            words = [text.lower() for text in self.texts(name, default=str(default))]
+            values = np.array([{"true": 1, "false": 0}.get(word, np.nan) for word in words])
+        else:
+            values = self.numbers(name, default=default)
+        wrong = ~np.isin(values, [0, 1])
+        if wrong.any():
+            self.report(wrong, "bad_value", name, f"{column[int(wrong.argmax())]} is not a flag", "Give true or false")
+        return np.array(values == 1, dtype=np.bool_)
+
+    def texts(self, name: str, *, default: str | None = None) -> list[str]:
+        """Trimmed texts (r,); an empty cell or an absent column takes the default, without one it is a mistake."""
+        names, code = self.groups(name, default=default)
+        return [names[i] for i in code]
+
+    def groups(self, name: str, *, default: str | None = None) -> tuple[tuple[str, ...], NDArray[np.int32]]:
+        """Distinct texts of a column in sorted order, and which of them each row holds (r,)."""
+        if name not in self.position:
+            return (default or "",), np.zeros(self.rows, dtype=np.int32)
+        column = self._column(name)
+        kind = column.type.value_type if pt.is_dictionary(column.type) else column.type
+        if not (_is_text(kind) or pt.is_integer(kind) or pt.is_null(kind)):
+            self._mistyped(name, column, "text")
+            return ("",), np.zeros(self.rows, dtype=np.int32)
+        if not pt.is_dictionary(column.type):
+            column = column.cast(pa.string()).dictionary_encode()
+        chunks = column.unify_dictionaries().chunks
+        stored = [(text or "").strip() for text in chunks[0].dictionary.cast(pa.string()).to_pylist()]
+        texts = np.array(
+            [text or default or "" for text in (*stored, "")], dtype=object
+        )  # the last one for empty cells
+        names, merged = np.unique(texts, return_inverse=True)
+        code = np.concatenate([merged.astype(np.int32)[chunk.indices.fill_null(-1).to_numpy()] for chunk in chunks])
+        used = np.bincount(code, minlength=names.size) > 0
+        if names[0] == "" and used[0] and default is None:
+            self.report(code == 0, "missing_value", name, "the text is missing", "Give a text")
+        return tuple(names[used]), (np.cumsum(used, dtype=np.int32) - 1)[code]
+
+    def choices(self, name: str, values: Sequence[str], allowed: Sequence[str]) -> None:
+        """Note a text that is none of the allowed ones."""
+        wrong = ~np.isin(values, allowed)
+        what = f"{values[int(wrong.argmax())]!r} is not one of {', '.join(allowed)}"
+        self.report(wrong, "bad_value", name, what, f"Give one of {', '.join(allowed)}")
+
+    def known(
+        self, name: str, names: Sequence[str], code: NDArray[np.int32], allowed: Collection[str], of: str
+    ) -> None:
+        """Note every text of ``groups`` that another table does not have."""
+        for i, text in enumerate(names):
+            if text not in allowed:
+                near = difflib.get_close_matches(text, allowed, n=1)
+                remedy = f"Write {near[0]!r}" if near else f"Add it to {of} or remove its rows"
+                self.report(code == i, "unknown_id", name, f"{text!r} is not one of {of}", remedy)
+
+    def complete(self, name: str, names: Sequence[str], wanted: Sequence[str], of: str) -> None:
+        """Note every wanted text that no row has."""
+        for text in wanted:
+            if text not in names:
+                self.problems.append(
+                    Problem("missing_id", self.where(name), f"{name} {text!r} has no {of}", f"Add its {of}")
+                )
+
+    def unique(
+        self, keys: Mapping[str, NDArray[np.integer]], labels: Mapping[str, Sequence[str]] | None = None
+    ) -> None:
+        """Note rows that repeat a key; ``labels`` are the texts behind a column of ``groups``."""
+        columns = tuple(keys.values())
+        order = np.lexsort(columns[::-1])
+        same = np.all([column[order[1:]] == column[order[:-1]] for column in columns], axis=0)
+        if not same.any():
+            return
+        again = int(np.flatnonzero(same)[np.argmin(order[1:][same])])
+        row, first = order[again + 1], order[again]
+        text = labels or {}
+        key = ", ".join(f"{name} {text[name][k[row]] if name in text else k[row]}" for name, k in keys.items())
+        self.problems.append(
+            Problem(
+                "duplicate", self.where(", ".join(keys), row), f"{key} repeats row {first + 1}", "Keep one of the rows"
+            )
+        )
+
+    def _missing_columns(self, required: Collection[str]) -> Iterator[Problem]:
+        present = ", ".join(self.position)
+        for name in required:
+            if name not in self.position:
+                yield Problem(
+                    "missing_column", self.where(name), "the column is missing", f"Add it; the columns are {present}"
+                )
+
+    def _column(self, name: str) -> pa.ChunkedArray:
+        return self.columns.read(self.position[name])
+
+    def _floats(self, name: str) -> NDArray[Any]:
+        """Values of a column as floating-point numbers, empty cells and an absent column as NaN."""
+        if name not in self.position:
+            return np.full(self.rows, np.nan)
+        column = self._column(name)
+        if pt.is_null(column.type):
+            return np.full(self.rows, np.nan)
+        if pt.is_decimal(column.type) or pt.is_integer(column.type):
+            return np.asarray(column.cast(pa.float64()).to_numpy())
+        if pt.is_floating(column.type):
+            values = np.asarray(column.to_numpy())
+            return values.astype(np.float64) if values.dtype == np.float16 else values
+        self._mistyped(name, column, "a number")
+        return np.zeros(self.rows)
+
+    def _mistyped(self, name: str, column: pa.ChunkedArray, wanted: str) -> None:
+        """Note the first value that is of the wrong kind, in a text column of a CSV the first that is no number."""
+        wrong = [
+            value is not None and not (_is_text(column.type) and _is_number(value)) for value in column.to_pylist()
+        ]
+        row = wrong.index(True) if True in wrong else 0
+        self.problems.append(
+            Problem("bad_type", self.where(name, row), f"{column[row].as_py()!r} is not {wanted}", f"Give {wanted}")
+        )
+
+
+def open_table(path: Path, *, texts: Collection[str] = ()) -> Table:
+    """Open a table; ``texts`` are the columns of names, which stay texts even where they look like numbers."""
+    columns = open_columns(path, texts)
+    position: dict[str, int] = {}
+    problems = [
+        Problem("duplicate_column", f"{path.name}: column {name}", "the column appears twice", "Remove one of them")
+        for i, stored in enumerate(columns.names)
+        if position.setdefault(name := stored.strip(), i) != i
+    ]
+    refuse(DataError, problems)
+    return Table(path, columns, position)
+
+
+def _is_text(kind: pa.DataType) -> bool:
+    return any(is_kind(kind) for is_kind in (pt.is_string, pt.is_large_string, pt.is_string_view, pt.is_binary))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _first(values: NDArray[Any], bad: NDArray[np.bool_]) -> float:
+    """First marked value, for a message; any value where nothing is marked."""
+    return float(values[bad.argmax()])

@@ -1,0 +1,1 @@
+"""The pages, figures and scenes a person looks at."""

@@ -1,0 +1,1 @@
+"""The frequency-domain estimate and whether it may be trusted."""

@@ -1,0 +1,184 @@
+"""Spectral moments of every point's stress from matrices of the modal coordinates: no point ever needs a spectrum.
+
+Stress is linear in the modal coordinates q, and a spectral moment is quadratic in stress. So with the moment matrices
+``M_p = integral of f**p Re S_qq(f) df`` the moment of a point with stress per unit modal coordinate s is ``s' M_p s``.
+Windowed, detrended segments are linear in q as well: the result is that of Welch's method applied to the point's own
+stress history, to rounding (Braccesi, Cianetti et al. published the idea for modal models, 2005 and later).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem
+from fatigue.life.history import ModalHistory
+
+DIRLIK_ORDERS = (0.0, 1.0, 2.0, 4.0)
+FREQUENCY_TOLERANCE = 1e-9  # a bin that rounding puts above the upper limit still counts
+BLOCK_POINTS = 1024  # keeps a block of points and its product with one matrix in the processor's cache
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spectra:
+    """Segment spectra of the modal coordinates, scaled to one-sided densities.
+
+    Attributes
+    ----------
+    frequency : (f,) [Hz]
+    amplitude : (s, f, m) complex; the mean over segments of ``amplitude[:, :, i].conj() * amplitude[:, :, j]`` is the
+        one-sided cross-spectral density of modes i and j [unit modal coordinate**2 / Hz]
+    weight : (f,) trapezoid weights: half a bin at both ends [Hz]
+    resolution_hz : distance of the bins [Hz]
+    upper_hz : upper limit asked for [Hz]
+    segment_s : length of a segment [s]
+    """
+
+    frequency: NDArray[np.float64]
+    amplitude: NDArray[np.complex128]
+    weight: NDArray[np.float64]
+    resolution_hz: float
+    upper_hz: float
+    segment_s: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MomentMatrices:
+    """Moment matrices of one event.
+
+    Attributes
+    ----------
+    orders : (p,) exponent of the frequency
+    matrix : (p, m, m) symmetric [unit modal coordinate**2 Hz**p]
+    segments : number of segments averaged
+    resolution_hz : distance of the bins [Hz]
+    upper_hz : upper limit of the spectrum [Hz]
+    """
+
+    orders: NDArray[np.float64]
+    matrix: NDArray[np.float64]
+    segments: int
+    resolution_hz: float
+    upper_hz: float
+
+
+def samples_per_segment(step: float, segment_s: float) -> int:
+    """Round the segment length to samples."""
+    return round(segment_s / step)
+
+
+def has_spectrum(history: ModalHistory, segment_s: float) -> bool:
+    """Whether the record holds at least one segment of at least four samples."""
+    return bool(4 <= samples_per_segment(history.step, segment_s) <= history.q.shape[1])
+
+
+def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) -> Spectra:
+    """Transform segments of all modal coordinates that overlap by half: own mean removed, periodic Hann window.
+
+    Bins above ``upper_hz`` [Hz] are dropped. The scaling is that of Welch's method (1967), one-sided.
+
+    Raises
+    ------
+    DataError : the record is shorter than one segment
+    """
+    if not has_spectrum(history, segment_s):
+        raise DataError(
+            Problem(
+                "short_record",
+                f"event {history.event!r}",
+                f"{history.duration:g} s of record hold no segment of {segment_s:g} s, so there is no spectrum",
+                "shorten segment_s in [spectrum] or record longer",
+            )
+        )
+    length = samples_per_segment(history.step, segment_s)
+    window = hann(length)
+    bins = np.arange(length // 2 + 1)
+    frequency = bins / (length * history.step)
+    kept = frequency <= upper_hz * (1 + FREQUENCY_TOLERANCE)
+    one_sided = np.where((bins == 0) | (2 * bins == length), 1.0, 2.0)  # 0 Hz and Nyquist have no mirror image
+    scale = np.sqrt(one_sided * history.step / np.sum(window**2))[kept, None]
+
+    starts = segment_starts(history.q.shape[1], length)
+    amplitude = np.empty((len(starts), np.count_nonzero(kept), len(history.q)), dtype=np.complex128)
+    for spectrum, start in zip(amplitude, starts, strict=True):
+        spectrum[:] = scale * np.fft.rfft(windowed_segment(history, start, window), axis=1).T[kept]
+
+    resolution = 1.0 / (length * history.step)
+    return Spectra(
+        frequency=frequency[kept],
+        amplitude=amplitude,
+        weight=_trapezoid_weights(frequency[kept]),
+        resolution_hz=resolution,
+        upper_hz=upper_hz,
+        segment_s=length * history.step,
+    )
+
+
+def hann(length: int) -> NDArray[np.float64]:
+    """Return the periodic Hann window, which a spectrum wants (the symmetric one is for filters)."""
+    return 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(length) / length)
+
+
+def segment_starts(samples: int, length: int) -> range:
+    """First samples of the segments that overlap by half."""
+    return range(0, samples - length + 1, length - length // 2)
+
+
+def windowed_segment(history: ModalHistory, start: int, window: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cut one segment of all modal coordinates, remove its mean and taper it: (m, len(window)).
+
+    The mean goes in double precision: gravity can be a thousand times what is left.
+    """
+    segment = history.q[:, start : start + len(window)].astype(np.float64)
+    segment -= segment.mean(axis=1, keepdims=True)
+    segment *= window
+    return segment
+
+
+def moment_matrices(spectra: Spectra, orders: Sequence[float] = DIRLIK_ORDERS) -> MomentMatrices:
+    """Integrate the cross-spectra of the modal coordinates, times f**p, over the kept bins."""
+    segments, _, modes = spectra.amplitude.shape
+    matrix = np.empty((len(orders), modes, modes))
+    for into, order in zip(matrix, orders, strict=True):
+        weighted = spectra.amplitude * np.sqrt(spectra.weight * spectra.frequency**order)[:, None]
+        rows = weighted.reshape(-1, modes)
+        # The imaginary part of a cross-spectrum is antisymmetric and leaves no trace in a quadratic form.
+        into[:] = (rows.conj().T @ rows).real / segments
+    return MomentMatrices(
+        orders=np.asarray(orders, dtype=np.float64),
+        matrix=matrix,
+        segments=segments,
+        resolution_hz=spectra.resolution_hz,
+        upper_hz=spectra.upper_hz,
+    )
+
+
+def point_moments(shapes: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:
+    """Spectral moments of the stress at every point.
+
+    ``shapes`` is (n, m), the stress per unit modal coordinate [MPa]; returns (p, n) [MPa**2 Hz**p], never negative.
+    """
+    return quadratic_forms(shapes, matrices.matrix)
+
+
+def quadratic_forms(shapes: NDArray[np.float64], matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Evaluate ``s' M s`` for all rows s of ``shapes`` (n, m) and all M of ``matrices`` (p, m, m): (p, n).
+
+    The matrices are positive semi-definite; what rounding makes negative becomes 0.
+    """
+    forms = np.empty((len(matrices), len(shapes)))
+    for first in range(0, len(shapes), BLOCK_POINTS):
+        block = shapes[first : first + BLOCK_POINTS].astype(np.float64, copy=False)
+        for row, matrix in zip(forms, matrices, strict=True):
+            np.einsum("nm,nm->n", block @ matrix, block, out=row[first : first + BLOCK_POINTS])
+    return np.maximum(forms, 0.0, out=forms)
+
+
+def _trapezoid_weights(frequency: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights that make a sum over bins the trapezoid rule."""
+    weight = np.zeros_like(frequency)
+    width = np.diff(frequency)
+    weight[:-1] += 0.5 * width
+    weight[1:] += 0.5 * width
+    return weight

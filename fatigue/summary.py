@@ -1,0 +1,153 @@
+"""What the command line prints of a result folder: the verdict, the welds and the worst points."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from fatigue.errors import DataError, Problem
+from fatigue.results import read_provenance, read_table
+
+LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
+
+_POINT_COLUMNS = (
+    "weld", "part", "node", "order", "surface", "arc_length_mm", "life_km", "life_years", "utilisation", "fulfilled",
+    "load_factor", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict", "governing_event", "max_range_MPa", "bending_ratio",
+    "at_end", "at_corner",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Summary:
+    """The welds, worst first, and the worst toe points of a result."""
+
+    title: str
+    assumptions: str
+    target_km: float
+    welds: pd.DataFrame
+    points: pd.DataFrame
+
+    @property
+    def fulfilled(self) -> bool:
+        """Whether every weld shown meets its target."""
+        return bool(self.welds["fulfilled"].all())
+
+    def as_record(self) -> dict[str, Any]:
+        """For machines; infinite life is null there."""
+        return {
+            "title": self.title,
+            "assumptions": self.assumptions,
+            "target_km": self.target_km,
+            "fulfilled": self.fulfilled,
+            "welds": self.welds.to_dict("records"),
+            "points": self.points.to_dict("records"),
+        }
+
+    def as_text(self) -> str:
+        """For people: units in every heading, four digits, no infinities."""
+        missed = int((~self.welds["fulfilled"]).sum())
+        verdict = (
+            "every weld meets its target" if not missed else f"{missed} of {len(self.welds)} welds miss their target"
+        )
+        welds = self.welds.rename(columns={"worst_node": "node", "worst_surface": "face"})
+        return "\n".join(
+            [
+                f"{self.title}: {verdict} of {_km(self.target_km)}",
+                self.assumptions,
+                "",
+                _text_table(
+                    welds,
+                    ["weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event"],
+                ),
+                "",
+                f"The {len(self.points)} worst points",
+                _text_table(
+                    self.points.rename(columns={"surface": "face"}),
+                    [
+                        "weld",
+                        "node",
+                        "face",
+                        "arc_length_mm",
+                        "life_km",
+                        "utilisation",
+                        "life_km_dirlik",
+                        "dirlik_ratio",
+                        "governing_event",
+                    ],
+                ),
+            ]
+        )
+
+
+def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summary:
+    """Read the summary of a result folder.
+
+    Raises
+    ------
+    DataError : no finished result there, or no such weld in it
+    """
+    record = read_provenance(folder)
+    welds = read_table(folder, "welds").to_pandas()
+    points = read_table(folder, "nodes", [*_POINT_COLUMNS, "toe"]).to_pandas()
+    unknown = sorted(set(only) - set(welds["weld"]))
+    if unknown:
+        raise DataError(
+            Problem(
+                "unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {', '.join(welds['weld'])}"
+            )
+        )
+    if only:
+        welds, points = welds[welds["weld"].isin(only)], points[points["weld"].isin(only)]
+    points = points[points["toe"]].sort_values("utilisation", ascending=False, kind="stable").head(top)
+    return Summary(
+        title=record["title"],
+        assumptions=assumptions(record),
+        target_km=record["mission"]["target_km"],
+        welds=welds.sort_values("utilisation", ascending=False, kind="stable"),
+        points=points.drop(columns="toe"),
+    )
+
+
+def assumptions(record: dict[str, Any]) -> str:
+    """One line that no result is shown without: curve, survival, thickness rule, extension, mean stress."""
+    rules = record["rules"]
+    curves = ", ".join(f"{name} ({survival})" for name, survival in rules["survival"].items())
+    extension = (
+        "no knee" if rules["extension"] == "none" else f"{rules['extension']} at {rules['knee_cycles']:g} cycles"
+    )
+    return (
+        f"Curve {curves}; thickness {rules['thickness_rule']}; {extension}; mean stress {rules['mean_stress']}; "
+        f"damage limit {record['mission']['damage_limit']:g}"
+    )
+
+
+def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
+    cells = [
+        list(columns),
+        *(
+            [_cell(name, value) for name, value in zip(columns, row, strict=True)]
+            for row in frame[list(columns)].itertuples(index=False)
+        ),
+    ]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
+    numeric = [pd.api.types.is_numeric_dtype(frame[name]) for name in columns]
+    return "\n".join(
+        "  ".join(c.rjust(w) if n else c.ljust(w) for c, w, n in zip(row, widths, numeric, strict=True)).rstrip()
+        for row in cells
+    )
+
+
+def _cell(name: str, value: Any) -> str:
+    if value is None or pd.isna(value):
+        return "-"
+    if isinstance(value, float):
+        if name.startswith(("life_km", "life_years")) and value > LONGEST_LIFE_KM:
+            return "> 1e12"
+        return f"{value:.4g}"
+    return str(value)
+
+
+def _km(value: float) -> str:
+    return f"{value:.4g} km"

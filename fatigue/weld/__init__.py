@@ -1,0 +1,1 @@
+"""From nodal forces along a weld line to Dong's structural stress."""

@@ -1,0 +1,239 @@
+"""What makes a weld line unfit for assessment (refusals), and what makes it doubtful (warnings)."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.weld.line import WeldLine, edge_nodes, edge_points, edge_tangents, tangents, unit
+
+
+class _Finding(NamedTuple):
+    """The nodes something is wrong at, (n,), and what it is."""
+
+    at: NDArray[np.bool_]
+    code: str
+    what: str
+    remedy: str
+
+
+def check_line(line: WeldLine, where: str) -> None:
+    """Refuse a line that cannot be assessed; ``where`` names the file and the weld.
+
+    Meant for whole lines, before they are split at kinks.
+
+    Raises
+    ------
+    DataError
+        With all that is wrong: too few nodes, misplaced mid-side nodes, values that are no numbers, a node named
+        twice, edges without length, a thickness that is not positive, no usable plate normal or outward vector.
+    """
+    least = 3 if line.closed else 2
+    if line.node.size < least:
+        kind = "a closed line needs" if line.closed else "a line needs"
+        refuse(DataError, [Problem("few_nodes", where, f"{line.node.size} nodes, {kind} {least}", "Add the others")])
+    for findings in (_wrong_rows, _wrong_edges, _wrong_directions, _wrong_sides):
+        refuse(DataError, _problems(line, where, findings(line)))
+
+
+def line_warnings(line: WeldLine, where: str) -> list[Problem]:
+    """Doubts about a line that passes ``check_line``: short edges, steps of thickness, crooked geometry."""
+    nodes, points, t = edge_nodes(line), edge_points(line), line.thickness
+    chord = np.linalg.norm(points[:, 2] - points[:, 0], axis=1)
+    short = chord < np.maximum(0.2 * np.median(chord), 0.1 * t[nodes[:, 0]])
+    fraction, _ = _mid_position(points)
+    tilt = np.degrees(np.arcsin(np.abs(np.sum(unit(line.normal) * tangents(line), axis=1))))
+    findings = [
+        _Finding(
+            _marked(line, nodes[short, 0]),
+            "short_edge",
+            f"the next edge is shorter than 0.2 of the median edge, {np.median(chord):g} mm, or 0.1 of the thickness "
+            f"(shortest {chord.min():g} mm)",
+            "Mesh the line evenly: short edges amplify the noise of the nodal forces",
+        ),
+        _Finding(
+            np.abs(t - t[0]) > 0.01 * t[0],
+            "thickness_step",
+            f"thickness_mm varies along the line from {t.min():g} to {t.max():g}",
+            "End one weld and begin another where the plate changes",
+        ),
+        _Finding(
+            _marked(line, nodes[np.abs(fraction - 0.5) > 0.05, 1]),
+            "mid_off_centre",
+            "the mid-side node lies off the centre of its edge",
+            "Check edge_mid and the coordinates",
+        ),
+        _Finding(
+            tilt > 10,
+            "normal_tilted",
+            f"the plate normal is up to {tilt.max():.0f} degrees off the right angle to the line",
+            "Check normal_x, normal_y and normal_z",
+        ),
+    ]
+    return _problems(line, where, findings)
+
+
+def _wrong_rows(line: WeldLine) -> list[_Finding]:
+    """Judge the rows of the table one by one."""
+    _, index, count = np.unique(line.node, return_inverse=True, return_counts=True)
+    thin = ~(np.isfinite(line.thickness) & (line.thickness > 0))
+    endless = np.zeros_like(line.edge_mid)
+    endless[[0, -1]] = not line.closed
+    repeats_first = line.closed and line.node[0] == line.node[-1]
+    return [
+        _Finding(
+            count[index] > 1,
+            "repeated_node",
+            "the node occurs more than once on the line",
+            "Do not repeat the first node of a closed line" if repeats_first else "Name every node once",
+        ),
+        _Finding(
+            line.edge_mid & endless,
+            "mid_at_end",
+            "a mid-side node begins or ends an open line",
+            "Let the line end at an element corner or correct edge_mid",
+        ),
+        _Finding(
+            line.edge_mid & np.roll(line.edge_mid, -1),
+            "mid_after_mid",
+            "two mid-side nodes follow each other",
+            "Add the element corner between them or correct edge_mid",
+        ),
+        _Finding(
+            thin,
+            "thickness",
+            f"thickness_mm is {line.thickness[np.argmax(thin)]:g}",
+            "Give the thickness of the assessed plate, a positive number",
+        ),
+        *(
+            _Finding(
+                ~np.isfinite(values.sum(axis=1)),
+                "not_a_number",
+                f"{columns} hold a value that is no finite number",
+                "Correct the value",
+            )
+            for columns, values in (
+                ("x_mm, y_mm, z_mm", line.xyz),
+                ("normal_x, normal_y, normal_z", line.normal),
+                ("outward_x, outward_y, outward_z", line.outward),
+            )
+        ),
+        _Finding(
+            np.linalg.norm(line.normal, axis=1) == 0,
+            "zero_normal",
+            "the normal is zero",
+            "Give the top normal of the plate",
+        ),
+        _Finding(
+            np.linalg.norm(line.outward, axis=1) == 0,
+            "zero_outward",
+            "the outward vector is zero",
+            "Give a vector from the assessed plate across the line",
+        ),
+    ]
+
+
+def _wrong_edges(line: WeldLine) -> list[_Finding]:
+    """Judge the edges between the nodes."""
+    gap = np.linalg.norm(np.roll(line.xyz, -1, axis=0) - line.xyz, axis=1)
+    coincident = gap <= 1e-9 * np.linalg.norm(np.ptp(line.xyz, axis=0))
+    coincident[-1] &= line.closed
+    if coincident.any():
+        return [
+            _Finding(
+                coincident,
+                "zero_edge",
+                "the next node of the line has the same coordinates",
+                "Merge coincident nodes or correct the coordinates",
+            )
+        ]
+    nodes = edge_nodes(line)
+    fraction, sagitta = _mid_position(edge_points(line))
+    astray = (np.abs(fraction - 0.5) >= 0.25) | (sagitta >= 0.5)
+    return [
+        _Finding(
+            _marked(line, nodes[astray, 1]),
+            "mid_off_edge",
+            "the mid-side node lies outside the middle half of its edge, or far beside it",
+            "Check edge_mid, the order of the nodes and their coordinates",
+        )
+    ]
+
+
+def _wrong_directions(line: WeldLine) -> list[_Finding]:
+    """Judge what tangent and plate normal need."""
+    before, after = edge_tangents(line)
+    back = np.linalg.norm(before + after, axis=1) < 0.02
+    if back.any():
+        return [
+            _Finding(
+                back, "turns_back", "the line turns back on itself", "Check the order, or make two welds of the line"
+            )
+        ]
+    z = unit(line.normal)
+    flips = np.sum(z * np.roll(z, -1, axis=0), axis=1) < 0
+    flips[-1] &= line.closed
+    return [
+        _Finding(
+            np.linalg.norm(np.cross(z, tangents(line)), axis=1) < 0.1,
+            "normal_along_line",
+            "the normal points along the line",
+            "Give the normal of the assessed plate",
+        ),
+        _Finding(
+            flips,
+            "normal_flips",
+            "the normal turns to the other side before the next node",
+            "Let all normals of a line point to the same side of the plate, its top",
+        ),
+    ]
+
+
+def _wrong_sides(line: WeldLine) -> list[_Finding]:
+    """Judge on which side of the line the assessed plate lies."""
+    across = unit(np.cross(unit(line.normal), tangents(line)))
+    reach = np.sum(unit(line.outward) * across, axis=1)
+    blind = np.abs(reach) < 0.01
+    return [
+        _Finding(
+            blind,
+            "outward_along_line",
+            "the outward vector has no part in the plane of the plate and normal to the line",
+            "Give a vector from the assessed plate across the line",
+        ),
+        _Finding(
+            ~blind & (reach * reach.sum() <= 0),
+            "outward_changes_side",
+            "the outward vector points to the other side of the line than at most of its nodes",
+            "Let all outward vectors of a line point out of the assessed plate",
+        ),
+    ]
+
+
+def _mid_position(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Place of each edge's middle point, (e,) each: along the chord and beside it, as shares of the chord."""
+    chord, to_mid = points[:, 2] - points[:, 0], points[:, 1] - points[:, 0]
+    square = np.sum(chord**2, axis=1)
+    fraction = np.sum(to_mid * chord, axis=1) / square
+    beside = np.linalg.norm(to_mid - fraction[:, np.newaxis] * chord, axis=1)
+    return fraction, beside / np.sqrt(square)
+
+
+def _marked(line: WeldLine, at: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Mark the nodes at the given positions, (n,)."""
+    mask = np.zeros(line.node.size, dtype=bool)
+    mask[at] = True
+    return mask
+
+
+def _problems(line: WeldLine, where: str, findings: Iterable[_Finding]) -> list[Problem]:
+    """Name for each finding the first node it occurs at, and how many others."""
+    problems = []
+    for at, code, what, remedy in findings:
+        if at.any():
+            first, others = np.argmax(at), np.count_nonzero(at) - 1
+            place = f"{where}, node {line.node[first]} (order {line.order[first]})"
+            problems.append(Problem(code, f"{place} and {others} more" if others else place, what, remedy))
+    return problems

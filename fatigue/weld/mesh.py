@@ -1,0 +1,79 @@
+"""A shell mesh as weld detection needs it: nodes, elements, edges, and the directions in their planes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+NONE = -1
+"""Index of a corner or a mid-side node an element does not have."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShellMesh:
+    """Three- and four-sided shells, linear or parabolic.
+
+    Attributes
+    ----------
+    node : (n,) node ids, ascending
+    xyz : (n, 3) coordinates [mm]
+    element : (e,) element ids, ascending
+    corner : (e, 4) indices into ``node`` round the element; the last is -1 on a triangle
+    mid : (e, 4) indices of the mid-side nodes, that of side k between corners k and k + 1; -1 where there is none
+    pid : (e,) property ids
+    thickness : (e,) thickness [mm], NaN if unknown
+    offset : (e,) distance from the nodes to the mid-surface along the element normal [mm]
+    """
+
+    node: NDArray[np.int64]
+    xyz: NDArray[np.float64]
+    element: NDArray[np.int64]
+    corner: NDArray[np.int64]
+    mid: NDArray[np.int64]
+    pid: NDArray[np.int64]
+    thickness: NDArray[np.float64]
+    offset: NDArray[np.float64]
+
+    @property
+    def sides(self) -> NDArray[np.int64]:
+        """Number of sides of each element, (e,)."""
+        return np.where(self.corner[:, 3] == NONE, 3, 4)
+
+    def side_ends(self) -> NDArray[np.int64]:
+        """Indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
+        first = self.corner
+        last = np.roll(first, -1, axis=1)
+        triangle = first[:, 3] == NONE
+        last[triangle, 2] = first[triangle, 0]
+        last[triangle, 3] = NONE
+        return np.stack([first, last], axis=2)
+
+
+def centroids(mesh: ShellMesh) -> NDArray[np.float64]:
+    """Mean of each element's corners, (e, 3) [mm]."""
+    used = mesh.corner != NONE
+    total = np.where(used[:, :, None], mesh.xyz[mesh.corner], 0.0).sum(axis=1)
+    return np.asarray(total / used.sum(axis=1)[:, None])
+
+
+def normals(mesh: ShellMesh) -> NDArray[np.float64]:
+    """Unit normal of each element by the right-hand rule of its corners, (e, 3); zero for an element without area."""
+    a, b, c, d = (mesh.xyz[mesh.corner[:, k]] for k in range(4))
+    is_triangle = (mesh.corner[:, 3] == NONE)[:, None]
+    vector = np.where(is_triangle, np.cross(b - a, c - a), np.cross(c - a, d - b))
+    return unit(vector)
+
+
+def inward(mesh: ShellMesh) -> NDArray[np.float64]:
+    """Unit vector from each side into its element, in plane and normal to the side, (e, 4, 3); zero on no side."""
+    ends = mesh.side_ends()
+    along = mesh.xyz[ends[:, :, 1]] - mesh.xyz[ends[:, :, 0]]
+    vector = unit(np.cross(normals(mesh)[:, None, :], along))
+    vector[ends[:, :, 1] == NONE] = 0.0
+    return vector
+
+
+def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors of length one along the last axis; a zero vector stays zero."""
+    length = np.linalg.norm(vector, axis=-1, keepdims=True)
+    return np.divide(vector, length, out=np.zeros_like(vector), where=length > 0)
