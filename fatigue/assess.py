@@ -17,9 +17,10 @@ from fatigue.checkpoint import Checkpoint, locked, state_key
 from fatigue.cycles import weld_cycles
 from fatigue.errors import Problem
 from fatigue.event_block import EventLoad, assess_event_block
+from fatigue.events import event_load, mission_plan
 from fatigue.folder import publish, refuse_foreign, result_log
 from fatigue.life.mission import Plan
-from fatigue.model import Model, event_load, mission_plan, read_model
+from fatigue.model import Model, read_model
 from fatigue.provenance import provenance_record
 from fatigue.register import PointLives, toe_faces, weld_rows, worst_points
 from fatigue.results import input_register, software_versions, table_writer, write_json
@@ -93,7 +94,7 @@ def assess(
         with table_writer(tables, "welds") as welds:
             welds.write(weld_rows(model, plan, lives, worst))
         warnings = (*model.warnings, *doubts, *sampling)
-        write_json(tables / "provenance.json", provenance_record(model, plan, inputs, warnings))
+        write_json(tables / "provenance.json", provenance_record(model, plan, folder, inputs, warnings))
         publish(tables, folder)
         log.info("the result is complete")
     return Assessment(

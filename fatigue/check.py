@@ -8,9 +8,10 @@ import numpy as np
 
 from fatigue.case import Case
 from fatigue.errors import Problem
+from fatigue.events import mission_plan
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rainflow import count_block
-from fatigue.model import mission_plan, read_model
+from fatigue.model import read_model
 
 _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 

@@ -65,7 +65,7 @@ class Checkpoint:
 
     def load(self, event: int, block: int) -> EventBlock:
         """Read a finished part; its checksums are tested on the way."""
-        with np.load(self._part(event, block), allow_pickle=False) as arrays:
+        with self._part(event, block).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return EventBlock(**{f.name: arrays[f.name] for f in fields(EventBlock)})
 
     def save(self, event: int, block: int, result: EventBlock) -> None:
@@ -132,11 +132,11 @@ def _take(descriptor: int) -> bool:
     """Take an exclusive lock on an open file without waiting."""
     try:
         if os.name == "nt":
-            import msvcrt
+            import msvcrt  # noqa: PLC0415 (only there on Windows)
 
             msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]
         else:
-            import fcntl
+            import fcntl  # noqa: PLC0415 (not there on Windows)
 
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:

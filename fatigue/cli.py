@@ -35,7 +35,7 @@ strict = click.option("--strict", is_flag=True, help="Take unknown columns in th
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no log on stderr; errors only.")
 @click.option("-v", "--verbose", is_flag=True, help="Log what is done on stderr, and tracebacks of program errors.")
 def cli(quiet: bool, verbose: bool) -> None:
-    """Weld fatigue life, in km, of a flexible body from a multibody simulation.
+    r"""Weld fatigue life, in km, of a flexible body from a multibody simulation.
 
     \b
     Examples:
@@ -57,7 +57,7 @@ def cli(quiet: bool, verbose: bool) -> None:
 @strict
 @as_json
 def check(case_file: Path, strict: bool, as_json: bool) -> None:
-    """Read and check a case and all its files; print sizes and the estimated time.
+    r"""Read and check a case and all its files; print sizes and the estimated time.
 
     \b
     Example:
@@ -95,7 +95,7 @@ def assess(
     strict: bool,
     as_json: bool,
 ) -> None:
-    """Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
+    r"""Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
 
     An interrupted run goes on where it was when the same command is given again.
 
@@ -126,7 +126,7 @@ def assess(
 @click.option("--weld", "welds", multiple=True, help="Only this weld; may be given several times.")
 @as_json
 def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
-    """Print the welds and the worst points of a result folder.
+    r"""Print the welds and the worst points of a result folder.
 
     \b
     Examples:
@@ -140,6 +140,35 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
         _print_json(found.as_record())
     else:
         click.echo(found.as_text())
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--force", is_flag=True, help="Overwrite files of the same names.")
+def example(folder: Path, force: bool) -> None:
+    r"""Write the shipped car body, a case in two variants, to DIR.
+
+    \b
+    Example:
+      fatigue example demo && fatigue assess demo/case.toml -o result
+    """
+    from fatigue.example import write_example
+
+    for case_file in write_example(folder, force=force):
+        click.echo(case_file)
+
+
+@cli.command()
+def schema() -> None:
+    r"""Print the JSON Schema of case.toml, for editors that complete and check it.
+
+    \b
+    Example:
+      fatigue schema > case.schema.json
+    """
+    from fatigue.case import case_schema
+
+    _print_json(case_schema())
 
 
 @contextmanager

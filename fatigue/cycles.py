@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from fatigue.event_block import EventLoad
+from fatigue.events import event_load
 from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor, size_factor
 from fatigue.life.rainflow import rainflow
-from fatigue.model import Model, event_load
+from fatigue.model import Model
 from fatigue.register import WorstPoint
 from fatigue.tables import FACES
 

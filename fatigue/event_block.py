@@ -19,9 +19,9 @@ _SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before
 class Shapes:
     """Structural stress shapes of a block of stations that share one S-N curve.
 
-    ``membrane``, ``bending``, ``in_plane_shear``, ``twist_shear`` are (n, m) [MPa per unit modal coordinate], bending and
-    twist those of the top face; ``size`` (n,) turns a structural stress range over ``I(r)^(1/m)`` into the equivalent range
-    of the law; ``uses_bending_ratio`` is False for curves in plain structural stress, where ``I`` is 1.
+    ``membrane``, ``bending``, ``in_plane_shear``, ``twist_shear`` are (n, m) [MPa per unit modal coordinate], bending
+    and twist those of the top face; ``size`` (n,) turns a structural stress range over ``I(r)^(1/m)`` into the
+    equivalent range of the law; ``uses_bending_ratio`` is False for curves in plain structural stress, where I is 1.
     """
 
     membrane: NDArray[np.float64]
@@ -108,8 +108,8 @@ def prepare_event(
 def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> EventBlock:
     """Damage of one pass of an event at every station of a block, in the time and in the frequency domain.
 
-    Time domain: the equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5). The comparison
-    of both domains uses one ratio per station, ``std(sigma_b) / (std(sigma_m) + std(sigma_b))``.
+    Time domain: the equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5). The
+    comparison of both domains uses one ratio per station, ``std(sigma_b) / (std(sigma_m) + std(sigma_b))``.
     """
     f, C = load.stress_factor, load.covariance
     S_m, S_b = f * shapes.membrane, f * shapes.bending
@@ -202,18 +202,18 @@ def _faces(mean: NDArray[np.float64], gradient: NDArray[np.float64]) -> NDArray[
 
 
 def _shear_bending_ratio(shapes: Shapes, C: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The one bending ratio of the shear stress, from its rms values; (n, 1)."""
+    """Compute the one bending ratio of the shear stress from its rms values, (n, 1)."""
     std_m = np.sqrt(_quadratic(shapes.in_plane_shear, C, shapes.in_plane_shear))
     std_b = np.sqrt(_quadratic(shapes.twist_shear, C, shapes.twist_shear))
     return np.nan_to_num(_quotient(std_b, std_m + std_b))[:, None]
 
 
 def _quadratic(a: NDArray[np.float64], C: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """``a' C b`` along the last axis; a variance, so never below 0, where a is b."""
+    """Evaluate ``a' C b`` along the last axis; a variance, so never below 0, where a is b."""
     form = np.asarray(((a @ C) * b).sum(axis=-1))
     return np.maximum(form, 0.0) if a is b else form
 
 
 def _quotient(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """``a / b``, NaN where b is 0."""
+    """Divide; NaN where b is 0."""
     return np.divide(a, b, out=np.full_like(b, np.nan), where=b > 0.0)

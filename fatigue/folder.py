@@ -16,8 +16,8 @@ OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.
 def refuse_foreign(folder: Path, *, force: bool) -> None:
     """Refuse to overwrite files that fatigue did not write.
 
-    A folder is ours when it holds a finished result, the lock or the state of a run; in any other folder no file may have
-    the name of a result.
+    A folder is ours when it holds a finished result or the state of an interrupted run; in any other folder no file may
+    have the name of a result.
 
     Raises
     ------
@@ -54,10 +54,13 @@ def result_log(folder: Path) -> Iterator[None]:
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     handler.setLevel(logging.INFO)
     program = logging.getLogger("fatigue")
+    level = program.level
+    program.setLevel(logging.INFO)
     program.addHandler(handler)
     try:
         yield
     finally:
+        program.setLevel(level)
         program.removeHandler(handler)
         handler.close()
 

@@ -1,15 +1,17 @@
 """Where every number of a result comes from: inputs, versions, curves, rules and doubts, as one record."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
 from fatigue.folder import OUTPUTS
 from fatigue.life.mission import Plan
 from fatigue.model import Model
+from fatigue.rated_curves import RatedCurve
 from fatigue.results import software_versions
-from fatigue.stations import RatedCurve
 
 RESIDUE_RULES = {
     "repeat": "the record recurs: every cycle closes (ASTM E1049-85 5.4.5, ISO 12110-2)",
@@ -18,15 +20,19 @@ RESIDUE_RULES = {
 
 
 def provenance_record(
-    model: Model, plan: Plan, inputs: Sequence[dict[str, Any]], warnings: Sequence[Problem]
+    model: Model, plan: Plan, folder: Path, inputs: Sequence[dict[str, Any]], warnings: Sequence[Problem]
 ) -> dict[str, Any]:
-    """Everything an assessor needs to trace or repeat a result; the same inputs give the same record."""
+    """Collect what an assessor needs to trace or repeat a result; the same inputs give the same record.
+
+    ``case_path`` leads from the result folder to the case file, so that both can be moved together.
+    """
     case = model.case
     return {
         "program": "fatigue",
         "software": software_versions(),
         "title": case.title,
         "case_file": case.path.name,
+        "case_path": Path(os.path.relpath(case.path, folder)).as_posix(),
         "case_text": case.text,
         "inputs": list(inputs),
         "modes": {
@@ -45,7 +51,7 @@ def provenance_record(
             "knee_cycles": case.curve.knee_cycles,
             "mean_stress": case.curve.mean_stress,
             "yield_MPa": case.curve.yield_MPa,
-            "bending_ratio": "of each cycle, from its own two instants; one rms ratio per event for the spectral comparison",
+            "bending_ratio": "of each cycle, from its own two instants; one rms ratio per event for the comparison",
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
             "upsample": case.counting.upsample,

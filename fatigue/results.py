@@ -14,6 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from fatigue import __version__
 from fatigue.errors import DataError, Problem
 
 ColumnType = Literal["text", "int", "flag", "float"]
@@ -267,7 +268,7 @@ def read_table(folder: Path, table: str, columns: Sequence[str] | None = None) -
     """
     path = folder / f"{table}.parquet"
     try:
-        return pq.read_table(path, columns=columns)
+        return pq.read_table(path, columns=None if columns is None else list(columns))
     except FileNotFoundError:
         problem = Problem(
             "no_result", str(path), "no such result table", "Run `fatigue assess CASE -o DIR` first and give its DIR"
@@ -322,7 +323,7 @@ def sha256(path: Path) -> str:
 def software_versions() -> dict[str, str]:
     """Versions of the program and of what its numbers rest on."""
     packages = ("numpy", "scipy", "numba", "pyarrow", "pandas", "rainflow")
-    found = {"fatigue": _program_version(), "python": platform.python_version()}
+    found = {"fatigue": __version__, "python": platform.python_version()}
     for package in packages:
         try:
             found[package] = version(package)
@@ -355,9 +356,3 @@ def _relative(path: Path, root: Path) -> str:
         return path.resolve().relative_to(root.resolve()).as_posix()
     except ValueError:  # an input elsewhere on the disk keeps its full path
         return path.as_posix()
-
-
-def _program_version() -> str:
-    from fatigue import __version__
-
-    return __version__

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.event_block import Shapes
-from fatigue.life.curves import DamageLaw, SNCurve
 from fatigue.life.damage import ThicknessRule, size_factor
+from fatigue.rated_curves import RatedCurve
 from fatigue.weld.line import arc_length
 from fatigue.weld.structural_stress import LineStress, StructuralStress
 
@@ -55,15 +55,6 @@ class Block:
     raw: bool
 
 
-@dataclass(frozen=True, slots=True)
-class RatedCurve:
-    """A curve as this assessment uses it."""
-
-    curve: SNCurve
-    survival: str
-    law: DamageLaw
-
-
 def stations_of(lines: Sequence[LineStress], weld_names: Sequence[str]) -> Stations:
     """Lay the solved line parts one after the other, welds in the order of the register."""
     place = {name: i for i, name in enumerate(weld_names)}
@@ -85,7 +76,7 @@ def stations_of(lines: Sequence[LineStress], weld_names: Sequence[str]) -> Stati
 
 
 def cut_blocks(stations: Stations, curve_of_weld: Sequence[str]) -> list[Block]:
-    """Cut the stations into blocks of one curve and at most ``BLOCK`` stations, then the raw values of treated stations."""
+    """Cut the stations into blocks of one curve and at most ``BLOCK``, then the raw values of treated stations."""
     curve = np.array(curve_of_weld)[stations.weld]
     treated_here = np.flatnonzero(
         (stations.treated.membrane != stations.raw.membrane).any(axis=1)

@@ -13,9 +13,9 @@ from fatigue.results import read_provenance, read_table
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 
 _POINT_COLUMNS = (
-    "weld", "part", "node", "order", "surface", "arc_length_mm", "life_km", "life_years", "utilisation", "fulfilled",
-    "load_factor", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict", "governing_event", "max_range_MPa", "bending_ratio",
-    "at_end", "at_corner",
+    "weld", "part", "node", "order", "surface", "toe", "arc_length_mm", "life_km", "life_years", "utilisation",
+    "fulfilled", "load_factor", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict", "governing_event", "max_range_MPa",
+    "bending_ratio", "at_end", "at_corner",
 )  # fmt: skip
 
 
@@ -90,7 +90,7 @@ def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summa
     """
     record = read_provenance(folder)
     welds = read_table(folder, "welds").to_pandas()
-    points = read_table(folder, "nodes", [*_POINT_COLUMNS, "toe"]).to_pandas()
+    points = read_table(folder, "nodes", _POINT_COLUMNS).to_pandas()
     unknown = sorted(set(only) - set(welds["weld"]))
     if unknown:
         raise DataError(

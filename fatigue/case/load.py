@@ -42,13 +42,13 @@ def load_case(path: Path | str) -> Case:
         raw = tomllib.loads(text)
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
-        case = Case.model_validate(raw)
+        case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
         problems.append(syntax_problem(text, error))
     except ValidationError as error:
         problems[:0] = (found for details in error.errors() for found in model_problems(details, MODELS, raw))
     refuse(CaseError, (replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
-    return case.read_from(path, text)
+    return case
 
 
 def check_files(case: Case) -> None:

@@ -248,10 +248,10 @@ class Case(_Table):
     _path: Path = PrivateAttr(Path())
     _text: str = PrivateAttr("")
 
-    def read_from(self, path: Path, text: str) -> Self:
-        """Remember the file and its text."""
-        self._path, self._text = path, text
-        return self
+    def model_post_init(self, context: tuple[Path, str] | None) -> None:
+        """Remember the file and its text, where the case comes from one."""
+        if context is not None:
+            self._path, self._text = context
 
     @property
     def path(self) -> Path:

@@ -114,7 +114,7 @@ def user_curve(
 
 @cache
 def catalogue() -> Mapping[str, SNCurve]:
-    """Read the curves shipped with the program, each with edition, clause and source (``curves.toml`` beside this file)."""
+    """Read the curves shipped with the program, each with edition, clause and source, from ``curves.toml``."""
     with (Path(__file__).parent / "curves.toml").open("rb") as file:
         tables = tomllib.load(file)
     curves = {}
@@ -183,7 +183,8 @@ def damage_law(curve: SNCurve, survival: Survival | None, extension: Extension, 
                 Problem(
                     "extension",
                     "curve.extension",
-                    f"'{extension}' is asked of curve '{curve.name}', which has its own knee at {knees_cycles[0]:g} cycles",
+                    f"'{extension}' is asked of curve '{curve.name}', which has its own knee at "
+                    f"{knees_cycles[0]:g} cycles",
                     'Set extension = "none", or give the curve without knees',
                 )
             )

@@ -1,4 +1,4 @@
-"""Damage of a cycle: from structural stress range, bending ratio and thickness to the equivalent range and Miner's sum."""
+"""Damage of a cycle: from its structural stress range, bending ratio and thickness to Miner's sum."""
 
 from typing import Literal
 
@@ -31,8 +31,8 @@ def ratio_factor(r: NDArray[np.float64]) -> NDArray[np.float64]:
 def size_factor(thickness: NDArray[np.float64], curve: SNCurve, rule: ThicknessRule) -> NDArray[np.float64]:
     """Factor of the plate thickness [mm] on the range, so that ``x = size * S / I(r)^(1/m)``.
 
-    Master curve: ``t_ess^((m-2)/(2m))`` with the actual thickness, or with the one ASME VIII-2 5.5.5.2 limits to 16-150 mm.
-    Other curves: ``(t / t_ref)^n`` for t above the reference thickness of the curve.
+    Master curve: ``t_ess^((m-2)/(2m))`` with the actual thickness, or with the one that ASME VIII-2 5.5.5.2 limits to
+    16 to 150 mm. Other curves: ``(t / t_ref)^n`` for t above the reference thickness of the curve.
     """
     if curve.applies == "dS":
         t_ess = np.clip(thickness, *ASME_THICKNESS_LIMITS) if rule == "asme" else thickness
@@ -70,10 +70,10 @@ def shear_factor(
 ) -> NDArray[np.float64]:
     """Factor on the equivalent range if shear were counted with the normal stress, from their covariance [MPa^2].
 
-    ASME VIII-2 5.5.5.3 combines ``sqrt(dS^2 + 3 dT^2) / F(delta)`` for a harmonic path with phase delta. In the plane of
-    (sigma, sqrt(3) tau) its F is ``sqrt(l1 / (l1 + l2))`` with the principal variances l1 >= l2, which needs no phase and
-    carries the rule over to random histories (an extension of the clause). The variances are those of normal and shear
-    stress already divided by their own ``I(r)^(1/m)``. NaN where the normal stress does not vary.
+    ASME VIII-2 5.5.5.3 combines ``sqrt(dS^2 + 3 dT^2) / F(delta)`` for a harmonic path with phase delta. In the plane
+    of (sigma, sqrt(3) tau) its F is ``sqrt(l1 / (l1 + l2))`` with the principal variances l1 >= l2, which needs no phase
+    and carries the rule over to random histories (an extension of the clause). The variances are those of normal and
+    shear stress already divided by their own ``I(r)^(1/m)``. NaN where the normal stress does not vary.
     """
     a, b, c = variance, 3.0 * shear_variance, np.sqrt(3.0) * covariance
     largest = 0.5 * (a + b) + np.sqrt(0.25 * (a - b) ** 2 + c**2)

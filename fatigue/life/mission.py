@@ -57,7 +57,7 @@ def life_km(damage_per_km: NDArray[np.float64], damage_limit: float) -> NDArray[
 
 
 def straight_load_factor(utilisation: NDArray[np.float64], slope: float) -> NDArray[np.float64]:
-    """Scale on all stresses that just meets the target on a straight curve: ``utilisation^(-1/k)``; +inf without damage."""
+    """Scale on all stresses that just meets the target on a straight curve, ``utilisation^(-1/k)``; +inf undamaged."""
     return np.power(utilisation, -1.0 / slope, out=np.full_like(utilisation, np.inf), where=utilisation > 0.0)
 
 
@@ -103,5 +103,5 @@ def load_factor(
 
 
 def equivalent_range(power_sum_per_km: NDArray[np.float64], slope: float, target_km: float) -> NDArray[np.float64]:
-    """Constant structural stress range [MPa] that does the same in 2e6 cycles: ``(sum n S^k / 2e6)^(1/k)`` over the target."""
+    """Find the constant range [MPa] that does the same in 2e6 cycles over the target: ``(sum n S^k / 2e6)^(1/k)``."""
     return np.asarray((power_sum_per_km * target_km / REFERENCE_CYCLES) ** (1.0 / slope))

@@ -369,9 +369,9 @@ def tally(block: _Block, point: tuple[int, int], rules: _Rules, buffers: _Buffer
         dS = x / f_M if rules.mean_stress else x
         damage = cycle_damage(dS, rules)
         total["damage"] += n * damage
-        total["damage_mean_stress"] += n * (damage if rules.mean_stress or f_M == 1.0 else cycle_damage(x / f_M, rules))
+        total["damage_mean_stress"] += n * (damage if f_M == 1.0 else cycle_damage(x / f_M, rules))
         total["cycles"] += n
-        total["power_sum"] += n * math.exp(k * math.log(S))  # sooner than pow
+        total["power_sum"] += n * math.exp(k * math.log(S))  # faster than pow
         total["max_equivalent_range"] = max(total["max_equivalent_range"], dS)
         if total["max_range"] < S:
             total["max_range"] = S

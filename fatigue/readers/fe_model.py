@@ -93,7 +93,10 @@ def shell_mesh(
         mid=mid,
         pid=np.array([shell.pid for shell in shells], np.int64),
         thickness=np.array(
-            [s.thickness if shell.thickness is None else shell.thickness for shell, s in zip(shells, section, strict=True)]
+            [
+                s.thickness if shell.thickness is None else shell.thickness
+                for shell, s in zip(shells, section, strict=True)
+            ]
         ),
         offset=np.array([shell.offset + s.offset for shell, s in zip(shells, section, strict=True)]),
     )
@@ -108,7 +111,9 @@ def _shell_problems(source: str, shells: list[Shell], index: Mapping[int, int]) 
         if before is not None and before.element == shell.element:
             problems.append(Problem("element_twice", where, "the element id is used twice", "Give it another id"))
         if missing := [n for n in used if n not in index]:
-            problems.append(Problem("no_grid", where, f"its grid {missing[0]} does not exist", "Include the grid's file"))
+            problems.append(
+                Problem("no_grid", where, f"its grid {missing[0]} does not exist", "Include the grid's file")
+            )
         elif len(set(used)) < len(used):
             problems.append(Problem("collapsed", where, f"a grid is used twice: {used}", "Use a triangle"))
         if len(problems) >= 10:

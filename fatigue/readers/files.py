@@ -95,6 +95,8 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
         )
     except pa.ArrowInvalid as error:
         raise DataError(_csv_problem(path, len(names), error)) from None
+    if pa.binary() in table.schema.types:  # Arrow's last resort where a column is neither numbers nor UTF-8
+        raise DataError(_not_utf8(path))
     return Columns(tuple(names), tuple(table.schema.types), table.num_rows, table.column)
 
 

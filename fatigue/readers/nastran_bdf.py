@@ -75,7 +75,12 @@ def _model(bulk: _Bulk, deck: Deck) -> FeModel:
     refuse(
         DataError,
         [
-            Problem("fluid_grid", bulk.grids[grid].where, f"grid {grid} is a fluid point (CD -1)", "Give the structure alone")
+            Problem(
+                "fluid_grid",
+                bulk.grids[grid].where,
+                f"grid {grid} is a fluid point (CD -1)",
+                "Give the structure alone",
+            )
             for grid, c in cd.items()
             if c < 0
         ][:5],
@@ -89,7 +94,9 @@ def _model(bulk: _Bulk, deck: Deck) -> FeModel:
         frame=np.array([frames.axes_at(cd[g], xyz[g]) for g in turned]).reshape(-1, 3, 3),
         section_doubt=_section_doubts(bulk, shells),
         element_doubt={shell.element: shell.doubt for shell in shells if shell.doubt},
-        node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in (bulk.sets | case_sets(deck.control)).items()},
+        node_sets={
+            key: np.unique(np.array(ids, np.int64)) for key, ids in (bulk.sets | case_sets(deck.control)).items()
+        },
         marker_edges={name: np.array(pairs, np.int64) for name, pairs in bulk.markers.items()},
         other_cards=dict(bulk.others),
     )
@@ -107,7 +114,9 @@ def _grid(bulk: _Bulk, card: Card) -> None:
     grid = card.integer(0)
     if card.integer(7, 0):
         raise DataError(
-            Problem("superelement", card.where, f"grid {grid} belongs to superelement {card.text(7)}", "Give the residual")
+            Problem(
+                "superelement", card.where, f"grid {grid} belongs to superelement {card.text(7)}", "Give the residual"
+            )
         )
     known = bulk.grids.get(grid)
     if known and [known.text(k) for k in range(6)] != [card.text(k) for k in range(6)]:
@@ -171,7 +180,9 @@ def _add_section(bulk: _Bulk, card: Card, section: Section) -> None:
         raise DataError(Problem("property_twice", card.where, f"property {pid} is defined twice", "Rename one"))
     if not (np.isnan(section.thickness) or section.thickness > 0):
         raise DataError(
-            Problem("bad_thickness", card.where, f"the thickness of property {pid} is {section.thickness:g}", "Correct it")
+            Problem(
+                "bad_thickness", card.where, f"the thickness of property {pid} is {section.thickness:g}", "Correct it"
+            )
         )
     bulk.sections[pid] = section
 

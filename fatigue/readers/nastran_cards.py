@@ -47,7 +47,9 @@ class Card:
         return value
 
     def _bad(self, at: int, text: str, wanted: str) -> DataError:
-        found = f"{self.name} field {at + 2} is {text!r}, not {wanted}" if text else f"{self.name} field {at + 2} is empty"
+        found = (
+            f"{self.name} field {at + 2} is {text!r}, not {wanted}" if text else f"{self.name} field {at + 2} is empty"
+        )
         return DataError(Problem("bad_field", self.where, found, "Correct the card"))
 
 
@@ -75,7 +77,9 @@ def read_deck(path: Path) -> Deck:
             control, bulk, began = bulk, [], True
         elif re.match(r"\s*BEGIN\s+(SUPER|AUXMODEL)", upper):
             raise DataError(
-                Problem("superelement", where, f"the model has superelements ({line.strip()})", "Give a model without them")
+                Problem(
+                    "superelement", where, f"the model has superelements ({line.strip()})", "Give a model without them"
+                )
             )
         elif re.match(r"\s*ENDDATA", upper):
             break

@@ -42,7 +42,10 @@ def read_h5(path: Path, subcase: int | None = None) -> FeResults:
             forces.append(_force_block(domain, rows, where))
         shapes = [
             ShapeBlock(
-                int(domains[key]["SUBCASE"]), int(domains[key]["MODE"]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE)
+                int(domains[key]["SUBCASE"]),
+                int(domains[key]["MODE"]),
+                rows["ID"].astype(np.int64),
+                _columns(rows, _SHAPE),
             )
             for key, rows in _by_domain(shapes_table)
             if key in domains
@@ -63,11 +66,15 @@ def read_h5_model(path: Path) -> FeModel:
         grid = read("NASTRAN/INPUT/NODE/GRID")
         cards = _frame_cards(read)
         sections, doubts = _sections(read)
-        shells = [shell for name in _SHELLS for shell in _shells(name, read(f"NASTRAN/INPUT/ELEMENT/{name}", required=False))]
+        shells = [
+            shell for name in _SHELLS for shell in _shells(name, read(f"NASTRAN/INPUT/ELEMENT/{name}", required=False))
+        ]
         plotel = read("NASTRAN/INPUT/ELEMENT/PLOTEL", required=False)
         row_of = {int(n): k for k, n in enumerate(grid["ID"])}
         if len(row_of) < len(grid) or ("SEID" in grid.dtype.names and grid["SEID"].any()):
-            raise DataError(Problem("superelement", source, "grids of superelements", "Give the residual structure alone"))
+            raise DataError(
+                Problem("superelement", source, "grids of superelements", "Give the residual structure alone")
+            )
         position: dict[int, NDArray[np.float64]] = {}
 
         def find(node: int) -> NDArray[np.float64]:
@@ -101,7 +108,9 @@ def _h5py() -> ModuleType:
         import h5py  # noqa: PLC0415
     except ImportError as error:
         raise DataError(
-            Problem("no_h5py", "MSC HDF5 input", "the package h5py is not installed", "Run: pip install 'fatigue[nastran]'")
+            Problem(
+                "no_h5py", "MSC HDF5 input", "the package h5py is not installed", "Run: pip install 'fatigue[nastran]'"
+            )
         ) from error
     return h5py  # type: ignore[no-any-return]
 
@@ -140,7 +149,9 @@ def _open(path: Path) -> Iterator[Any]:
 
 def _damaged(path: Path, found: str) -> DataError:
     return DataError(
-        Problem("h5_damaged", str(path), f"the file is no sound MSC HDF5 file: {found}", "Copy it again, or repeat the run")
+        Problem(
+            "h5_damaged", str(path), f"the file is no sound MSC HDF5 file: {found}", "Copy it again, or repeat the run"
+        )
     )
 
 
@@ -161,7 +172,12 @@ def _check_domain(domain: Any, where: str) -> None:
         raise DataError(Problem("no_domain", where, "the table of domains lacks it", "Copy the file again"))
     if int(domain["ANALYSIS"]) not in (_STATIC, _MODES):
         raise DataError(
-            Problem("wrong_analysis", where, f"analysis type {domain['ANALYSIS']} is neither static nor modal", "Use SOL 103")
+            Problem(
+                "wrong_analysis",
+                where,
+                f"analysis type {domain['ANALYSIS']} is neither static nor modal",
+                "Use SOL 103",
+            )
         )
     if int(domain["SE"]):
         raise DataError(

@@ -46,7 +46,9 @@ def _block(path: Path, lines: list[str], head: int, eigenvalues: dict[int, Eigen
             eigenvalue = _real(path, at, found[1])
             eigenvalues[mode] = Eigenvalue(float(np.sqrt(abs(eigenvalue)) / (2 * np.pi)), float("nan"))
         if not line.startswith("$REAL OUTPUT") and "REAL-IMAGINARY" in line or "MAGNITUDE" in line:
-            raise DataError(Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103"))
+            raise DataError(
+                Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103")
+            )
         if line.startswith(_SORT2):
             raise DataError(Problem("sort2", where, "the forces are sorted by grid (SORT2)", "Request SORT1"))
         at += 1
@@ -92,4 +94,6 @@ def _real(path: Path, at: int, text: str) -> float:
 
 
 def _bad(path: Path, at: int, found: str) -> DataError:
-    return DataError(Problem("punch_damaged", f"{path}, line {at + 1}", found, "Copy the punch file again in text mode"))
+    return DataError(
+        Problem("punch_damaged", f"{path}, line {at + 1}", found, "Copy the punch file again in text mode")
+    )

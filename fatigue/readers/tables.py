@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.files import Columns, open_columns
 
-LARGEST_ID = 2**53  # whole numbers beyond it are not exact once a file has stored them as floating-point numbers
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
@@ -50,7 +48,7 @@ class Table:
         """Refuse a table without a required column; an unknown column is a doubt, or a mistake where strict."""
         refuse(DataError, self._missing_columns(required))
         known = (*required, *optional)
-        for name in self.position.keys() - set(known):
+        for name in (name for name in self.position if name not in known):
             near = difflib.get_close_matches(name, set(known) - self.position.keys(), n=1)
             remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
             found = Problem("unknown_column", self.where(name), "the column is unknown and not read", remedy)
@@ -112,9 +110,12 @@ class Table:
             if pt.is_integer(column.type) and column.null_count == 0 and column.type != pa.uint64():
                 return np.asarray(column.to_numpy()).astype(np.int64, copy=False)
         values = self.numbers(name, default=default)
-        broken = np.isfinite(values) & ((values != np.rint(values)) | (np.abs(values) > LARGEST_ID))
+        broken = np.isfinite(values) & (values != np.rint(values))
         self.report(broken, "bad_value", name, f"{_first(values, broken)} is not a whole number", "Give a whole number")
-        return np.where(np.isfinite(values) & ~broken, values, 0).astype(np.int64)
+        inexact = np.isfinite(values) & (np.abs(values) > 2.0 ** (np.finfo(values.dtype).nmant + 1))
+        what = f"{_first(values, inexact):.0f} is too large for a floating-point column to hold exactly"
+        self.report(inexact, "bad_value", name, what, "Store the column as whole numbers")
+        return np.where(np.isfinite(values) & ~inexact, values, 0).astype(np.int64)
 
     def flags(self, name: str, *, default: bool) -> NDArray[np.bool_]:
         """Truth values (r,), true and false or 1 and 0; an empty cell or an absent column takes the default."""
@@ -149,10 +150,8 @@ class Table:
             column = column.cast(pa.string()).dictionary_encode()
         chunks = column.unify_dictionaries().chunks
         stored = [(text or "").strip() for text in chunks[0].dictionary.cast(pa.string()).to_pylist()]
-        texts = np.array(
-            [text or default or "" for text in (*stored, "")], dtype=object
-        )  # the last one for empty cells
-        names, merged = np.unique(texts, return_inverse=True)
+        stored.append("")  # position -1 stands for an empty cell
+        names, merged = np.unique(np.array([text or default or "" for text in stored], object), return_inverse=True)
         code = np.concatenate([merged.astype(np.int32)[chunk.indices.fill_null(-1).to_numpy()] for chunk in chunks])
         used = np.bincount(code, minlength=names.size) > 0
         if names[0] == "" and used[0] and default is None:
@@ -211,7 +210,10 @@ class Table:
                 )
 
     def _column(self, name: str) -> pa.ChunkedArray:
-        return self.columns.read(self.position[name])
+        column = self.columns.read(self.position[name])
+        if pt.is_dictionary(column.type) and not _is_text(column.type.value_type):
+            return column.cast(column.type.value_type)
+        return column
 
     def _floats(self, name: str) -> NDArray[Any]:
         """Values of a column as floating-point numbers, empty cells and an absent column as NaN."""
@@ -229,13 +231,12 @@ class Table:
         return np.zeros(self.rows)
 
     def _mistyped(self, name: str, column: pa.ChunkedArray, wanted: str) -> None:
-        """Note the first value that is of the wrong kind, in a text column of a CSV the first that is no number."""
-        wrong = [
-            value is not None and not (_is_text(column.type) and _is_number(value)) for value in column.to_pylist()
-        ]
-        row = wrong.index(True) if True in wrong else 0
+        """Note the first value of the wrong kind; in a column of texts the first that could not be a number."""
+        values = column.to_pylist()
+        wrong = (row for row, value in enumerate(values) if value is not None and not _is_number(value))
+        row = next(wrong, 0)
         self.problems.append(
-            Problem("bad_type", self.where(name, row), f"{column[row].as_py()!r} is not {wanted}", f"Give {wanted}")
+            Problem("bad_type", self.where(name, row), f"{values[row]!r} is not {wanted}", f"Give {wanted}")
         )
 
 
@@ -253,13 +254,14 @@ def open_table(path: Path, *, texts: Collection[str] = ()) -> Table:
 
 
 def _is_text(kind: pa.DataType) -> bool:
-    return any(is_kind(kind) for is_kind in (pt.is_string, pt.is_large_string, pt.is_string_view, pt.is_binary))
+    return bool(pt.is_string(kind) or pt.is_large_string(kind) or pt.is_string_view(kind))
 
 
-def _is_number(text: str) -> bool:
+def _is_number(value: object) -> bool:
+    """Whether a value is a text that Arrow reads as a number."""
     try:
-        float(text)
-    except ValueError:
+        pa.scalar(value, pa.string()).cast(pa.float64())
+    except (pa.ArrowException, TypeError):
         return False
     return True
 

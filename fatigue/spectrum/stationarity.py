@@ -57,7 +57,7 @@ def period_matrices(history: ModalHistory, spectra: Spectra) -> PeriodMatrices:
 
     taper = _period_taper(samples_per_segment(history.step, spectra.segment_s), segments)
     window = hann(samples_per_segment(history.step, long.segment_s))
-    stride = max(1, int(1 / (4 * long.upper_hz * history.step)))
+    stride = max(1, int(1 / (2.5 * long.upper_hz * history.step)))
     lag = np.arange(0, int(LONGEST_LAG * len(window)), stride)
     overlap = _autocorrelation(taper)
     overlap = np.pad(overlap, (0, max(0, lag[-1] + 1 - len(overlap))))[lag]

@@ -154,9 +154,7 @@ class _Walker:
         reached = self.round_node(side, node, {edge})
         ahead = -self.away(edge, node)
         goes_on = any(
-            e != edge
-            and ahead @ self.away(e, node) > _AHEAD
-            and any(s // 4 in reached for s in topo.sides_of(e))
+            e != edge and ahead @ self.away(e, node) > _AHEAD and any(s // 4 in reached for s in topo.sides_of(e))
             for e in self.at_node[node]
         )
         kept = {side // 4}

@@ -93,7 +93,11 @@ def classify(topo: Topology) -> dict[int, Key]:
     a, b = topo.sides[topo.first[pair]], topo.sides[topo.first[pair] + 1]
     is_turned = np.einsum("ij,ij->i", topo.inward[a], topo.inward[b]) >= -np.cos(np.radians(SMOOTH_DEG))
     changes = pid[a] != pid[b]
-    for kind, where in (("corner", is_turned & changes), ("flat", ~is_turned & changes), ("fold", is_turned & ~changes)):
+    for kind, where in (
+        ("corner", is_turned & changes),
+        ("flat", ~is_turned & changes),
+        ("fold", is_turned & ~changes),
+    ):
         for edge, p, q in zip(pair[where], pid[a[where]], pid[b[where]], strict=True):
             found[int(edge)] = (kind, (int(min(p, q)), int(max(p, q))))
     return found

@@ -30,10 +30,10 @@ def check_line(line: WeldLine, where: str) -> None:
         With all that is wrong: too few nodes, misplaced mid-side nodes, values that are no numbers, a node named
         twice, edges without length, a thickness that is not positive, no usable plate normal or outward vector.
     """
-    least = 3 if line.closed else 2
-    if line.node.size < least:
-        kind = "a closed line needs" if line.closed else "a line needs"
-        refuse(DataError, [Problem("few_nodes", where, f"{line.node.size} nodes, {kind} {least}", "Add the others")])
+    n, least = line.node.size, 3 if line.closed else 2
+    if n < least:
+        what = f"{n} node{'s' * (n != 1)}, a {'closed ' * line.closed}line needs {least} or more"
+        refuse(DataError, [Problem("few_nodes", where, what, "Add the missing nodes")])
     for findings in (_wrong_rows, _wrong_edges, _wrong_directions, _wrong_sides):
         refuse(DataError, _problems(line, where, findings(line)))
 

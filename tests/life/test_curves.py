@@ -81,7 +81,7 @@ def test_eurocode_detail_90_above_its_knee():
 
 
 def test_eurocode_cutoff_ends_damage_strictly_below():
-    """Cut-off of EN 1993-1-9: 0.549 x 0.737 of the category; at the cut-off the cycle still counts, below it does not."""
+    """The cut-off of EN 1993-1-9 is 0.549 x 0.737 of the category; a cycle there still counts, below it does not."""
     law = damage_law(catalogue()["en1993-hotspot-100"], None, "none", 1e7)
     assert law.knees[0] == pytest.approx(73.7, rel=1e-3)
     assert law.cutoff == pytest.approx(40.5, rel=2e-3)

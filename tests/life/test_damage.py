@@ -80,7 +80,7 @@ def test_curve_without_thickness_rule_has_size_one():
 
 
 def test_fat_check_against_master_curve_size():
-    """At 2e6 cycles and 4 mm the aluminium curve sits between the IIW classes 36 and 40 (constants, units, exponent)."""
+    """At 2e6 cycles and 4 mm the aluminium curve sits between IIW classes 36 and 40: constants, units, exponent."""
     law = damage_law(ALUMINIUM, "mean-2sigma", "none", 1e7)
     size = size_factor(np.array([4.0]), ALUMINIUM, "actual")[0] / ratio_factor(np.array(0.0))
     grid = np.geomspace(10.0, 100.0, 20001)

@@ -1,0 +1,37 @@
+"""The shipped car body, copied to where the user wants it."""
+
+import shutil
+from pathlib import Path
+
+from fatigue.errors import DataError, Problem
+
+
+def write_example(folder: Path, *, force: bool = False) -> list[Path]:
+    """Copy the shipped case and its data into a folder; return the case files.
+
+    Raises
+    ------
+    DataError : the folder holds files of the same names and ``force`` is not given, or it cannot be written
+    """
+    shipped = _shipped()
+    taken = [path.name for path in sorted(shipped.iterdir()) if (folder / path.name).exists()]
+    if taken and not force:
+        raise DataError(
+            Problem(
+                "foreign_files", str(folder / taken[0]), "is there already", "Give another folder, or --force to overwrite it"
+            )
+        )
+    try:
+        shutil.copytree(shipped, folder, dirs_exist_ok=True)
+    except OSError as error:
+        raise DataError(
+            Problem("cannot_write", str(folder), f"cannot be written ({error})", "Give a folder you may write to")
+        ) from error
+    return sorted(folder.glob("case*.toml"))
+
+
+def _shipped() -> Path:
+    """Find the example: inside the installed package, or beside it in a checkout."""
+    package = Path(__file__).parent
+    installed = package / "data" / "carbody"
+    return installed if installed.is_dir() else package.parent / "data" / "carbody"

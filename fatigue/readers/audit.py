@@ -1,0 +1,359 @@
+"""What can be known about foreign force files before they are believed: sign, balance, frames, completeness.
+
+Every check gives a traffic light, a number and a remedy. The checks need no trust in the solver: stiffness forces of an
+element are in equilibrium, a mode shape does the work of its own strain energy on them, and the rows of a grid point
+force balance add up to the total that the file states.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.readers.fe_model import FeModel, to_basic
+from fatigue.readers.fe_results import REQUEST, TOTALS, FeResults
+from fatigue.weld.element_forces import ElementForces, balance
+from fatigue.weld.mesh import NONE
+
+Convention = Literal["on_element", "on_node"]
+Light = Literal["green", "amber", "red"]
+
+SHELL_KINDS = frozenset({"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "QUAD144", "QUAD4LC"})
+"""Names of shell elements in force rows."""
+
+BALANCE_GREEN, BALANCE_RED = 1e-3, 1e-2
+FREQUENCY_LIMIT = 0.01
+WORK_TOLERANCE = 2e-3
+LOWEST_HZ = 1e-3  # below it a "frequency" is the round-off of a rigid mode
+
+
+@dataclass(frozen=True, slots=True)
+class AuditRow:
+    """One check: what was measured, how it is judged, and what to do about it."""
+
+    check: str
+    light: Light
+    value: float | None
+    finding: str
+    remedy: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Audit:
+    """All checks of one force file, and the sign convention they support (None: undecided)."""
+
+    rows: tuple[AuditRow, ...]
+    convention: Convention | None
+
+    @property
+    def is_red(self) -> bool:
+        """Whether any check failed."""
+        return any(row.light == "red" for row in self.rows)
+
+
+def audit(
+    results: FeResults,
+    model: FeModel,
+    stated: Convention | None = None,
+    interface_modes: Iterable[int] = (),
+    simulated: dict[int, float] | None = None,
+) -> Audit:
+    """Judge grid point forces against their model, and against the simulation's modes.
+
+    Parameters
+    ----------
+    results, model : as read, in the file's own units and displacement frames
+    stated : sign convention claimed by the user
+    interface_modes : modes marked as static (residual, constraint, attachment) modes
+    simulated : frequency [Hz] of every mode in the simulation, where its file tells
+    """
+    force = to_basic(results.force, results.node, model)
+    sign, convention = _sign(results, stated)
+    rows = [
+        _element_balance(results, model, force),
+        *_frames(results, model, force),
+        _nodal_totals(results),
+        sign,
+        _completeness(results, model),
+        *_interface(results, set(interface_modes)),
+        *_masses(results),
+        *_frequencies(results, simulated),
+    ]
+    return Audit(tuple(rows), convention)
+
+
+def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
+    """Rows of shells of the mesh that have all their nodes in the file, (r,)."""
+    mesh = model.mesh
+    nodes_of = (mesh.corner != NONE).sum(axis=1) + (mesh.mid != NONE).sum(axis=1)
+    at = np.minimum(np.searchsorted(mesh.element, results.element), mesh.element.size - 1)
+    is_shell = results.of_element & (mesh.element[at] == results.element)
+    rows = np.bincount(at[is_shell], minlength=mesh.element.size)
+    return is_shell & (rows == nodes_of)[at]
+
+
+def element_forces(
+    results: FeResults, force: NDArray[np.floating], rows: NDArray[np.bool_] | slice = slice(None)
+) -> ElementForces:
+    """Put the forces (m, r, 6) of chosen rows of all modes in one table."""
+    node, element = results.node[rows], results.element[rows]
+    modes = results.mode.size
+    return ElementForces(
+        np.repeat(results.mode, node.size), np.tile(node, modes), np.tile(element, modes), force[:, rows].reshape(-1, 6)
+    )
+
+
+def _worst_balance(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> tuple[float, int, int, int]:
+    """Largest residual of any shell and mode, its element and mode, and the number of shells checked."""
+    rows = shell_rows(results, model)
+    if not rows.any():
+        return np.nan, 0, 0, 0
+    xyz = dict(zip(model.mesh.node.tolist(), model.mesh.xyz, strict=True))
+    found = balance(element_forces(results, force, rows), xyz)
+    k = found.worst
+    moment = 0.0 if found.moment_residual is None else float(found.moment_residual[k])
+    worst = max(float(found.force_residual[k]), moment)
+    return worst, int(found.element[k]), int(found.mode[k]), np.unique(results.element[rows]).size
+
+
+def _element_balance(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> AuditRow:
+    worst, element, mode, count = _worst_balance(results, model, force)
+    if not count:
+        return AuditRow("element balance", "red", None, "no shell of the mesh has forces at all its nodes", REQUEST)
+    light: Light = "green" if worst <= BALANCE_GREEN else "amber" if worst <= BALANCE_RED else "red"
+    finding = f"worst of {count} shells: element {element} in mode {mode}, {worst:.2g} of its largest force or moment"
+    remedy = ""
+    if light != "green":
+        remedy = (
+            "Give the mesh of this run with its coordinate systems (CD); request stiffness forces without inertia and damping; "
+            "a damaged number looks the same"
+        )
+    return AuditRow("element balance", light, worst, finding, remedy)
+
+
+def _frames(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> list[AuditRow]:
+    """Check that the rotation out of the displacement frames does what it should."""
+    count = int(np.isin(model.frame_node, results.node).sum())
+    if not count:
+        return [AuditRow("displacement frames", "green", 0.0, "all forces are in the basic frame")]
+    turned = _worst_balance(results, model, force)[0]
+    plain = _worst_balance(results, model, results.force)[0]
+    if plain < BALANCE_GREEN < turned:
+        return [
+            AuditRow(
+                "displacement frames",
+                "red",
+                float(count),
+                f"{count} grids have displacement frames (CD), but only the unrotated forces balance: they are basic already",
+                "Write GPFORCE in the displacement frames, or remove CD from the mesh given here",
+            )
+        ]
+    finding = f"the forces of {count} grids were rotated to the basic frame: worst balance {plain:.2g} before, {turned:.2g} after"
+    return [AuditRow("displacement frames", "green", float(count), finding)]
+
+
+def _nodal_totals(results: FeResults) -> AuditRow:
+    """Compare the stated totals of every grid with the sum of its rows: a checksum over every number of the table."""
+    is_total = results.kind == TOTALS
+    if not is_total.any():
+        return AuditRow(
+            "grid totals",
+            "amber",
+            None,
+            "the file states no totals to check the rows against",
+            "Rely on the element balance",
+        )
+    grids, at = np.unique(results.node, return_inverse=True)
+    stated = np.zeros(grids.size, bool)
+    stated[at[is_total]] = True
+    worst, where = 0.0, (0, 0)
+    for k, force in enumerate(results.force.astype(np.float64)):
+        for part in (slice(0, 3), slice(3, 6)):
+            values = force[:, part]
+            size = np.abs(values).max(axis=1)
+            largest = np.zeros(grids.size)
+            np.maximum.at(largest, at, size)
+            signed = np.where(is_total[:, None], -values, values)
+            rest = np.stack([np.bincount(at, signed[:, c], grids.size) for c in range(3)], axis=1)
+            scale = np.maximum(largest, 1e-3 * size.max(initial=0.0))
+            residual = np.divide(np.abs(rest).max(axis=1), scale, out=np.zeros(grids.size), where=scale > 0) * stated
+            if residual.max() > worst:
+                worst, where = float(residual.max()), (int(grids[residual.argmax()]), int(results.mode[k]))
+    if worst <= BALANCE_GREEN:
+        return AuditRow("grid totals", "green", worst, f"the rows of every grid add up to its total within {worst:.2g}")
+    return AuditRow(
+        "grid totals",
+        "red",
+        worst,
+        f"the rows of grid {where[0]} in mode {where[1]} miss their stated total by {worst:.2g} of the largest row",
+        "Copy the file again or repeat the run: a number is damaged, or rows are missing",
+    )
+
+
+def _sign(results: FeResults, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
+    """Find the sign convention from work (mode shapes) or from applied loads (static subcases)."""
+    value, found, finding = _work(results) if results.shape_node.size else (None, None, "the file has no mode shapes")
+    if found is None and results.analysis == "static":
+        value, found, finding = _static_sign(results)
+    if found is None:
+        light: Light = "amber"
+        remedy = "State the sign convention; prove it with the one-element tension patch" if stated is None else REQUEST
+        return AuditRow("sign", light, value, f"{finding}: the sign is not proven", remedy), stated
+    if stated is not None and found != stated:
+        remedy = f"State {found}, or give the mode shapes of the same run"
+        return AuditRow("sign", "red", value, f"{finding}: forces {found}, but {stated} is stated", remedy), found
+    if value is not None and abs(value) > 1 + WORK_TOLERANCE and results.analysis == "modal":
+        remedy = "Give forces and mode shapes of one run"
+        return AuditRow("sign", "red", value, f"{finding}: more work than the mode has energy", remedy), found
+    return AuditRow("sign", "green", value, f"{finding}: forces {found}"), found
+
+
+def _work(results: FeResults) -> tuple[float | None, Convention | None, str]:
+    """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
+
+    Without a frequency, the signs of the elements' own works decide: a strain energy is never negative.
+    """
+    rows = np.flatnonzero(results.of_element)
+    at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
+    known = results.shape_node[at] == results.node[rows]
+    rows, at = rows[known], at[known]
+    work = np.einsum(
+        "mri,mri->mr", results.force[:, rows].astype(np.float64), results.shape[:, at].astype(np.float64), optimize=True
+    )
+    elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * results.modal_mass)
+    usable = (results.frequency > LOWEST_HZ) & (elastic > 0)
+    if usable.any():
+        ratio = work[usable].sum(axis=1) / elastic[usable]
+        k = int(np.argmax(np.abs(ratio)))
+        text = f"work over omega^2 m from {ratio.min():.5g} to {ratio.max():.5g} in {usable.sum()} modes"
+        if (ratio < 0).all() or (ratio > 0).all():
+            if abs(ratio[k]) < 1 - WORK_TOLERANCE:
+                text += " (the forces cover a part of the model)"
+            return float(ratio[k]), "on_node" if ratio[k] < 0 else "on_element", text
+        return float(ratio[k]), None, text
+    _, element = np.unique(results.element[rows], return_inverse=True)
+    each = np.stack([np.bincount(element, w) for w in work])
+    total = np.abs(each).sum()
+    if total == 0:
+        return None, None, "the mode shapes do no work on the forces"
+    balance_of_signs = float(each.sum() / total)
+    text = f"no mode has a frequency; work of the elements is {abs(balance_of_signs):.1%} of one sign"
+    if abs(balance_of_signs) < 0.8:
+        return balance_of_signs, None, text
+    return balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text
+
+
+def _static_sign(results: FeResults) -> tuple[float | None, Convention | None, str]:
+    """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements."""
+    is_load = np.isin(results.kind, ["APP-LOAD", "F-OF-SPC", "F-OF-MPC"])
+    if not is_load.any():
+        return None, None, "no applied loads or reactions in the file"
+    grids, at = np.unique(results.node, return_inverse=True)
+
+    def sums(rows: NDArray[np.bool_]) -> NDArray[np.float64]:
+        force = results.force[:, rows, :3].astype(np.float64)
+        out = np.zeros((results.mode.size, grids.size, 3))
+        np.add.at(out, (slice(None), at[rows]), force)
+        return out
+
+    internal, external = sums(results.of_element), sums(is_load)
+    scale = float(np.abs(external).max())
+    if scale == 0:
+        return None, None, "all applied loads and reactions are zero"
+    correlation = -float((internal * external).sum() / (external * external).sum())
+    finding = f"element forces are {-correlation:+.5f} times the loads and reactions at their grids"
+    if abs(abs(correlation) - 1) > 0.1:
+        return correlation, None, finding
+    return -correlation, "on_node" if correlation > 0 else "on_element", finding
+
+
+def _completeness(results: FeResults, model: FeModel) -> AuditRow:
+    """Compare the shells of the mesh with those that have force rows."""
+    mesh = model.mesh
+    listed = np.unique(results.element[results.of_element])
+    stray = np.unique(results.element[results.of_element & np.isin(results.kind, sorted(SHELL_KINDS))])
+    stray = np.setdiff1d(stray, mesh.element)
+    if stray.size:
+        return AuditRow(
+            "completeness",
+            "red",
+            float(stray.size),
+            f"{stray.size} shells with forces are not in the mesh, element {stray[0]} the first",
+            "Give the mesh of the run that wrote the forces",
+        )
+    full = np.unique(results.element[shell_rows(results, model)]).size
+    some = np.intersect1d(listed, mesh.element).size
+    finding = f"{full} of {mesh.element.size} shells have forces at all their nodes"
+    if some > full:
+        finding += f", {some - full} at some nodes only"
+    light: Light = "green" if full == mesh.element.size else "amber"
+    remedy = "" if light == "green" else "Welds at the other shells are left out; widen the GPFORCE set if they matter"
+    return AuditRow("completeness", light, full / mesh.element.size, finding, remedy)
+
+
+def _interface(results: FeResults, marked: set[int]) -> list[AuditRow]:
+    """Local welds lose nearly all of their force without static modes of the interface loads."""
+    if results.analysis == "static":
+        return []
+    count = len(marked & set(results.mode.tolist()))
+    if count:
+        return [
+            AuditRow(
+                "interface modes", "green", float(count), f"{count} of {results.mode.size} modes are interface modes"
+            )
+        ]
+    return [
+        AuditRow(
+            "interface modes",
+            "amber",
+            0.0,
+            "no mode is marked as an interface (residual, constraint, attachment) mode",
+            "Name them; without them brackets and hangers lose most of their force",
+        )
+    ]
+
+
+def _masses(results: FeResults) -> list[AuditRow]:
+    """Report the generalised masses, which a simulation may have normalised otherwise."""
+    mass = results.modal_mass[np.isfinite(results.modal_mass)]
+    if not mass.size:
+        return []
+    low, high = float(mass.min()), float(mass.max())
+    if abs(low - 1) < 1e-3 and abs(high - 1) < 1e-3:
+        return [AuditRow("generalised mass", "green", 1.0, "all modes have unit generalised mass")]
+    return [
+        AuditRow(
+            "generalised mass",
+            "amber",
+            high,
+            f"generalised masses from {low:.4g} to {high:.4g}",
+            "Give the simulation's generalised masses if it normalises otherwise",
+        )
+    ]
+
+
+def _frequencies(results: FeResults, simulated: dict[int, float] | None) -> list[AuditRow]:
+    """Compare the frequencies of both sides mode by mode."""
+    if not simulated:
+        return []
+    pairs = [
+        (int(m), f, simulated[int(m)])
+        for m, f in zip(results.mode, results.frequency, strict=True)
+        if int(m) in simulated
+    ]
+    misses = [(abs(s - f) / max(f, LOWEST_HZ), m, f, s) for m, f, s in pairs if f > LOWEST_HZ]
+    if not misses:
+        return [
+            AuditRow("frequency match", "amber", None, "no mode has a frequency on both sides", "Compare them by hand")
+        ]
+    worst, mode, ours, theirs = max(misses)
+    finding = f"mode {mode}: {ours:.4g} Hz in the forces, {theirs:.4g} Hz in the simulation, worst of {len(misses)}"
+    if worst <= FREQUENCY_LIMIT:
+        return [AuditRow("frequency match", "green", worst, finding)]
+    return [
+        AuditRow(
+            "frequency match", "red", worst, finding, "Map the coordinates to the right modes, or use one modal basis"
+        )
+    ]

@@ -1,0 +1,112 @@
+"""Which reader a foreign file needs, recognised by its first bytes and not by its name."""
+
+from pathlib import Path
+from typing import Literal
+
+from fatigue.errors import DataError, Problem
+from fatigue.readers.fe_model import FeModel
+from fatigue.readers.fe_results import FeResults
+from fatigue.readers.foreign_history import ForeignHistory
+from fatigue.readers.mcf import is_mcf, read_mcf
+from fatigue.readers.nastran_bdf import read_bdf
+from fatigue.readers.nastran_h5 import read_h5, read_h5_model
+from fatigue.readers.nastran_op2 import read_op2
+from fatigue.readers.nastran_punch import read_punch
+from fatigue.readers.text_history import read_parquet_history, read_text_history
+
+Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
+
+_HEAD = 200_000
+_OP2_STARTS = (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08")
+_BULK_WORDS = ("GRID", "BEGIN", "CEND", "INCLUDE", "CQUAD4", "CTRIA3", "SOL ")
+
+
+def recognise(path: Path) -> Format:
+    """Tell the format of a file by its content.
+
+    Raises
+    ------
+    DataError : missing, unreadable or empty file, an unknown binary format
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(_HEAD)
+    except OSError as error:
+        raise DataError(
+            Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
+        ) from error
+    if not head:
+        raise DataError(Problem("empty", str(path), "the file is empty", "Give the file that the solver wrote"))
+    if head.startswith(b"\x89HDF\r\n\x1a\n"):
+        return "h5"
+    if head.startswith(b"PAR1"):
+        return "parquet"
+    if head[:4] in _OP2_STARTS:
+        return "op2"
+    if b"\0" in head:
+        raise DataError(
+            Problem(
+                "unknown_binary",
+                str(path),
+                "an unknown binary format",
+                "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table",
+            )
+        )
+    text = head.decode("utf-8", errors="replace")
+    if is_mcf(text):
+        return "mcf"
+    starts = {line[:8].upper().replace("*", " ").rstrip() for line in text.splitlines()}
+    if any(line.startswith(("$TITLE", "$SUBCASE", "$GRID POINT", "$LABEL")) for line in text.splitlines()[:50]):
+        return "punch"
+    if any(start.startswith(_BULK_WORDS) for start in starts):
+        return "bdf"
+    return "text"
+
+
+def read_forces(path: Path, subcase: int | None) -> FeResults:
+    """Read grid point forces from any format that holds them."""
+    form = recognise(path)
+    if form == "op2":
+        return read_op2(path, subcase)
+    if form == "h5":
+        return read_h5(path, subcase)
+    if form == "punch":
+        return read_punch(path, subcase)
+    raise DataError(
+        Problem(
+            "no_forces", str(path), f"a file of format {form} holds no grid point forces", "Give .op2, MSC .h5 or .pch"
+        )
+    )
+
+
+def read_model(path: Path) -> FeModel:
+    """Read geometry from any format that holds it."""
+    form = recognise(path)
+    if form == "bdf":
+        return read_bdf(path)
+    if form == "h5":
+        return read_h5_model(path)
+    raise DataError(
+        Problem(
+            "no_mesh", str(path), f"a file of format {form} holds no mesh", "Give the bulk data (.bdf, .dat) or MSC .h5"
+        )
+    )
+
+
+def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
+    """Read modal coordinates from any format that holds them."""
+    form = recognise(path)
+    if form == "mcf":
+        return read_mcf(path)
+    if form == "parquet":
+        return read_parquet_history(path, columns, time_column)
+    if form == "text":
+        return read_text_history(path, columns, time_column)
+    raise DataError(
+        Problem(
+            "no_coordinates",
+            str(path),
+            f"a file of format {form} holds no modal coordinates",
+            "Export them as a text table, .parquet or .mcf",
+        )
+    )

@@ -1,0 +1,94 @@
+"""Write a folder of neutral files whole or not at all, and never over files of somebody else."""
+
+import hashlib
+import json
+import shutil
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.csv as pa_csv
+import pyarrow.parquet as pq
+
+from fatigue.errors import DataError, Problem, refuse
+
+RECORD = "convert.json"
+"""Lists the files of a conversion with their hashes; what it lists unchanged may be written again."""
+
+
+def sha256(path: Path) -> str:
+    """Hash of a file's content."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def check_folder(folder: Path, names: list[str], editable: str) -> None:
+    """Refuse to overwrite files that an earlier conversion did not write, or that were changed since.
+
+    Parameters
+    ----------
+    names : files that will be written
+    editable : file that is meant to be edited, and was read before
+
+    Raises
+    ------
+    DataError : ``folder`` is a file, or holds such files
+    """
+    if folder.exists() and not folder.is_dir():
+        raise DataError(Problem("not_a_folder", str(folder), "this is a file", "Name a folder"))
+    try:
+        own: dict[str, str] = json.loads((folder / RECORD).read_text("utf-8"))["files"]
+    except (OSError, ValueError, KeyError, TypeError):
+        own = {}
+    problems = []
+    for name in names:
+        path = folder / name
+        if name in (RECORD, editable) and own:
+            continue
+        if path.exists() and own.get(name) != sha256(path):
+            what = "was changed since it was converted" if name in own else "is not the work of an earlier conversion"
+            problems.append(
+                Problem("foreign_file", str(path), f"the file exists and {what}", "Use --force, or another folder")
+            )
+    refuse(DataError, problems)
+
+
+def write_folder(folder: Path, files: Mapping[str, pa.Table | str], record: Mapping[str, Any], last: str) -> None:
+    """Write tables (by suffix) and texts into a folder beside the target, then move them in, ``last`` at the very end.
+
+    Raises
+    ------
+    DataError : the folder cannot be written
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        stage = Path(tempfile.mkdtemp(prefix=".convert-", dir=folder))
+    except OSError as error:
+        raise DataError(
+            Problem("unwritable", str(folder), f"cannot be written ({error.strerror})", "Name another")
+        ) from error
+    try:
+        for name, content in files.items():
+            _write(stage / name, content)
+        hashes = {name: sha256(stage / name) for name in sorted(files)}
+        text = json.dumps({**record, "files": hashes}, indent=1, allow_nan=False) + "\n"
+        (stage / RECORD).write_text(text, "utf-8")
+        for name in sorted([*files, RECORD], key=lambda n: (n == last, n)):
+            (stage / name).replace(folder / name)
+    except OSError as error:
+        raise DataError(
+            Problem("unwritable", str(folder), f"cannot be written ({error.strerror})", "Name another")
+        ) from error
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+
+
+def _write(path: Path, content: pa.Table | str) -> None:
+    if isinstance(content, str):
+        path.write_text(content, "utf-8", newline="\n")
+    elif path.suffix == ".csv":
+        pa_csv.write_csv(content, path)
+    else:
+        pq.write_table(content, path, compression="zstd")

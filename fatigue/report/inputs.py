@@ -1,0 +1,97 @@
+"""The input files of a finished result, found again and checked by their hashes, for what a report draws from them."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fatigue.case import Case, Event
+from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.life.history import ModalHistory, kept
+from fatigue.readers.body import Mesh, read_mesh
+from fatigue.readers.history import read_history
+from fatigue.results import sha256
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inputs:
+    """The inputs of a result: the case as it was assessed, the folder of its files and their hashes.
+
+    ``root`` is None where the case file was not found any more.
+    """
+
+    case: Case
+    root: Path | None
+    hashes: Mapping[str, str]
+    modes: tuple[int, ...]
+
+    def history(self, event: Event) -> ModalHistory:
+        """Read the kept record of an event as it was assessed, stress factor not applied.
+
+        Raises
+        ------
+        DataError : the file is not there any more or is not the one that was assessed
+        """
+        path = self._unchanged(event.history)
+        ignored = self.case.body.ignore_modes
+        whole, _ = read_history(path, event.name, np.array(self.modes, dtype=np.int64), ignored, strict=False)
+        return kept(whole, event.start_s)
+
+    def mesh(self) -> Mesh | None:
+        """Read the mesh for pictures; None where the case names none.
+
+        Raises
+        ------
+        DataError : a file is not there any more or is not the one that was assessed
+        """
+        body = self.case.body
+        if body.nodes is None or body.elements is None:
+            return None
+        mesh, _ = read_mesh(self._unchanged(body.nodes), self._unchanged(body.elements), strict=False)
+        return mesh
+
+    def _unchanged(self, name: str) -> Path:
+        if self.root is None:
+            raise DataError(
+                Problem("missing_case", name, "the case of this result was not found", "Name the case file as well")
+            )
+        path = self.root / name
+        if not path.is_file():
+            raise DataError(Problem("missing_file", name, "is not there any more", "Put it back"))
+        if sha256(path) not in self.hashes.values():
+            raise DataError(Problem("changed_input", name, "has changed since the assessment", "Assess the case again"))
+        return path
+
+
+def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None) -> Inputs:
+    """Find the inputs of the result with this provenance record.
+
+    The case file is looked for where ``case_path`` says, else in the result folder, beside it and in the current folder;
+    it counts as found when its text is the one that was assessed.
+
+    Raises
+    ------
+    DataError : the case text in the record is no case, so the record is damaged
+    """
+    text: str = record["case_text"]
+    name: str = record["case_file"]
+    try:
+        case = Case.model_validate(tomllib.loads(text))
+    except (ValueError, FatigueError) as error:
+        raise DataError(
+            Problem("damaged_result", "provenance.json", f"holds no valid case ({error})", "Run the assessment again")
+        ) from None
+    wanted = [case_path] if case_path is not None else [place / name for place in (folder, folder.parent, Path())]
+    found = next((path for path in wanted if _holds(path, text)), None)
+    hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
+    return Inputs(case, None if found is None else found.parent, hashes, tuple(record["modes"]["used"]))
+
+
+def _holds(path: Path, text: str) -> bool:
+    try:
+        return path.read_bytes().decode("utf-8-sig") == text
+    except (OSError, UnicodeDecodeError):
+        return False

@@ -1,0 +1,125 @@
+"""Stress histories and spectra of the points shown in detail, recovered from the histories of the modal coordinates."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.history import ModalHistory
+from fatigue.spectrum.moments import has_spectrum, segment_spectra
+
+EXCERPT_SAMPLES = 500  # of the close-up around a cycle
+ENVELOPE_BINS = 600  # of the whole record
+DOMINANT_MODES = 4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """One event as every point needs it: modal coordinates with the stress factor applied, and their covariance."""
+
+    history: ModalHistory
+    covariance: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spectrum:
+    """One-sided stress spectrum of one event: frequency [Hz], density [MPa^2/Hz]."""
+
+    event: str
+    frequency: NDArray[np.float64]
+    density: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Excerpt:
+    """Stress around one cycle: file time [s], structural stress and the parts of the dominant modes [MPa].
+
+    ``start_s`` and ``end_s`` are the two instants of the cycle.
+    """
+
+    event: str
+    start_s: float
+    end_s: float
+    time: NDArray[np.float64]
+    stress: NDArray[np.float64]
+    parts: Mapping[int, NDArray[np.float64]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Envelope:
+    """Smallest and largest structural stress [MPa] in equal spans of one record over file time [s]."""
+
+    event: str
+    time: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+
+
+def prepared(history: ModalHistory, stress_factor: float) -> Record:
+    """Scale a record with its stress factor and compute the covariance of its modal coordinates."""
+    q = history.q * stress_factor
+    centred = q - q.mean(axis=1, keepdims=True, dtype=np.float64)
+    return Record(replace(history, q=q), np.asarray(centred @ centred.T, dtype=np.float64) / q.shape[1])
+
+
+def spectrum(record: Record, shape: NDArray[np.float64], segment_s: float, upper_hz: float) -> Spectrum | None:
+    """Welch spectrum of the stress ``shape @ q`` (m,); None where the record is shorter than one segment."""
+    if not has_spectrum(record.history, segment_s):
+        return None
+    history = record.history
+    stress = replace(history, q=(shape @ history.q)[None])
+    spectra = segment_spectra(stress, segment_s, upper_hz)
+    density = np.mean(np.abs(spectra.amplitude[:, :, 0]) ** 2, axis=0)
+    return Spectrum(history.event, spectra.frequency, density)
+
+
+def variance_shares(record: Record, shape: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Share of each mode in the variance of the stress (m,): ``s_k (C s)_k / s' C s``; shares sum to 1.
+
+    A negative share is that of a mode that relieves the others. All are NaN where nothing varies.
+    """
+    parts = shape * (record.covariance @ shape)
+    total = parts.sum()
+    return np.asarray(parts / total if total > 0.0 else np.full_like(parts, np.nan))
+
+
+def excerpt(record: Record, shape: NDArray[np.float64], start_s: float, end_s: float, modes: Sequence[int]) -> Excerpt:
+    """Cut the stress around one cycle; a cycle longer than the close-up is thinned out, its two instants kept.
+
+    ``modes`` are the rows of q whose parts of the stress are shown.
+    """
+    history = record.history
+    last = history.q.shape[1] - 1
+    ends = sorted(round((t - history.start) / history.step) for t in (start_s, end_s))
+    margin = max(20, (ends[1] - ends[0]) // 2)
+    first, stop = max(0, ends[0] - margin), min(last, ends[1] + margin) + 1
+    keep = np.unique(np.concatenate([np.arange(first, stop, max(1, (stop - first) // EXCERPT_SAMPLES)), ends]))
+    keep = keep[(keep >= 0) & (keep <= last)]
+    q = history.q[:, keep]
+    return Excerpt(
+        event=history.event,
+        start_s=start_s,
+        end_s=end_s,
+        time=history.start + history.step * keep,
+        stress=shape @ q,
+        parts={int(history.mode[k]): shape[k] * (q[k] - history.q[k].mean(dtype=np.float64)) for k in modes},
+    )
+
+
+def envelope(record: Record, shape: NDArray[np.float64]) -> Envelope:
+    """Extremes of the stress over the whole kept record, in at most ``ENVELOPE_BINS`` spans."""
+    history = record.history
+    stress = shape @ history.q
+    starts = np.linspace(0, len(stress), min(ENVELOPE_BINS, len(stress)), endpoint=False).astype(np.int64)
+    return Envelope(
+        event=history.event,
+        time=history.start + history.step * starts,
+        low=np.minimum.reduceat(stress, starts),
+        high=np.maximum.reduceat(stress, starts),
+    )
+
+
+def deviations(record: Record, shapes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Standard deviation of the stress at many stations: (n, m) -> (n,) [MPa]."""
+    return np.sqrt(np.maximum(((shapes @ record.covariance) * shapes).sum(axis=1), 0.0))

@@ -1,0 +1,151 @@
+"""The S-N curve of a weld once more, from the case text and from constants copied here a second time."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gamma, gammainc
+
+Floats = NDArray[np.float64]
+
+# ASME VIII-2 Annex 3-F, Table 3-F.11M: h and C of the master curve, C at the mean and one, two, three sigma below it
+MASTER = {
+    "master-steel": (0.31950, {"mean": 19930.2, "mean-1sigma": 16629.7, "mean-2sigma": 13875.7, "mean-3sigma": 11577.9}),
+    "master-aluminium": (0.27712, {"mean": 3495.13, "mean-1sigma": 2845.42, "mean-2sigma": 2316.48, "mean-3sigma": 1885.87}),
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curve:
+    """A curve in log-log axes: slope of each segment and one point (ln cycles, ln range) on it, ranges at the knees.
+
+    Ranges below ``cutoff`` do no damage. ``is_dS`` tells the master curve from curves in structural stress; their
+    thickness rule is ``(t / reference)^exponent`` for t above the reference, the master curve's has the exponent 2/9.
+    """
+
+    slopes: tuple[float, ...]
+    points: tuple[tuple[float, float], ...]
+    knees: tuple[float, ...]
+    cutoff: float
+    is_dS: bool
+    thickness_reference: float | None
+    thickness_exponent: float
+    thickness_limits: tuple[float, float]
+
+    @property
+    def is_straight(self) -> bool:
+        """One slope for all ranges."""
+        return len(self.slopes) == 1 and self.cutoff == 0.0
+
+    def damage(self, x: Floats) -> Floats:
+        """Damage 1/N of a cycle of each range."""
+        log_cycles = np.full(len(x), np.inf)
+        with np.errstate(divide="ignore"):
+            log_x = np.log(x)
+        for j, (k, (log_n, log_s)) in enumerate(zip(self.slopes, self.points, strict=True)):
+            above = x >= (self.knees[j] if j < len(self.knees) else 0.0)
+            here = above & (x >= self.cutoff) & np.isinf(log_cycles)
+            log_cycles[here] = log_n + k * (log_s - log_x[here])
+        return np.exp(-log_cycles)
+
+    def mean_damage(self, scale: float, shape: float) -> float:
+        """Mean damage of cycles whose ranges exceed x with probability ``exp(-(x / scale)^shape)``."""
+        if scale == 0.0:
+            return 0.0
+        total = 0.0
+        upper = np.inf
+        for j, (k, (log_n, log_s)) in enumerate(zip(self.slopes, self.points, strict=True)):
+            lower = max(self.knees[j] if j < len(self.knees) else 0.0, self.cutoff)
+            a = 1.0 + k / shape
+            share = gammainc(a, (upper / scale) ** shape) - gammainc(a, (lower / scale) ** shape)
+            total += np.exp(k * (np.log(scale) - log_s) - log_n) * gamma(a) * share
+            upper = lower
+        return float(total)
+
+    def size_factor(self, thickness: float) -> float:
+        """Factor of the plate thickness [mm] on the range."""
+        if self.is_dS:
+            return float(np.clip(thickness, *self.thickness_limits)) ** (2.0 / 9.0)
+        if self.thickness_reference is None or thickness <= self.thickness_reference:
+            return 1.0
+        return float((thickness / self.thickness_reference) ** self.thickness_exponent)
+
+
+def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> Curve:
+    """Make a curve as the case asks for it.
+
+    Master curves are those of this module and curves of the case those of its text; what else the catalogue holds is taken from
+    the provenance, which lists slopes, knees and ranges.
+    """
+    asked = case["curve"]
+    own = case.get("curves", {}).get(name)
+    if name in MASTER:
+        h, ranges = MASTER[name]
+        slopes, knees_cycles, reference, is_dS = (1.0 / h,), [], 1.0, True
+        thickness = None, 0.0
+    elif own is not None:
+        slopes, knees_cycles, reference = tuple(own["slopes"]), list(own.get("knees_cycles", [])), 2e6
+        ranges, is_dS = _levels(own), own["applies"] == "dS"
+        thickness = own.get("thickness_reference_mm"), own.get("thickness_exponent", 0.0)
+    else:
+        listed = record["curves"][name]
+        slopes, knees_cycles = tuple(listed["slopes"]), list(listed["knees_cycles"])
+        reference, ranges, is_dS = listed["reference_cycles"], listed["reference_range"], listed["applies"] == "dS"
+        thickness = listed["thickness_reference_mm"], listed["thickness_exponent"]
+
+    level = asked.get("survival", "mean-2sigma") if len(ranges) > 1 else next(iter(ranges))
+    extension = asked.get("extension", "none")
+    if extension != "none":
+        knees_cycles = [asked.get("knee_cycles", 1e7)]
+        slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
+    points, knees = _through(float(ranges[level]), reference, slopes, knees_cycles)
+    return Curve(
+        slopes=slopes,
+        points=points,
+        knees=knees[: len(slopes) - 1],
+        cutoff=knees[-1] if len(knees) == len(slopes) else 0.0,
+        is_dS=is_dS,
+        thickness_reference=thickness[0],
+        thickness_exponent=thickness[1],
+        thickness_limits=(16.0, 150.0) if asked.get("thickness_rule", "actual") == "asme" else (0.0, np.inf),
+    )
+
+
+def ratio_factor(r: Floats) -> Floats:
+    """``I(r)^(1/m)`` of ASME VIII-2 5.5.5.2, load controlled."""
+    return np.polyval([-0.17, -0.364, 1.23], r) / np.polyval([-0.178, -0.306, 1.007], r)
+
+
+def _levels(own: Mapping[str, Any]) -> dict[str, float]:
+    """Ranges of a curve of the case at 2e6 cycles for each survival level."""
+    at_2e6 = own["range_at_2e6_MPa"]
+    if "log10_scatter" not in own:
+        return {"as tabulated": at_2e6}
+    knees = list(own.get("knees_cycles", []))
+    k = own["slopes"][_segment_at(2e6, own["slopes"], knees)]
+    names = ("mean", "mean-1sigma", "mean-2sigma", "mean-3sigma")
+    return {name: at_2e6 / 10.0 ** (own["log10_scatter"] * sigmas / k) for sigmas, name in enumerate(names)}
+
+
+def _segment_at(cycles: float, slopes: tuple[float, ...], knees_cycles: list[float]) -> int:
+    return min(sum(knee < cycles for knee in knees_cycles), len(slopes) - 1)
+
+
+def _through(
+    range_: float, cycles: float, slopes: tuple[float, ...], knees_cycles: list[float]
+) -> tuple[tuple[tuple[float, float], ...], tuple[float, ...]]:
+    """Walk along the curve from one point of it: a point on every segment, and the range at every knee."""
+    start = _segment_at(cycles, slopes, knees_cycles)
+    points = {start: (np.log(cycles), np.log(range_))}
+    knees = {}
+    for j in range(start, len(knees_cycles)):  # towards more cycles
+        log_n, log_s = points[j]
+        knees[j] = log_s - (np.log(knees_cycles[j]) - log_n) / slopes[j]
+        points[j + 1] = (np.log(knees_cycles[j]), knees[j])
+    for j in range(start, 0, -1):  # towards fewer
+        log_n, log_s = points[j]
+        knees[j - 1] = log_s + (log_n - np.log(knees_cycles[j - 1])) / slopes[j]
+        points[j - 1] = (np.log(knees_cycles[j - 1]), knees[j - 1])
+    return tuple(points[j] for j in range(len(slopes))), tuple(float(np.exp(knees[j])) for j in sorted(knees))

@@ -1,0 +1,138 @@
+"""The inputs of a result, found again, compared with the hashes in its provenance, and read anew with pandas."""
+
+import hashlib
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem, refuse
+
+FORCE_COLUMNS = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inputs:
+    """The case text, parsed, and the folder its file names are relative to."""
+
+    case: Mapping[str, Any]
+    folder: Path
+
+    def frame(self, key: str) -> pd.DataFrame:
+        """Read one table of the body."""
+        return read_frame(self.folder / self.case["body"][key])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Modes:
+    """The modes that are used, by ascending id.
+
+    Attributes
+    ----------
+    mode : (m,) ids
+    force_factor : (m,) turns the forces in the file into those on the element per unit coordinate of the simulation
+    highest_normal_hz : highest frequency of a normal mode, infinite without one
+    """
+
+    mode: NDArray[np.int64]
+    force_factor: NDArray[np.float64]
+    highest_normal_hz: float
+
+
+def open_inputs(record: Mapping[str, Any], result: Path, case_folder: Path | None) -> Inputs:
+    """Find the input files of a result and make sure they are the very files it was computed from.
+
+    Parameters
+    ----------
+    record : provenance of the result
+    result : the result folder
+    case_folder : folder of the case file; None: the one in the provenance, beside the result or the current one
+
+    Raises
+    ------
+    DataError : the case file is nowhere to be found, or inputs are missing or changed; all of them are named
+    """
+    folder = case_folder or _folder_of_case(record, result)
+    refuse(DataError, _changes(record, folder))
+    return Inputs(tomllib.loads((folder / record["case_file"]).read_text(encoding="utf-8-sig")), folder)
+
+
+def _folder_of_case(record: Mapping[str, Any], result: Path) -> Path:
+    recorded = [result / record["case_folder"]] if "case_folder" in record else []
+    for folder in (*recorded, result.resolve().parent, result, Path.cwd()):
+        if (folder / record["case_file"]).is_file():
+            return folder
+    raise DataError(
+        Problem(
+            "missing_input",
+            str(result),
+            f"the inputs are not to be found: no {record['case_file']} beside the result or in the current folder",
+            "Give the folder of the case file",
+        )
+    )
+
+
+def _changes(record: Mapping[str, Any], folder: Path) -> Iterator[Problem]:
+    """Name every input that is no longer what it was."""
+    for known in record["inputs"]:
+        path = folder / known["file"]
+        if not path.is_file():
+            yield Problem(
+                "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"
+            )
+        elif hashlib.sha256(path.read_bytes()).hexdigest() != known["sha256"]:
+            what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
+            yield Problem("changed_input", str(path), what, "Assess again, or put the old file back")
+
+
+def read_frame(path: Path) -> pd.DataFrame:
+    """Read a table of the neutral format; weld names and other texts stay texts."""
+    if path.suffix.lower() == ".parquet":
+        frame = pd.read_parquet(path)
+    else:
+        texts = dict.fromkeys(("weld", "surface", "curve", "kind", "description"), str)
+        frame = pd.read_csv(path, dtype=texts, float_precision="round_trip", keep_default_na=False, na_values=[""])  # type: ignore[call-overload]
+    frame.columns = frame.columns.str.strip()
+    if "weld" in frame:
+        frame["weld"] = frame["weld"].astype(str).str.strip()
+    return frame
+
+
+def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[np.float64]:
+    """Numbers of a column, (r,); the default where the cell is empty or the column absent."""
+    if name not in frame:
+        return np.full(len(frame), default)
+    return pd.to_numeric(frame[name]).astype(float).fillna(default).to_numpy()
+
+
+def flags(frame: pd.DataFrame, name: str) -> NDArray[np.bool_]:
+    """Flags of a column, (r,), false where absent or empty."""
+    if name not in frame:
+        return np.zeros(len(frame), dtype=bool)
+    return frame[name].astype(str).str.strip().str.lower().isin(["true", "1", "1.0"]).to_numpy()
+
+
+def texts(frame: pd.DataFrame, name: str) -> list[str]:
+    """Texts of a column, empty where absent or empty."""
+    if name not in frame:
+        return [""] * len(frame)
+    return [str(text).strip() for text in frame[name].astype(object).where(frame[name].notna(), "")]
+
+
+def read_modes(inputs: Inputs) -> Modes:
+    """Read the modes that are not ignored."""
+    body = inputs.case["body"]
+    frame = inputs.frame("modes").sort_values("mode")
+    frame = frame[~frame["mode"].isin(body.get("ignore_modes", []))]
+    sign = {"on_element": 1.0, "on_node": -1.0}[body["force_convention"]]
+    normal = np.array([kind in ("", "normal") for kind in texts(frame, "kind")])
+    return Modes(
+        mode=frame["mode"].to_numpy(dtype=np.int64),
+        force_factor=sign * column(frame, "scale", 1.0),
+        highest_normal_hz=float(frame["frequency_hz"].to_numpy(dtype=float)[normal].max(initial=0.0)) or np.inf,
+    )
