@@ -2,28 +2,29 @@
 
 import logging
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fatigue.body import Body, read_body
 from fatigue.case import Case
 from fatigue.checkpoint import Checkpoint, locked, state_key
-from fatigue.cycles import weld_cycles
+from fatigue.cycles import point_cycles
 from fatigue.errors import Problem
 from fatigue.event_block import EventLoad, assess_event_block
-from fatigue.events import event_load, mission_plan
+from fatigue.events import event_loads, mission_plan
 from fatigue.folder import publish, refuse_foreign, result_log
 from fatigue.life.mission import Plan
-from fatigue.model import Model, read_model
+from fatigue.model import GROUP, Model, check_forces, solve_welds, weld_groups
 from fatigue.provenance import provenance_record
 from fatigue.register import PointLives, toe_faces, weld_rows, worst_points
-from fatigue.results import input_register, software_versions, table_writer, write_json
+from fatigue.results import TableWriter, input_register, result_tables, software_versions, write_json
 from fatigue.stations import BLOCK, Block, cut_blocks, shapes_of
 from fatigue.tables import damage_rows, mission_block, node_rows, stress_rows
 
@@ -70,115 +71,143 @@ def assess(
     CaseError, DataError : the case or its files are wrong; nothing has been written then
     NumericalError : a computation lost its footing
     """
-    model = read_model(case, strict=strict)
-    plan, doubts = mission_plan(model)
-    blocks = cut_blocks(model.stations, model.curve_of_weld)
+    body = read_body(case, strict=strict)
+    plan, record_warnings = mission_plan(body)
+    check_forces(body)
     inputs = input_register(sorted({case.path, *case.input_files().values()}), case.path.parent)
-    key = state_key({"inputs": inputs, "software": software_versions(), "block": BLOCK})
+    key = state_key({"inputs": inputs, "software": software_versions(), "blocks": (GROUP, BLOCK)})
 
     refuse_foreign(folder, force=force)
     with locked(folder), result_log(folder), one_blas_thread(), Checkpoint(folder, key) as state:
-        log.info("assessing '%s': %d stations, %d events", case.path.name, len(model.stations), len(plan.passes))
-        with workers(threads) as executor:
-            for number, event in enumerate(case.mission.event):
-                count_event(number, event_load(model, event), blocks, model, state, executor, progress)
-        log.info("%d of %d blocks were there from an earlier run", state.reused, len(blocks) * len(plan.passes))
-
-        tables = state.folder / "tables"
-        tables.mkdir(exist_ok=True)
-        lives, sampling = write_points(tables, blocks, model, plan, state)
-        worst = worst_points(model, lives)
-        with table_writer(tables, "cycles") as cycles:
-            for rows in weld_cycles(model, worst):
-                cycles.write(rows)
-        with table_writer(tables, "welds") as welds:
-            welds.write(weld_rows(model, plan, lives, worst))
-        warnings = (*model.warnings, *doubts, *sampling)
-        write_json(tables / "provenance.json", provenance_record(model, plan, folder, inputs, warnings))
-        publish(tables, folder)
+        log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
+        loads = event_loads(body)
+        done = Tally(total=sum(len(line.node) for line in body.lines) * len(loads), progress=progress)
+        unpublished = state.folder / "tables"
+        with workers(threads) as executor, result_tables(unpublished) as tables:
+            for number, group in enumerate(weld_groups(body)):
+                model = solve_welds(body, group)
+                blocks = cut_blocks(model.stations, model.curve_of_weld)
+                parts = count_group(number, model, blocks, loads, state, executor, done)
+                write_group(tables, model, blocks, parts, loads, plan, state, done)
+        log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
+        warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, plan, done))
+        write_json(unpublished / "provenance.json", provenance_record(body, plan, folder, inputs, warnings))
+        publish(unpublished, folder)
         log.info("the result is complete")
-    return Assessment(
-        folder=folder,
-        fulfilled=all(lives.utilisation[point.station, point.face] <= 1.0 for point in worst),
-        warnings=warnings,
-        blocks=len(blocks) * len(plan.passes),
-        blocks_reused=state.reused,
-    )
+    return Assessment(folder, done.fulfilled, warnings, done.blocks, state.reused)
 
 
-def count_event(
+@dataclass(slots=True, eq=False)
+class Tally:
+    """What adds up while groups of welds stream by: progress, verdict, doubts, and the sampling of the records."""
+
+    total: int
+    progress: Progress
+    stations: int = 0
+    blocks: int = 0
+    fulfilled: bool = True
+    warnings: list[Problem] = field(default_factory=list)
+    samples_per_peak: dict[str, float] = field(default_factory=dict)
+
+    def finished(self, block: Block) -> None:
+        """Count a finished block of one event; raw end values come on top of the stations."""
+        self.blocks += 1
+        self.stations += 0 if block.raw else len(block.rows)
+        self.progress("assessing", min(self.stations, self.total), self.total)
+
+    def sampled(self, event: str, samples_per_peak: NDArray[np.float64]) -> None:
+        """Remember the fewest samples per peak of an event."""
+        fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
+        self.samples_per_peak[event] = min(fewest, self.samples_per_peak.get(event, np.inf))
+
+
+def count_group(
     number: int,
-    load: EventLoad,
-    blocks: Sequence[Block],
     model: Model,
+    blocks: Sequence[Block],
+    loads: Sequence[EventLoad],
     state: Checkpoint,
     executor: Executor,
-    progress: Progress,
-) -> None:
-    """Count one event on every block that no earlier run has finished."""
-    curve = model.case.curve
+    done: Tally,
+) -> list[list[str]]:
+    """Count every event on every block of a group of welds, except what an earlier run has finished.
 
-    def count(block: Block) -> None:
-        shapes = shapes_of(model.stations, block, model.curves, curve.thickness_rule)
-        state.save(number, block.index, assess_event_block(shapes, load, curve.yield_MPa, curve.mean_stress == "asme"))
-
-    label = f"event {number + 1} of {len(model.case.mission.event)}"
-    waiting = [block for block in blocks if not state.has(number, block.index)]
-    done = len(blocks) - len(waiting)
-    for finished in as_completed([executor.submit(count, block) for block in waiting]):
-        finished.result()
-        done += 1
-        progress(label, done, len(blocks))
-
-
-def write_points(
-    folder: Path, blocks: Sequence[Block], model: Model, plan: Plan, state: Checkpoint
-) -> tuple[PointLives, list[Problem]]:
-    """Weight the events with the mission block by block and write the tables of all points.
-
-    Returns what the weld register needs of every point, and the doubts about the sampling of the records.
+    Returns the names of the finished parts, (block, event).
     """
+    curve = model.case.curve
+    parts = [[f"group-{number:05d}-block-{b.index:03d}-event-{e:04d}" for e in range(len(loads))] for b in blocks]
+
+    def count(block: Block, load: EventLoad, part: str) -> Block:
+        shapes = shapes_of(model.stations, block, model.curves, curve.thickness_rule)
+        state.save(part, assess_event_block(shapes, load, curve.yield_MPa, curve.mean_stress == "asme"))
+        return block
+
+    waiting = []
+    for block, names in zip(blocks, parts, strict=True):
+        for load, part in zip(loads, names, strict=True):
+            if state.has(part):
+                done.finished(block)
+            else:
+                waiting.append(executor.submit(count, block, load, part))
+    for finished in as_completed(waiting):
+        done.finished(finished.result())
+    return parts
+
+
+def write_group(
+    tables: Mapping[str, TableWriter],
+    model: Model,
+    blocks: Sequence[Block],
+    parts: Sequence[Sequence[str]],
+    loads: Sequence[EventLoad],
+    plan: Plan,
+    state: Checkpoint,
+    done: Tally,
+) -> None:
+    """Weight the events of a group of welds with the mission and write its rows of every table."""
     stations, welds = model.stations, [weld.name for weld in model.welds]
     lives = PointLives.empty(len(stations))
     toes = toe_faces(model)
     raw_life = np.full((len(stations), 2), np.nan)
-    fewest_samples = np.full(len(plan.passes), np.inf)
-    with (
-        table_writer(folder, "nodes") as nodes,
-        table_writer(folder, "damage") as damage,
-        table_writer(folder, "structural_stress") as stress,
-    ):
-        for block in sorted(blocks, key=lambda b: not b.raw):  # raw values first: the rows of the nodes want them
-            parts = [state.load(event, block.index) for event in range(len(plan.passes))]
-            mission = mission_block(parts, plan, model.curves[block.curve].law)
-            if block.raw:
-                raw_life[block.rows] = mission.life_km
-                continue
-            lives.put(block.rows, mission)
-            raw = np.where(np.isnan(raw_life[block.rows]), mission.life_km, raw_life[block.rows])
-            nodes.write(node_rows(stations, block.rows, mission, raw, toes[block.rows], plan, welds))
-            damage.write(damage_rows(stations, block.rows, parts, plan, welds))
-            stress.write(stress_rows(stations, block.rows, model.modes.mode, welds))
-            samples = [np.nanmin(p.samples_per_peak, initial=np.inf) for p in parts]
-            fewest_samples = np.minimum(fewest_samples, samples)
-    return lives, sampling_warnings(model, plan, fewest_samples)
+    # raw values of the ends first: the rows of the nodes want them
+    for block, names in sorted(zip(blocks, parts, strict=True), key=lambda pair: not pair[0].raw):
+        events = [state.load(name) for name in names]
+        mission = mission_block(events, plan, model.curves[block.curve].law)
+        if block.raw:
+            raw_life[block.rows] = mission.life_km
+            continue
+        lives.put(block.rows, mission)
+        raw = np.where(np.isnan(raw_life[block.rows]), mission.life_km, raw_life[block.rows])
+        tables["nodes"].write(node_rows(stations, block.rows, mission, raw, toes[block.rows], plan, welds))
+        tables["damage"].write(damage_rows(stations, block.rows, events, plan, welds))
+        tables["structural_stress"].write(stress_rows(stations, block.rows, model.modes.mode, welds))
+        for passed, event in zip(plan.passes, events, strict=True):
+            done.sampled(passed.event, event.samples_per_peak)
+
+    worst = worst_points(model, lives)
+    for load in loads:
+        for point in worst:
+            tables["cycles"].write(point_cycles(model, load, point))
+    tables["welds"].write(weld_rows(model, plan, lives, worst))
+    done.fulfilled &= all(lives.utilisation[point.station, point.face] <= 1.0 for point in worst)
+    done.warnings += model.warnings
 
 
-def sampling_warnings(model: Model, plan: Plan, samples_per_peak: NDArray[np.float64]) -> list[Problem]:
+def sampling_warnings(body: Body, plan: Plan, done: Tally) -> list[Problem]:
     """Tell which records are sampled too coarsely for their points, and what damage that hides.
 
     A peak cut short by sampling loses ``k (pi nu_p / f_s)^2 / 6`` of its damage on average.
     """
-    slope = max(float(rated.law.slopes[0]) for rated in model.curves.values())
+    slope = max(float(rated.law.slopes[0]) for rated in body.curves.values())
     return [
         Problem(
             "sampling",
-            f"event '{event.event}'",
+            f"event '{event}'",
             f"{samples:.1f} samples per peak at the fastest point, damage there is about "
             f"{100 * slope * (np.pi / samples) ** 2 / 6:.0f} % low",
             'Set upsample = "auto" in [counting], or sample the simulation more finely',
         )
-        for event, samples in zip(plan.passes, samples_per_peak, strict=True)
+        for event, samples in done.samples_per_peak.items()
         if samples < SAMPLES_PER_PEAK
     ]
 

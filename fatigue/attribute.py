@@ -5,8 +5,9 @@ One pass over the records. Cycles are counted as in the assessment, so the parts
 the events is the ``damage_per_km`` of a point.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +15,14 @@ from numpy.typing import NDArray
 from fatigue.event_block import EventLoad
 from fatigue.life.attribution import Credit, DamageRule, credit, size_exponent
 from fatigue.life.damage import size_factor
+from fatigue.life.history import Residue
 from fatigue.life.mission import Pass
 from fatigue.life.rainflow import rainflow
 from fatigue.model import Model
+from fatigue.readers.body import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
 
 Floats = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 
 TIME_BINS = 40  # of an event that has no distance
 _SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a piece of points: 8 MB
@@ -28,15 +30,66 @@ _SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a piece of points: 8 MB
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Points:
-    """Points whose damage is shared out, (p,): station, face (0 top, 1 bottom) and why they were chosen."""
+    """Points whose damage is shared out.
 
-    station: NDArray[np.int64]
+    Attributes
+    ----------
+    weld, part, order, node, face : (p,) where they are; face 0 is the top, 1 the bottom
+    chosen : (p,) why they were chosen
+    membrane, bending : (p, m) stress shapes with treated ends, bending of the top face [MPa per unit modal coordinate]
+    rule : (p,) from stress range to damage
+    rule_exponent : (p,) d ln(size) / d ln(t) of the thickness rule
+    """
+
+    weld: NDArray[np.object_]
+    part: NDArray[np.int64]
+    order: NDArray[np.int64]
+    node: NDArray[np.int64]
     face: NDArray[np.int64]
     chosen: NDArray[np.object_]
+    membrane: Floats
+    bending: Floats
+    rule: NDArray[np.object_]
+    rule_exponent: Floats
 
     def __len__(self) -> int:
         """Count the points."""
-        return len(self.station)
+        return len(self.node)
+
+    @property
+    def side(self) -> Floats:
+        """Sign of the bending stress, +1 on the top face, -1 on the bottom face."""
+        return np.where(self.face == 0, 1.0, -1.0)
+
+    def of(self, index: NDArray[np.int64] | slice) -> Self:
+        """Take some of the points."""
+        return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self)})
+
+
+def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64], chosen: NDArray[np.object_]) -> Points:
+    """Take points of a model, given by station and face."""
+    stations, curve = model.stations, model.case.curve
+    names = np.array([weld.name for weld in model.welds], dtype=object)
+    yield_MPa = curve.yield_MPa if curve.mean_stress == "asme" else None
+    rule = np.empty(len(station), dtype=object)
+    exponent = np.empty(len(station))
+    for i, at in enumerate(station):
+        rated, t = model.curves[model.curve_of_weld[stations.weld[at]]], stations.thickness[at : at + 1]
+        size = float(size_factor(t, rated.curve, curve.thickness_rule)[0])
+        rule[i] = DamageRule(rated.law, size, rated.curve.applies == "dS", yield_MPa)
+        exponent[i] = size_exponent(float(t[0]), rated.curve, curve.thickness_rule)
+    return Points(
+        weld=names[stations.weld[station]],
+        part=stations.part[station],
+        order=stations.order[station],
+        node=stations.node[station],
+        face=face,
+        chosen=chosen,
+        membrane=stations.treated.membrane[station],
+        bending=stations.treated.bending[station],
+        rule=rule,
+        rule_exponent=exponent,
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,6 +100,7 @@ class EventAttribution:
     ----------
     event : name
     damage : (p,) Miner sum
+    top_cycle_share : (p,) share of ``damage`` that the one most damaging cycle has; NaN where nothing damages
     load_slope : (p,) by ln(load), all stresses of the event scaled
     thickness_slope : (p,) by ln(t) through the stress, at constant line force and moment: membrane ~ 1/t, bending ~ 1/t^2
     rule_slope : (p,) by ln(t) through the thickness rule of the curve
@@ -61,6 +115,7 @@ class EventAttribution:
 
     event: str
     damage: Floats
+    top_cycle_share: Floats
     load_slope: Floats
     thickness_slope: Floats
     rule_slope: Floats
@@ -79,9 +134,60 @@ class EventAttribution:
         """Whether the record is long enough for frequency bands."""
         return self.band.shape[1] > 1
 
+    @property
+    def place_length(self) -> Floats:
+        """Part of the event that each bin is long, (x,)."""
+        length = np.diff(self.place_s)
+        return np.asarray(length / length.sum())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attribution:
+    """The damage of some points shared out, event by event."""
+
+    points: Points
+    events: tuple[EventAttribution, ...]
+
+    @property
+    def damage(self) -> Floats:
+        """Miner sum of every point per km of the mission, (p,) [1/km]."""
+        return np.asarray(sum(event.damage for event in self.events))
+
+    def share(self, part: Floats) -> Floats:
+        """Divide damages or slopes (p, ...) by the damage of their point; 0 where nothing damages."""
+        damage = self.damage.reshape(-1, *[1] * (part.ndim - 1))
+        return np.divide(part, damage, out=np.zeros_like(part), where=damage > 0.0)
+
+    @property
+    def event_share(self) -> Floats:
+        """Share of every event, (p, e)."""
+        return self.share(np.stack([event.damage for event in self.events], axis=1))
+
+    @property
+    def mode_share(self) -> Floats:
+        """Share of every mode over all events, (p, m); below 0 where a mode relieves."""
+        return self.share(np.asarray(sum(event.mode for event in self.events)))
+
+    @property
+    def resonant_share(self) -> Floats:
+        """Part of `mode_share` that each mode makes within its own half-power band, (p, m); NaN without damping."""
+        return self.share(np.asarray(sum(event.resonant for event in self.events)))
+
+    @property
+    def mode_exponent(self) -> Floats:
+        """Exponents d ln(life) / d ln(amplitude) of every mode in all events, (p, m)."""
+        return -self.share(np.asarray(sum(event.mode_slope for event in self.events)))
+
+    @property
+    def band_share(self) -> Floats:
+        """Share of every frequency band, (p, b + 1); the last column is what events too short for bands make."""
+        resolved = [event.band for event in self.events if event.has_bands]
+        short = sum((event.damage for event in self.events if not event.has_bands), np.zeros(len(self.points)))
+        return self.share(np.column_stack([np.asarray(sum(resolved)), short] if resolved else [short]))
+
 
 def attribute_event(
-    model: Model, load: EventLoad, one_pass: Pass, points: Points, edges_hz: Sequence[float] | Floats, bin_km: float
+    points: Points, load: EventLoad, one_pass: Pass, modes: Modes, edges_hz: Sequence[float] | Floats, bin_km: float
 ) -> EventAttribution:
     """Share out the damage of one event at some points.
 
@@ -96,92 +202,64 @@ def attribute_event(
     time = load.counted.start + load.counted.step * np.arange(q.shape[1])
     bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
 
-    rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # depends on the record only: the numbers do not depend on the machine
+    rows = max(
+        1, _SAMPLES_AT_ONCE // q.shape[1]
+    )  # depends on the record only: the numbers do not depend on the machine
     pieces = []
     for first in range(0, len(points), rows):
-        piece = slice(first, first + rows)
-        station, face = points.station[piece], points.face[piece]
-        shapes_m = load.stress_factor * model.stations.treated.membrane[station]
-        shapes_b = load.stress_factor * model.stations.treated.bending[station]
-        side = np.where(face == 0, 1.0, -1.0)
+        some = points.of(slice(first, first + rows))
+        shapes_m, shapes_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         sigma_m, sigma_b = shapes_m @ q, shapes_b @ q
         credits = [
-            point_credit(m, b, s, damage_rule(model, at), load)
-            for m, b, s, at in zip(sigma_m, sigma_b, side, station, strict=True)
+            count_credit(m, b, side, rule, residue)
+            for m, b, side, rule in zip(sigma_m, sigma_b, some.side, some.rule, strict=True)
         ]
         share = coefficients(np.stack([c.share for c in credits]), residue)
         by_m, by_b = np.stack([c.by_membrane for c in credits]), np.stack([c.by_bending for c in credits])
-        stress_shapes = shapes_m + side[:, None] * shapes_b
-        owed = stress_shapes[:, :, None] * band_products(share, Q, bands)
+        shapes = shapes_m + some.side[:, None] * shapes_b
+        owed = shapes[:, :, None] * band_products(share, Q, bands)
         slope = shapes_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
         slope += shapes_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
         load_slope = np.array([c.slope for c in credits])
-        exponent = np.array([_size_exponent(model, at) for at in station])
         pieces.append(
-            (
-                np.array([c.damage for c in credits]),
-                load_slope,
-                -np.einsum("pt,pt->p", by_m, sigma_m) - 2.0 * np.einsum("pt,pt->p", by_b, sigma_b),
-                load_slope * exponent,
-                owed.sum(axis=2),
-                slope.sum(axis=2),
-                stress_shapes * _resonant_products(share, Q, frequency, model),
-                owed.sum(axis=1),
-                slope.sum(axis=1),
-                np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in credits]),
-            )
+            {
+                "damage": np.array([c.damage for c in credits]),
+                "top_cycle": np.array([c.top_cycle for c in credits]),
+                "load_slope": load_slope,
+                "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
+                "rule_slope": load_slope * some.rule_exponent,
+                "mode": owed.sum(axis=2),
+                "mode_slope": slope.sum(axis=2),
+                "resonant": shapes * _resonant_products(share, Q, frequency, modes),
+                "band": owed.sum(axis=1),
+                "band_slope": slope.sum(axis=1),
+                "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in credits]),
+            }
         )
-    weighted = [one_pass.passes_per_km * np.concatenate(parts) for parts in zip(*pieces, strict=True)]
+    per_pass = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    damage, top_cycle = per_pass["damage"], per_pass.pop("top_cycle")
     return EventAttribution(
-        one_pass.event, *weighted[:9], np.array([0.0, *inner, np.inf]), weighted[9], place_s, place_km
+        event=one_pass.event,
+        top_cycle_share=np.divide(top_cycle, damage, out=np.full_like(damage, np.nan), where=damage > 0.0),
+        edges_hz=np.array([0.0, *inner, np.inf]),
+        place_s=place_s,
+        place_km=place_km,
+        **{name: one_pass.passes_per_km * value for name, value in per_pass.items()},
     )
 
 
-def damage_with_mode_scaled(
-    model: Model, load: EventLoad, points: Points, mode: NDArray[np.int64], factor: float
-) -> Floats:
-    """Count one pass of an event with one mode's amplitude scaled: (p,), ``mode`` (p,) an index into the modes."""
-    damage = np.empty(len(points))
-    treated, q = model.stations.treated, load.counted.q
-    for i, (at, face, k) in enumerate(zip(points.station, points.face, mode, strict=True)):
-        scale = np.full(len(q), load.stress_factor)
-        scale[k] *= factor
-        side = 1.0 if face == 0 else -1.0
-        m, b = (scale * treated.membrane[at]) @ q, (scale * treated.bending[at]) @ q
-        damage[i] = point_credit(m, b, side, damage_rule(model, at), load).damage
-    return damage
-
-
-def point_credit(sigma_m: Floats, sigma_b: Floats, side: float, rule: DamageRule, load: EventLoad) -> Credit:
+def count_credit(sigma_m: Floats, sigma_b: Floats, side: float, rule: DamageRule, residue: Residue) -> Credit:
     """Count one face of one station, side +1 or -1, and lay its damage on the instants of its cycles."""
-    cycles = rainflow(sigma_m + side * sigma_b, load.residue)
+    cycles = rainflow(sigma_m + side * sigma_b, residue)
     return credit(cycles.start, cycles.end, cycles.count, sigma_m, sigma_b, side, rule)
 
 
-def damage_rule(model: Model, station: int) -> DamageRule:
-    """Find the rule from stress range to damage at a station: its curve, its thickness, the mean-stress option."""
-    rated = model.curves[model.curve_of_weld[model.stations.weld[station]]]
-    curve = model.case.curve
-    thickness = model.stations.thickness[station : station + 1]
-    return DamageRule(
-        law=rated.law,
-        size=float(size_factor(thickness, rated.curve, curve.thickness_rule)[0]),
-        uses_bending_ratio=rated.curve.applies == "dS",
-        yield_MPa=curve.yield_MPa if curve.mean_stress == "asme" else None,
-    )
-
-
-def _size_exponent(model: Model, station: int) -> float:
-    rated = model.curves[model.curve_of_weld[model.stations.weld[station]]]
-    return size_exponent(float(model.stations.thickness[station]), rated.curve, model.case.curve.thickness_rule)
-
-
-def _resonant_products(share: Floats, Q: Floats, frequency: Floats, model: Model) -> Floats:
+def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:
     """Products of the share vectors (p, t) with each mode's coordinate in its own half-power band: (p, m)."""
-    half_width = 2.0 * model.modes.damping_ratio * model.modes.frequency
+    half_width = 2.0 * modes.damping_ratio * modes.frequency
     products = np.full((len(share), len(Q)), np.nan)
     for k in np.flatnonzero(np.isfinite(half_width)):
-        low, high = model.modes.frequency[k] + half_width[k] * np.array([-1.0, 1.0])
+        low, high = modes.frequency[k] + half_width[k] * np.array([-1.0, 1.0])
         own = slice(*np.searchsorted(frequency, [low, high]).tolist())
         products[:, k] = share[:, own] @ Q[k, own]
     return products

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from fatigue.body import read_body
 from fatigue.case import Case
 from fatigue.errors import Problem
 from fatigue.events import mission_plan
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rainflow import count_block
-from fatigue.model import read_model
+from fatigue.model import solve_welds, weld_groups
 
 _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 
@@ -62,20 +63,22 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
     ------
     CaseError, DataError : what an assessment would refuse, this refuses with the same words
     """
-    model = read_model(case, strict=strict)
-    plan, doubts = mission_plan(model)
-    samples = len(model.stations) * sum(p.samples for p in plan.passes)
+    body = read_body(case, strict=strict)
+    plan, doubts = mission_plan(body)
+    models = [solve_welds(body, group) for group in weld_groups(body)]
+    stations = sum(len(model.stations) for model in models)
+    samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,
-        welds=len(model.welds),
-        parts=len(model.lines),
-        stations=len(model.stations),
-        modes=len(model.modes.mode),
+        welds=len(body.welds),
+        parts=sum(len(model.lines) for model in models),
+        stations=stations,
+        modes=len(body.modes.mode),
         events=len(plan.passes),
         samples=samples,
         distance_km=sum(p.length or 0.0 for p in plan.passes),
-        estimated_s=samples * _seconds_per_sample(len(model.modes.mode)),
-        warnings=(*model.warnings, *doubts),
+        estimated_s=samples * _seconds_per_sample(len(body.modes.mode)),
+        warnings=(*body.warnings, *doubts, *(w for model in models for w in model.warnings)),
     )
 
 

@@ -28,7 +28,7 @@ def state_key(record: Mapping[str, Any]) -> str:
 
 
 class Checkpoint:
-    """Finished (event, block) results of one run in a hidden folder of the result folder.
+    """Finished parts of one run, each a block of stations under one event, in a hidden folder of the result folder.
 
     A part is written beside its final name, forced to disk and renamed, so that a part is either whole or not there; a
     part that a power cut damaged all the same fails its checksum when it is read and is computed again.
@@ -54,28 +54,27 @@ class Checkpoint:
         if kind is None:
             shutil.rmtree(self._root, ignore_errors=True)
 
-    def has(self, event: int, block: int) -> bool:
+    def has(self, part: str) -> bool:
         """Whether an earlier run finished this part and it is whole; counts the parts reused."""
         try:
-            self.load(event, block)
+            self.load(part)
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
             return False
         self.reused += 1
         return True
 
-    def load(self, event: int, block: int) -> EventBlock:
+    def load(self, part: str) -> EventBlock:
         """Read a finished part; its checksums are tested on the way."""
-        with self._part(event, block).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+        with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return EventBlock(**{f.name: arrays[f.name] for f in fields(EventBlock)})
 
-    def save(self, event: int, block: int, result: EventBlock) -> None:
+    def save(self, part: str, result: EventBlock) -> None:
         """Write a finished part so that it survives a kill or a power cut at any moment."""
-        final = self._part(event, block)
-        with replacing(final) as unfinished, unfinished.open("wb") as file:
+        with replacing(self._path(part)) as unfinished, unfinished.open("wb") as file:
             np.savez(file, **{f.name: getattr(result, f.name) for f in fields(EventBlock)})
 
-    def _part(self, event: int, block: int) -> Path:
-        return self.folder / f"event-{event:04d}-block-{block:06d}.npz"
+    def _path(self, part: str) -> Path:
+        return self.folder / f"{part}.npz"
 
 
 @contextmanager

@@ -1,12 +1,10 @@
 """Every cycle of the points that govern: the table behind a weld's life, with the instants of each cycle."""
 
-from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from fatigue.event_block import EventLoad
-from fatigue.events import event_load
 from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor, size_factor
 from fatigue.life.rainflow import rainflow
 from fatigue.model import Model
@@ -14,20 +12,13 @@ from fatigue.register import WorstPoint
 from fatigue.tables import FACES
 
 
-def weld_cycles(model: Model, worst: Sequence[WorstPoint]) -> Iterator[dict[str, Any]]:
-    """Yield the rows of ``cycles.parquet``: every cycle of every event at each weld's worst point."""
-    for event in model.case.mission.event:
-        load = event_load(model, event)
-        for point in worst:
-            yield point_cycles(model, load, point)
-
-
 def point_cycles(model: Model, load: EventLoad, point: WorstPoint) -> dict[str, Any]:
     """Count one event at one point and keep every cycle, with the stress ranges between its own two instants."""
     stations, at = model.stations, point.station
     rated = model.curves[model.curve_of_weld[point.weld]]
-    membrane = load.stress_factor * stations.treated.membrane[at] @ load.counted.q
-    bending = load.stress_factor * stations.treated.bending[at] @ load.counted.q
+    q = load.counted.q.astype(np.float64, copy=False)
+    membrane = load.stress_factor * stations.treated.membrane[at] @ q
+    bending = load.stress_factor * stations.treated.bending[at] @ q
     stress = membrane + bending if point.face == 0 else membrane - bending
 
     cycles = rainflow(stress, load.residue)

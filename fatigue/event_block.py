@@ -93,9 +93,8 @@ def prepare_event(
     q = history.q.astype(np.float64)
     mean = q.mean(axis=1)
     centred = q - mean[:, None]
-    fine = upsampled(history, upsample, residue)
     return EventLoad(
-        counted=ModalHistory(fine.event, fine.mode, fine.q.astype(np.float64, copy=False), fine.step, fine.start),
+        counted=upsampled(history, upsample, residue),
         residue=residue,
         stress_factor=stress_factor,
         duration=history.duration,
@@ -161,7 +160,7 @@ def _superpose_and_count(
     mean_stress: bool,
 ) -> BlockCount:
     """Recover membrane and bending histories a few rows at a time and count them; histories are never kept."""
-    q = load.counted.q
+    q = load.counted.q.astype(np.float64, copy=False)
     rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # depends on the record only: the bytes do not depend on the machine
     pieces = []
     for first in range(0, len(S_m), rows):

@@ -1,19 +1,20 @@
 """The events of a mission: their records read, cut and checked, and what each brings to every station."""
 
 import logging
+import math
 from dataclasses import replace
 
 import numpy as np
 
+from fatigue.body import Body
 from fatigue.case import Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.event_block import EventLoad, prepare_event
 from fatigue.life.history import ModalHistory, kept
 from fatigue.life.mission import Pass, Plan
-from fatigue.model import Model
+from fatigue.model import solve_welds, weld_groups
 from fatigue.readers.history import read_history
 from fatigue.spectrum.moments import MomentMatrices, has_spectrum, moment_matrices, point_moments, segment_spectra
-from fatigue.stations import Stations
 
 log = logging.getLogger(__name__)
 
@@ -22,18 +23,18 @@ SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
 LARGEST_UPSAMPLE = 64
 
 
-def mission_plan(model: Model) -> tuple[Plan, tuple[Problem, ...]]:
+def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
     """Read and check every record of the mission; return its passes per km and the doubts about the records."""
     warnings: list[Problem] = []
     problems: list[Problem] = []
     passes: list[Pass] = []
-    for event in model.case.mission.event:
+    for event in body.case.mission.event:
         try:
-            history, doubts = _record(model, event)
+            history, doubts = _record(body, event)
         except FatigueError as error:
             problems += error.problems
             continue
-        warnings += doubts + _record_warnings(model, event, history)
+        warnings += doubts + _record_warnings(body, event, history)
         passes.append(
             Pass(
                 event=event.name,
@@ -44,37 +45,48 @@ def mission_plan(model: Model) -> tuple[Plan, tuple[Problem, ...]]:
             )
         )
     refuse(DataError, problems)
-    mission = model.case.mission
+    mission = body.case.mission
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def event_load(model: Model, event: Event) -> EventLoad:
-    """Read the record of an event and compute what all stations share."""
-    history, _ = _record(model, event)
-    residue = model.case.residue(event)
-    moments: MomentMatrices | None = None
-    if has_spectrum(history, model.case.spectrum.segment_s):
-        moments = moment_matrices(segment_spectra(history, model.case.spectrum.segment_s, upper_hz(model, history)))
-    factor = model.case.counting.upsample
-    upsample = _automatic_factor(model.stations, history, moments) if factor == "auto" else factor
+def event_loads(body: Body) -> tuple[EventLoad, ...]:
+    """Read the records of all events and compute what all stations share; they stay in memory while welds stream by."""
+    events = body.case.mission.event
+    factor = body.case.counting.upsample
+    factors = _automatic_factors(body) if factor == "auto" else [factor] * len(events)
+    return tuple(event_load(body, event, upsample) for event, upsample in zip(events, factors, strict=True))
+
+
+def event_load(body: Body, event: Event, upsample: int) -> EventLoad:
+    """Read the record of one event and compute what all stations share."""
+    history, _ = _record(body, event)
     if upsample > 1:
         log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
-    return prepare_event(history, residue, event.stress_factor, upsample, moments)
+    residue = body.case.residue(event)
+    return prepare_event(history, residue, event.stress_factor, upsample, event_moments(body, history))
 
 
-def upper_hz(model: Model, history: ModalHistory) -> float:
+def event_moments(body: Body, history: ModalHistory) -> MomentMatrices | None:
+    """Moment matrices of a record; None where it is shorter than one segment."""
+    segment_s = body.case.spectrum.segment_s
+    if not has_spectrum(history, segment_s):
+        return None
+    return moment_matrices(segment_spectra(history, segment_s, upper_hz(body, history)))
+
+
+def upper_hz(body: Body, history: ModalHistory) -> float:
     """Upper frequency of the spectra [Hz]: as given, else the lower of 0.4 f_s and 1.5 x the highest normal mode."""
-    if model.case.spectrum.upper_hz is not None:
-        return model.case.spectrum.upper_hz
-    normal = [f for f, kind in zip(model.modes.frequency, model.modes.kind, strict=True) if kind == "normal"]
+    if body.case.spectrum.upper_hz is not None:
+        return body.case.spectrum.upper_hz
+    normal = [f for f, kind in zip(body.modes.frequency, body.modes.kind, strict=True) if kind == "normal"]
     return float(min(0.4 / history.step, 1.5 * max(normal, default=np.inf)))
 
 
-def _record(model: Model, event: Event) -> tuple[ModalHistory, list[Problem]]:
+def _record(body: Body, event: Event) -> tuple[ModalHistory, list[Problem]]:
     """Read the record of an event, cut its start-up, and check its length."""
-    case = model.case
+    case = body.case
     path = case.resolve(event.history)
-    whole, warnings = read_history(path, event.name, model.modes.mode, case.body.ignore_modes, strict=model.strict)
+    whole, warnings = read_history(path, event.name, body.modes.mode, case.body.ignore_modes, strict=body.strict)
     history = kept(whole, event.start_s)
     if history.q.shape[1] < 2:
         raise CaseError(
@@ -90,9 +102,9 @@ def _record(model: Model, event: Event) -> tuple[ModalHistory, list[Problem]]:
     return history, warnings
 
 
-def _record_warnings(model: Model, event: Event, history: ModalHistory) -> list[Problem]:
+def _record_warnings(body: Body, event: Event, history: ModalHistory) -> list[Problem]:
     where = f"event '{event.name}'"
-    segment_s = model.case.spectrum.segment_s
+    segment_s = body.case.spectrum.segment_s
     if not has_spectrum(history, segment_s):
         return [
             Problem(
@@ -103,7 +115,7 @@ def _record_warnings(model: Model, event: Event, history: ModalHistory) -> list[
                 "Record longer or shorten segment_s if you need one",
             )
         ]
-    moments = segment_spectra(replace(history, q=history.q[:1]), segment_s, upper_hz(model, history))
+    moments = segment_spectra(replace(history, q=history.q[:1]), segment_s, upper_hz(body, history))
     if len(moments.amplitude) < FEW_SEGMENTS:
         return [
             Problem(
@@ -116,16 +128,18 @@ def _record_warnings(model: Model, event: Event, history: ModalHistory) -> list[
     return []
 
 
-def _automatic_factor(stations: Stations, history: ModalHistory, moments: MomentMatrices | None) -> int:
-    """Smallest power of 2 that gives every point ``SAMPLES_PER_PEAK`` samples per peak."""
-    if moments is None:
-        return 1
-    stress = stations.treated
-    _, _, m2, m4 = point_moments(
-        np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending]), moments
-    )
-    peaks_per_s = np.sqrt(np.max(np.divide(m4, m2, out=np.zeros_like(m4), where=m2 > 0.0)))
-    factor = 1
-    while factor / history.step < SAMPLES_PER_PEAK * peaks_per_s and factor < LARGEST_UPSAMPLE:
-        factor *= 2
-    return factor
+def _automatic_factors(body: Body) -> list[int]:
+    """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak."""
+    records = [_record(body, event)[0] for event in body.case.mission.event]
+    moments = [event_moments(body, history) for history in records]
+    peaks_per_s = np.zeros(len(records))
+    for group in weld_groups(body):
+        stress = solve_welds(body, group).stations.treated
+        faces = np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending])
+        for i, matrices in enumerate(moments):
+            if matrices is not None:
+                _, _, m2, m4 = point_moments(faces, matrices)
+                fastest = np.max(np.divide(m4, m2, out=np.zeros_like(m4), where=m2 > 0.0))
+                peaks_per_s[i] = max(peaks_per_s[i], np.sqrt(fastest))
+    wanted = SAMPLES_PER_PEAK * peaks_per_s * np.array([history.step for history in records])
+    return [min(LARGEST_UPSAMPLE, 2 ** max(0, math.ceil(math.log2(w)))) if w > 0.0 else 1 for w in wanted]

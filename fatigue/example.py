@@ -18,7 +18,10 @@ def write_example(folder: Path, *, force: bool = False) -> list[Path]:
     if taken and not force:
         raise DataError(
             Problem(
-                "foreign_files", str(folder / taken[0]), "is there already", "Give another folder, or --force to overwrite it"
+                "foreign_files",
+                str(folder / taken[0]),
+                "is there already",
+                "Give another folder, or --force to overwrite it",
             )
         )
     try:

@@ -1,16 +1,18 @@
-"""The case brought to life: everything read, checked and solved once, before any event is counted."""
+"""Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Case, check_files
+from fatigue.body import Body, read_body
+from fatigue.case import Case
 from fatigue.errors import DataError, Problem
-from fatigue.rated_curves import RatedCurve, curves_of_case, rated_curves
-from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.rated_curves import RatedCurve
+from fatigue.readers.body import Mesh, Modes, Weld
 from fatigue.readers.forces import read_element_forces, read_nodal_forces, read_weld_elements
 from fatigue.stations import Stations, stations_of
 from fatigue.weld.edge_type import edge_type_warnings
@@ -18,96 +20,129 @@ from fatigue.weld.element_forces import ElementForces, balance, side_forces
 from fatigue.weld.line import WeldLine, split_at_kinks
 from fatigue.weld.structural_stress import LineStress, assess_line
 
+GROUP = 2048  # stations whose forces are in memory at once; welds are never divided
 IMBALANCE = {"error": 1e-3, "warning": 1e-5}  # of the element's largest force; single precision leaves 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Model:
-    """One body under one case, ready for its events.
+    """Some welds of a body, or all of them, ready for events.
 
-    ``lines`` are the solved line parts, ``stations`` the same as one table; ``curves`` holds every curve a weld asks
-    for; ``mesh`` is there for pictures only.
+    ``lines`` are the solved line parts of ``welds``, ``stations`` the same as one table, its ``weld`` an index into
+    ``welds``; ``warnings`` are the doubts about these welds' forces and lines.
     """
 
-    case: Case
-    modes: Modes
+    body: Body
     welds: tuple[Weld, ...]
     lines: tuple[LineStress, ...]
     stations: Stations
-    curves: Mapping[str, RatedCurve]
-    mesh: Mesh | None
-    strict: bool
     warnings: tuple[Problem, ...]
 
     @property
+    def case(self) -> Case:
+        """The case the body belongs to."""
+        return self.body.case
+
+    @property
+    def modes(self) -> Modes:
+        """The modes of the body."""
+        return self.body.modes
+
+    @property
+    def curves(self) -> Mapping[str, RatedCurve]:
+        """The curves of the body."""
+        return self.body.curves
+
+    @property
     def curve_of_weld(self) -> list[str]:
-        """Key of the curve of every weld: its own, else that of the case."""
-        return [weld.curve or self.case.curve.name for weld in self.welds]
+        """Key of the curve of every weld."""
+        return [self.body.curve_of(weld) for weld in self.welds]
 
 
 def read_model(case: Case, *, strict: bool) -> Model:
-    """Read the body of a case and solve the structural stress of all its welds for all modes at once.
+    """Read a body and solve all its welds, for small bodies and notebooks.
 
     Raises
     ------
     CaseError, DataError : with every mistake found in the file at fault
     """
-    check_files(case)
-    body = case.body
-    known_curves = curves_of_case(case)
-    modes, warnings = read_modes(case.resolve(body.modes), body.ignore_modes, strict=strict)
-    welds, doubts = read_welds(case.resolve(body.welds), known_curves, strict=strict)
-    warnings += doubts
-    curves = rated_curves(case, known_curves, welds)
-    lines, doubts = read_weld_nodes(case.resolve(body.weld_nodes), welds, strict=strict)
-    warnings += doubts
-    mesh: Mesh | None = None
-    if body.nodes:
-        elements = case.resolve(body.elements) if body.elements else None
-        mesh, doubts = read_mesh(case.resolve(body.nodes), elements, strict=strict)
-        warnings += doubts
+    body = read_body(case, strict=strict)
+    return solve_welds(body, slice(None))
 
-    if body.nodal_forces:
-        path = case.resolve(body.nodal_forces)
-        forces, doubts = read_nodal_forces(path, lines, modes, body.force_convention, body.ignore_modes, strict=strict)
-    else:
-        lines, forces, doubts = _forces_of_sides(case, welds, lines, modes, mesh, strict)
-    warnings += doubts
 
+def weld_groups(body: Body) -> list[slice]:
+    """Cut the welds into groups of about ``GROUP`` stations, so that memory does not grow with the body."""
+    sizes = np.cumsum([len(line.node) for line in body.lines])
+    group = (sizes - 1) // GROUP
+    first = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), len(sizes)]
+    return [slice(a, b) for a, b in pairwise(first)]
+
+
+def solve_welds(body: Body, group: slice) -> Model:
+    """Read the forces of some welds and solve their structural stress.
+
+    Raises
+    ------
+    DataError : forces are missing, given twice, not finite or out of balance
+    """
+    files = body.case.body
+    welds = body.welds[group]
+    lines, forces, warnings = _forces(body, group)
     solved = tuple(assess_line(line, force) for line, force in zip(lines, forces, strict=True))
     for line, force, result in zip(lines, forces, solved, strict=True):
-        where = f"{body.weld_nodes}: weld {line.weld}"
+        where = f"{files.weld_nodes}: weld {line.weld}"
         warnings += edge_type_warnings(line, force, where) + _end_warnings(result, where)
     return Model(
-        case=case,
-        modes=modes,
+        body=body,
         welds=welds,
         lines=solved,
         stations=stations_of(solved, [weld.name for weld in welds]),
-        curves=curves,
-        mesh=mesh,
-        strict=strict,
         warnings=tuple(warnings),
     )
 
 
+def check_forces(body: Body) -> None:
+    """Read the forces of all welds once, so that a mistake in them is refused before anything is counted."""
+    for group in weld_groups(body):
+        _forces(body, group)
+
+
+def _forces(body: Body, group: slice) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...], list[Problem]]:
+    """Read the forces of some welds: their line parts, (n, m, 6) forces of each, and the doubts about them."""
+    files = body.case.body
+    welds, lines = body.welds[group], body.lines[group]
+    if files.nodal_forces is None:
+        return _forces_of_sides(body, welds, lines)
+    forces, warnings = read_nodal_forces(
+        body.case.resolve(files.nodal_forces),
+        lines,
+        body.modes,
+        files.force_convention,
+        files.ignore_modes,
+        strict=body.strict,
+    )
+    return lines, forces, warnings
+
+
 def _forces_of_sides(
-    case: Case, welds: Sequence[Weld], lines: Sequence[WeldLine], modes: Modes, mesh: Mesh | None, strict: bool
-) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.float64], ...], list[Problem]]:
+    body: Body, welds: Sequence[Weld], lines: Sequence[WeldLine]
+) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...], list[Problem]]:
     """Split lines at their kinks and sum the element forces of the assessed side per part."""
-    body = case.body
-    assert body.element_forces is not None
-    assert body.weld_elements is not None
-    path = case.resolve(body.element_forces)
-    forces, warnings = read_element_forces(path, modes, body.force_convention, body.ignore_modes, strict=strict)
-    sides, doubts = read_weld_elements(case.resolve(body.weld_elements), welds, strict=strict)
-    warnings += doubts + _checked_balance(path, forces, mesh)
+    case, files = body.case, body.case.body
+    assert files.element_forces is not None
+    assert files.weld_elements is not None
+    path = case.resolve(files.element_forces)
+    forces, warnings = read_element_forces(
+        path, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
+    )
+    sides, doubts = read_weld_elements(case.resolve(files.weld_elements), body.welds, strict=body.strict)
+    warnings += doubts + _checked_balance(path, forces, body.mesh)
     parts: list[WeldLine] = []
     summed: list[NDArray[np.float64]] = []
-    for line in lines:
+    for weld, line in zip(welds, lines, strict=True):
         split = split_at_kinks(line)
         parts += split
-        summed += side_forces(split, sides[line.weld], forces, modes.mode, f"{path.name}: weld {line.weld}")
+        summed += side_forces(split, sides[weld.name], forces, body.modes.mode, f"{path.name}: weld {weld.name}")
     return tuple(parts), tuple(summed), warnings
 
 
@@ -115,11 +150,8 @@ def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> li
     """Refuse element forces out of equilibrium; mention those further off than single precision explains."""
     xyz = None if mesh is None else dict(zip(mesh.node.tolist(), mesh.xyz, strict=True))
     found = balance(forces, xyz)
-    residual = (
-        found.force_residual
-        if found.moment_residual is None
-        else np.maximum(found.force_residual, found.moment_residual)
-    )
+    moment = found.force_residual if found.moment_residual is None else found.moment_residual
+    residual = np.maximum(found.force_residual, moment)
     worst = int(residual.argmax())
     if residual[worst] <= IMBALANCE["warning"]:
         return []

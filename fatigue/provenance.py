@@ -6,10 +6,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from fatigue.body import Body
 from fatigue.errors import Problem
 from fatigue.folder import OUTPUTS
 from fatigue.life.mission import Plan
-from fatigue.model import Model
 from fatigue.rated_curves import RatedCurve
 from fatigue.results import software_versions
 
@@ -20,13 +20,13 @@ RESIDUE_RULES = {
 
 
 def provenance_record(
-    model: Model, plan: Plan, folder: Path, inputs: Sequence[dict[str, Any]], warnings: Sequence[Problem]
+    body: Body, plan: Plan, folder: Path, inputs: Sequence[dict[str, Any]], warnings: Sequence[Problem]
 ) -> dict[str, Any]:
     """Collect what an assessor needs to trace or repeat a result; the same inputs give the same record.
 
     ``case_path`` leads from the result folder to the case file, so that both can be moved together.
     """
-    case = model.case
+    case = body.case
     return {
         "program": "fatigue",
         "software": software_versions(),
@@ -36,17 +36,17 @@ def provenance_record(
         "case_text": case.text,
         "inputs": list(inputs),
         "modes": {
-            "used": model.modes.mode.tolist(),
+            "used": body.modes.mode.tolist(),
             "ignored": list(case.body.ignore_modes),
-            "frequency_hz": model.modes.frequency.tolist(),
-            "kind": list(model.modes.kind),
+            "frequency_hz": body.modes.frequency.tolist(),
+            "kind": list(body.modes.kind),
         },
         "force_convention": case.body.force_convention,
-        "curves": {name: _curve_record(rated) for name, rated in model.curves.items()},
+        "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
         "rules": {
             "structural_stress": "Dong: consistent line forces from nodal forces, membrane + bending",
             "thickness_rule": case.curve.thickness_rule,
-            "survival": {name: rated.survival for name, rated in model.curves.items()},
+            "survival": {name: rated.survival for name, rated in body.curves.items()},
             "extension": case.curve.extension,
             "knee_cycles": case.curve.knee_cycles,
             "mean_stress": case.curve.mean_stress,

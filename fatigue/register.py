@@ -75,7 +75,7 @@ def weld_rows(model: Model, plan: Plan, lives: PointLives, worst: Sequence[Worst
     stations, at = model.stations, [(p.station, p.face) for p in worst]
     life = np.array([lives.life_km[i] for i in at])
     events = [*(p.event for p in plan.passes), None]
-    curves = [model.curves[weld.curve or model.case.curve.name] for weld in model.welds]
+    curves = [model.curves[name] for name in model.curve_of_weld]
     return {
         "weld": [weld.name for weld in model.welds],
         "status": ["assessed"] * len(model.welds),

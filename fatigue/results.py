@@ -4,7 +4,7 @@ import hashlib
 import json
 import platform
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -257,6 +257,14 @@ def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
         pieces = TableWriter(table, writer)
         yield pieces
         pieces.flush()
+
+
+@contextmanager
+def result_tables(folder: Path) -> Iterator[dict[str, TableWriter]]:
+    """Open all result tables of a folder for writing, by name."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with ExitStack() as stack:
+        yield {table: stack.enter_context(table_writer(folder, table)) for table in TABLES}
 
 
 def read_table(folder: Path, table: str, columns: Sequence[str] | None = None) -> pa.Table:

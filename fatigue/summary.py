@@ -126,10 +126,7 @@ def assumptions(record: dict[str, Any]) -> str:
 def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
     cells = [
         list(columns),
-        *(
-            [_cell(name, value) for name, value in zip(columns, row, strict=True)]
-            for row in frame[list(columns)].itertuples(index=False)
-        ),
+        *([_cell(value) for value in row] for row in frame[list(columns)].itertuples(index=False)),
     ]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
     numeric = [pd.api.types.is_numeric_dtype(frame[name]) for name in columns]
@@ -139,11 +136,11 @@ def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
     )
 
 
-def _cell(name: str, value: Any) -> str:
+def _cell(value: Any) -> str:
     if value is None or pd.isna(value):
         return "-"
     if isinstance(value, float):
-        if name.startswith(("life_km", "life_years")) and value > LONGEST_LIFE_KM:
+        if value > LONGEST_LIFE_KM:
             return "> 1e12"
         return f"{value:.4g}"
     return str(value)

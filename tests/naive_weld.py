@@ -49,9 +49,13 @@ def line_load_matrix(line):
     A = np.zeros((line.node.size, line.node.size))
     for edge in edge_list(line):
         shape, _, speed = edge_functions(line, edge)
-        for i, row in enumerate(edge):
-            for j, column in enumerate(edge):
-                A[row, column] += quad(lambda xi, i=i, j=j: shape[i](xi) * shape[j](xi) * speed(xi), -1, 1)[0]
+        for row, N_i in zip(edge, shape, strict=True):
+            for column, N_j in zip(edge, shape, strict=True):
+
+                def integrand(xi, N_i=N_i, N_j=N_j, speed=speed):
+                    return N_i(xi) * N_j(xi) * speed(xi)
+
+                A[row, column] += quad(integrand, -1, 1)[0]
     return A
 
 

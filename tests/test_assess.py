@@ -207,7 +207,7 @@ def test_order_of_rows_and_columns_does_not_matter(tmp_path, small_result):
         pd.testing.assert_frame_equal(shuffled, straight, rtol=1e-12)
 
 
-class Stop(Exception):  # noqa: N818
+class Stop(Exception):
     """Stands for whatever ends a run in the middle."""
 
 
@@ -325,7 +325,18 @@ def test_killed_between_any_two_blocks(tmp_path):
     case = small_case(seconds=200.0)
     path = case.write(tmp_path / "case")
     assess(load_case(path), tmp_path / "undisturbed", threads=1)
-    command = [sys.executable, "-m", "fatigue", "-q", "assess", str(path), "-o", str(tmp_path / "result"), "--threads", "1"]
+    command = [
+        sys.executable,
+        "-m",
+        "fatigue",
+        "-q",
+        "assess",
+        str(path),
+        "-o",
+        str(tmp_path / "result"),
+        "--threads",
+        "1",
+    ]
     for parts in (1, 3):
         process = subprocess.Popen(command, cwd=Path(__file__).parents[1], stdout=subprocess.DEVNULL)
         while process.poll() is None and len(list((tmp_path / "result").rglob("*.npz"))) < parts:

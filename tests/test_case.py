@@ -93,6 +93,12 @@ def test_residue_of_an_event(load):
     assert [case.residue(event) for event in case.mission.event] == ["half", "half", "half"]
 
 
+@pytest.mark.parametrize("factor", [1, 2, 64, "auto"])
+def test_upsampling_factors(load, factor):
+    """Powers of 2 and auto."""
+    assert load(MINIMAL + f"[counting]\nupsample = {json.dumps(factor)}\n").counting.upsample == factor
+
+
 def test_text_and_paths_are_kept(load, tmp_path):
     """The case remembers its text, its file and where its inputs are."""
     text = "# a comment\n" + MINIMAL
@@ -392,6 +398,11 @@ WRONG_EVENTS = [
         'share = "0.25"',
         "mission.event[2].share ('curve'): \"0.25\" should be a valid number. Give the share of the mileage [-], 0 to",
     ),
+    (
+        "share = 0.25",
+        "share = 1.5",
+        "mission.event[2].share ('curve'): 1.5 should be less than or equal to 1. Give the",
+    ),
     ("share = 0.25", "share = nan", "mission.event[2].share ('curve'): nan should be a finite number. Give the share"),
     (
         "length_km = 3",
@@ -665,6 +676,8 @@ def test_missing_inputs_are_listed_together(load, tmp_path):
 def test_length_of_an_event(load):
     """Speed times duration, or the length given; an event counted by number has none."""
     tangent, curve, number = load(MINIMAL).mission.event
+    for event in (tangent, curve, number):
+        check_distance(event, 36.0, "here")
     assert event_length_km(tangent, 36.0) == pytest.approx(3.5)
     assert event_length_km(curve, 36.0) == 3
     assert event_length_km(number, 36.0) is None
@@ -693,6 +706,7 @@ def test_schema_accepts_what_the_models_accept(load):
     schema = case_schema()
     case = load(MINIMAL + OWN_CURVE)
     content = json.loads(case.model_dump_json(exclude_none=True))
+    assert Case.model_validate_json(json.dumps(content)).text == ""
     jsonschema.Draft202012Validator(schema).validate(content)
     content["mission"]["target_km"] = -1
     with pytest.raises(jsonschema.ValidationError):

@@ -7,13 +7,14 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 import click
 import jsonschema
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
-import tomllib
 
 from fatigue.cli import cli
 from tests.small_case import sine_only, small_case
@@ -60,7 +61,9 @@ def test_version_and_help():
     assert "130 interrupted" in fatigue("--help").stdout
 
 
-@pytest.mark.parametrize("arguments", [("assess",), ("nonsense",), ("show", "x", "--top", "0"), ("assess", "a", "b", "c")])
+@pytest.mark.parametrize(
+    "arguments", [("assess",), ("nonsense",), ("show", "x", "--top", "0"), ("assess", "a", "b", "c")]
+)
 def test_wrong_usage_is_2(arguments):
     """Click's own exit code."""
     done = fatigue(*arguments)
@@ -72,7 +75,7 @@ def test_missing_case_file_is_3(tmp_path):
     """A case that is not there is bad data, not wrong usage."""
     done = fatigue("check", tmp_path / "none.toml")
     assert done.returncode == 3
-    assert done.stderr.startswith("error: none.toml")
+    assert f"error: {tmp_path / 'none.toml'}: there is no such file." in done.stderr
     assert "Traceback" not in done.stderr
 
 
@@ -216,7 +219,7 @@ def test_progress_bar_only_on_a_terminal(tmp_path):
             pass
     os.close(ours)
     assert process.returncode == 0
-    assert b"event 1 of 3" in shown
+    assert b"assessing" in shown
     assert b"100%" in shown
 
 
@@ -246,8 +249,6 @@ def test_schema_describes_every_key_with_its_unit():
 
 def test_tables_carry_units_and_survive_pandas(small_result):
     """Field metadata hold unit and meaning of every column; pandas reads the tables as they are."""
-    import pyarrow.parquet as pq
-
     for name in ("nodes", "damage", "cycles", "structural_stress", "welds"):
         schema = pq.read_schema(small_result / f"{name}.parquet")
         assert all(f.metadata[b"unit"] and f.metadata[b"description"] for f in schema)

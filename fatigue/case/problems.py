@@ -129,17 +129,17 @@ def mission_problems(raw: dict[str, Any]) -> Iterator[Problem]:
                 f"{name!r} is already the name of mission.event[{first[name]}]",
                 "Give every event its own name",
             )
-    shares = [event.get("share", 0) for event in events]
-    if not any("share" in event for event in events) or not all("share" in e or "per_1000_km" in e for e in events):
+    shares = [event["share"] for event in events if "share" in event]
+    if not shares or not all("share" in event or "per_1000_km" in event for event in events):
         return
-    if any(isinstance(share, bool) or not isinstance(share, int | float) for share in shares):
-        return
-    if math.isfinite(total := math.fsum(shares)) and abs(total - 1) > SHARE_TOLERANCE:
-        summands = " + ".join(f"{event['share']:g}" for event in events if "share" in event)
+    if not all(isinstance(share, int | float) and not isinstance(share, bool) and 0 <= share <= 1 for share in shares):
+        return  # one of them is wrong by itself, and that is reported
+    total = math.fsum(shares)
+    if abs(total - 1) > SHARE_TOLERANCE:
         yield Problem(
             "shares",
             "mission.event.share",
-            f"the shares {summands} sum to {total:.9g}, not to 1",
+            f"the shares {' + '.join(f'{share:g}' for share in shares)} sum to {total:.9g}, not to 1",
             "Correct them, they are not rescaled",
         )
 

@@ -53,6 +53,7 @@ class Credit:
     Attributes
     ----------
     damage : Miner sum D of the cycles
+    top_cycle : damage of the one most damaging cycle
     slope : dD / d ln x, x the equivalent ranges of all cycles: k D on one slope k; also dD / d ln(load)
     share : (t,) the vector g of the module; ``stress @ share`` is D [1/MPa]
     place : (t,) half of each cycle's damage at either instant; adds up to D
@@ -60,6 +61,7 @@ class Credit:
     """
 
     damage: float
+    top_cycle: float
     slope: float
     share: Floats
     place: Floats
@@ -109,6 +111,7 @@ def credit(
         by_bending = by_bending + _on_instants(start, end, by_r * (1.0 - r) * np.sign(db), samples)
     return Credit(
         damage=float(damage.sum()),
+        top_cycle=float(damage.max(initial=0.0)),
         slope=float(slope.sum()),
         share=_on_instants(start, end, damage / ds, samples),
         place=0.5 * (np.bincount(start, damage, samples) + np.bincount(end, damage, samples)),

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from fatigue.readers.fe_model import FeModel, to_basic
 from fatigue.readers.fe_results import REQUEST, TOTALS, FeResults
+from fatigue.readers.force_sign import LOWEST_HZ, prove_sign
+from fatigue.readers.forces import Convention
 from fatigue.weld.element_forces import ElementForces, balance
 from fatigue.weld.mesh import NONE
 
-Convention = Literal["on_element", "on_node"]
 Light = Literal["green", "amber", "red"]
 
 SHELL_KINDS = frozenset({"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "QUAD144", "QUAD4LC"})
@@ -26,7 +27,6 @@ SHELL_KINDS = frozenset({"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "
 BALANCE_GREEN, BALANCE_RED = 1e-3, 1e-2
 FREQUENCY_LIMIT = 0.01
 WORK_TOLERANCE = 2e-3
-LOWEST_HZ = 1e-3  # below it a "frequency" is the round-off of a rigid mode
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
     at = np.minimum(np.searchsorted(mesh.element, results.element), mesh.element.size - 1)
     is_shell = results.of_element & (mesh.element[at] == results.element)
     rows = np.bincount(at[is_shell], minlength=mesh.element.size)
-    return is_shell & (rows == nodes_of)[at]
+    return np.asarray(is_shell & (rows == nodes_of)[at])
 
 
 def element_forces(
@@ -127,8 +127,8 @@ def _element_balance(results: FeResults, model: FeModel, force: NDArray[np.float
     remedy = ""
     if light != "green":
         remedy = (
-            "Give the mesh of this run with its coordinate systems (CD); request stiffness forces without inertia and damping; "
-            "a damaged number looks the same"
+            "Give the mesh of this run with its coordinate systems (CD); request stiffness forces without inertia and "
+            "damping; a damaged number looks the same"
         )
     return AuditRow("element balance", light, worst, finding, remedy)
 
@@ -146,11 +146,11 @@ def _frames(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> 
                 "displacement frames",
                 "red",
                 float(count),
-                f"{count} grids have displacement frames (CD), but only the unrotated forces balance: they are basic already",
+                f"{count} grids have displacement frames (CD), but only the unrotated forces balance: they are basic",
                 "Write GPFORCE in the displacement frames, or remove CD from the mesh given here",
             )
         ]
-    finding = f"the forces of {count} grids were rotated to the basic frame: worst balance {plain:.2g} before, {turned:.2g} after"
+    finding = f"forces of {count} grids rotated to basic: worst balance {plain:.2g} before, {turned:.2g} after"
     return [AuditRow("displacement frames", "green", float(count), finding)]
 
 
@@ -193,14 +193,11 @@ def _nodal_totals(results: FeResults) -> AuditRow:
 
 
 def _sign(results: FeResults, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
-    """Find the sign convention from work (mode shapes) or from applied loads (static subcases)."""
-    value, found, finding = _work(results) if results.shape_node.size else (None, None, "the file has no mode shapes")
-    if found is None and results.analysis == "static":
-        value, found, finding = _static_sign(results)
+    """Compare the proven sign convention with the stated one."""
+    value, found, finding = prove_sign(results)
     if found is None:
-        light: Light = "amber"
         remedy = "State the sign convention; prove it with the one-element tension patch" if stated is None else REQUEST
-        return AuditRow("sign", light, value, f"{finding}: the sign is not proven", remedy), stated
+        return AuditRow("sign", "amber", value, f"{finding}: the sign is not proven", remedy), stated
     if stated is not None and found != stated:
         remedy = f"State {found}, or give the mode shapes of the same run"
         return AuditRow("sign", "red", value, f"{finding}: forces {found}, but {stated} is stated", remedy), found
@@ -208,65 +205,6 @@ def _sign(results: FeResults, stated: Convention | None) -> tuple[AuditRow, Conv
         remedy = "Give forces and mode shapes of one run"
         return AuditRow("sign", "red", value, f"{finding}: more work than the mode has energy", remedy), found
     return AuditRow("sign", "green", value, f"{finding}: forces {found}"), found
-
-
-def _work(results: FeResults) -> tuple[float | None, Convention | None, str]:
-    """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
-
-    Without a frequency, the signs of the elements' own works decide: a strain energy is never negative.
-    """
-    rows = np.flatnonzero(results.of_element)
-    at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
-    known = results.shape_node[at] == results.node[rows]
-    rows, at = rows[known], at[known]
-    work = np.einsum(
-        "mri,mri->mr", results.force[:, rows].astype(np.float64), results.shape[:, at].astype(np.float64), optimize=True
-    )
-    elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * results.modal_mass)
-    usable = (results.frequency > LOWEST_HZ) & (elastic > 0)
-    if usable.any():
-        ratio = work[usable].sum(axis=1) / elastic[usable]
-        k = int(np.argmax(np.abs(ratio)))
-        text = f"work over omega^2 m from {ratio.min():.5g} to {ratio.max():.5g} in {usable.sum()} modes"
-        if (ratio < 0).all() or (ratio > 0).all():
-            if abs(ratio[k]) < 1 - WORK_TOLERANCE:
-                text += " (the forces cover a part of the model)"
-            return float(ratio[k]), "on_node" if ratio[k] < 0 else "on_element", text
-        return float(ratio[k]), None, text
-    _, element = np.unique(results.element[rows], return_inverse=True)
-    each = np.stack([np.bincount(element, w) for w in work])
-    total = np.abs(each).sum()
-    if total == 0:
-        return None, None, "the mode shapes do no work on the forces"
-    balance_of_signs = float(each.sum() / total)
-    text = f"no mode has a frequency; work of the elements is {abs(balance_of_signs):.1%} of one sign"
-    if abs(balance_of_signs) < 0.8:
-        return balance_of_signs, None, text
-    return balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text
-
-
-def _static_sign(results: FeResults) -> tuple[float | None, Convention | None, str]:
-    """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements."""
-    is_load = np.isin(results.kind, ["APP-LOAD", "F-OF-SPC", "F-OF-MPC"])
-    if not is_load.any():
-        return None, None, "no applied loads or reactions in the file"
-    grids, at = np.unique(results.node, return_inverse=True)
-
-    def sums(rows: NDArray[np.bool_]) -> NDArray[np.float64]:
-        force = results.force[:, rows, :3].astype(np.float64)
-        out = np.zeros((results.mode.size, grids.size, 3))
-        np.add.at(out, (slice(None), at[rows]), force)
-        return out
-
-    internal, external = sums(results.of_element), sums(is_load)
-    scale = float(np.abs(external).max())
-    if scale == 0:
-        return None, None, "all applied loads and reactions are zero"
-    correlation = -float((internal * external).sum() / (external * external).sum())
-    finding = f"element forces are {-correlation:+.5f} times the loads and reactions at their grids"
-    if abs(abs(correlation) - 1) > 0.1:
-        return correlation, None, finding
-    return -correlation, "on_node" if correlation > 0 else "on_element", finding
 
 
 def _completeness(results: FeResults, model: FeModel) -> AuditRow:

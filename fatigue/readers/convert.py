@@ -10,27 +10,47 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.readers.audit import LOWEST_HZ, SHELL_KINDS, Audit, audit
+from fatigue.readers.audit import SHELL_KINDS, Audit, audit
 from fatigue.readers.case_text import case_text
 from fatigue.readers.fe_model import FeModel, to_basic
 from fatigue.readers.fe_results import FeResults
+from fatigue.readers.force_sign import LOWEST_HZ
+from fatigue.readers.forces import Convention
 from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
-from fatigue.readers.forces import Convention
 from fatigue.readers.neutral_folder import check_folder, sha256, write_folder
+from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, UnitSystem, unit_system
 from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds
 from fatigue.readers.weld_register import RegisterRow, register_text
 from fatigue.weld.cuts import WeldCut
-from fatigue.weld.mesh import normals
+from fatigue.weld.mesh import ShellMesh, normals
 
 REGISTER = "welds_register.csv"
 CASE = "case.toml"
 
 _CONNECTORS = frozenset(
-    "BAR BEAM BEAM3 BEND ROD CONROD TUBE BUSH BUSH1D FAST WELD SEAM GAP VISC "
-    "ELAS1 ELAS2 ELAS3 ELAS4 DAMP1 DAMP2 DAMP3 DAMP4 MASS1 MASS2 MASS3 MASS4 CONM1 CONM2 RBE2 RBE3 RBAR RROD".split()
+    {
+        *(
+            "BAR",
+            "BEAM",
+            "BEAM3",
+            "BEND",
+            "ROD",
+            "CONROD",
+            "TUBE",
+            "BUSH",
+            "BUSH1D",
+            "FAST",
+            "WELD",
+            "SEAM",
+            "GAP",
+            "VISC",
+        ),
+        *(f"{kind}{k}" for kind in ("ELAS", "DAMP", "MASS") for k in range(1, 5)),
+        *("CONM1", "CONM2", "RBE2", "RBE3", "RBAR", "RROD"),
+    }
 )
 """Elements that may touch a weld line without being part of a plate."""
 
@@ -53,7 +73,7 @@ class ConvertOptions:
     match : how columns find their modes
     columns : table of the columns ``column, mode``
     time_column, resample_s : name of the time column; step to interpolate onto
-    simulation_modes : table ``mode, frequency_hz, modal_mass`` of the simulation's modes, for the comparison and the scale
+    simulation_modes : table ``mode, frequency_hz, modal_mass`` of the simulation's modes, to compare and scale
     welds : where weld lines come from
     accept : audit checks whose red light is accepted
     curve, title, speed_km_h, target_km : for the first case.toml
@@ -104,7 +124,7 @@ def convert(options: ConvertOptions) -> Conversion:
 
     Raises
     ------
-    DataError : any refusal of the readers, a red check that is not accepted, no weld to assess, foreign files in the way
+    DataError : any refusal of the readers, a red check not accepted, no weld to assess, foreign files in the way
     CaseError : an unknown unit system, an undecided sign convention
     """
     units = unit_system(options.force_units, "force units")
@@ -136,17 +156,17 @@ def convert(options: ConvertOptions) -> Conversion:
     force = _to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
         "modes.csv": _modes_table(results, options, table),
-        "nodes.parquet": _nodes_table(metric),
-        "elements.parquet": _elements_table(metric),
-        "element_forces.parquet": _forces_table(results, force, rows),
-        **_weld_tables(found),
+        "nodes.parquet": nodes_table(metric),
+        "elements.parquet": elements_table(metric),
+        "element_forces.parquet": forces_table(results, force, rows),
+        **weld_tables(found),
         REGISTER: register_text(found.rows),
     }
     factor = coordinate_units.modal_coordinate(options.normalisation) if results.analysis == "modal" else 1.0
     events = []
     for history in histories:
         name = _unused(f"q_{_slug(Path(history.source).stem)}.parquet", files)
-        files[name] = _history_table(history, results.mode, factor)
+        files[name] = history_table(history, results.mode, factor)
         events.append((Path(history.source).stem, name))
     unused = sorted({int(m) for h in histories for m in h.mode} - set(results.mode.tolist()))
     files[CASE] = case_text(
@@ -317,7 +337,7 @@ def _short(modes: list[int]) -> str:
     return ", ".join(str(m) for m in modes[:10]) + (f" and {len(modes) - 10} more" if len(modes) > 10 else "")
 
 
-def _in_mm(model: FeModel, units: UnitSystem):  # type: ignore[no-untyped-def]
+def _in_mm(model: FeModel, units: UnitSystem) -> ShellMesh:
     mesh = model.mesh
     return replace(
         mesh, xyz=mesh.xyz * units.length, thickness=mesh.thickness * units.length, offset=mesh.offset * units.length
@@ -357,7 +377,7 @@ def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int,
 def _neutral_forces(
     results: FeResults, model: FeModel, units: UnitSystem, normalisation: Normalisation
 ) -> NDArray[np.floating]:
-    """Forces of all rows in basic axes, N and N mm, per unit modal coordinate of the mm, t, s system."""
+    """Turn the forces of all rows into basic axes and N, N mm per unit modal coordinate of the mm, t, s system."""
     coordinate = units.modal_coordinate(normalisation) if results.analysis == "modal" else 1.0
     factor = units.force / coordinate * np.array([1.0] * 3 + [units.length] * 3)
     force = to_basic(results.force, results.node, model)
@@ -395,82 +415,6 @@ def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, t
             "kind": kind.tolist(),
             "scale": scale,
         }
-    )
-
-
-def _nodes_table(model: FeModel) -> pa.Table:
-    mesh = model.mesh
-    return pa.table({"node": mesh.node, **{f"{a}_mm": mesh.xyz[:, k] for k, a in enumerate("xyz")}})
-
-
-def _elements_table(model: FeModel) -> pa.Table:
-    mesh = model.mesh
-    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
-    ids = np.where(around >= 0, mesh.node[around], 0)
-    columns = {f"n{k + 1}": ids[:, k] for k in range(8) if k < 4 or ids[:, 4:].any()}
-    thickness = pa.array(np.where(mesh.thickness > 0, mesh.thickness, np.nan), from_pandas=True)
-    return pa.table({"element": mesh.element, **columns, "pid": mesh.pid, "thickness_mm": thickness})
-
-
-def _forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[np.int64]) -> pa.Table:
-    modes = results.mode.size
-    flat = force[:, rows].reshape(-1, 6)
-    names = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
-    return pa.table(
-        {
-            "mode": np.repeat(results.mode, rows.size),
-            "node": np.tile(results.node[rows], modes),
-            "element": np.tile(results.element[rows], modes),
-            **{name: np.ascontiguousarray(flat[:, k]) for k, name in enumerate(names)},
-        }
-    )
-
-
-def _weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
-    """Build the tables welds, weld_nodes and weld_elements of the welds to assess."""
-    chosen = found.assessed()
-    lines = [cut.line for _, cut in chosen]
-    sizes = [line.node.size for line in lines]
-    vectors = {"normal": [line.normal for line in lines], "outward": [line.outward for line in lines]}
-    return {
-        "welds.csv": pa.table(
-            {
-                "weld": [row.weld for row, _ in chosen],
-                "closed": [cut.line.closed for _, cut in chosen],
-                "surface": [row.surface for row, _ in chosen],
-                "curve": pa.array([row.curve or None for row, _ in chosen], pa.string()),
-                "end_length_mm": pa.array([cut.line.end_length for _, cut in chosen], pa.float64()),
-                "description": [row.description or f"{row.kind} {row.pids}" for row, _ in chosen],
-            }
-        ),
-        "weld_nodes.csv": pa.table(
-            {
-                "weld": np.repeat([row.weld for row, _ in chosen], sizes).tolist(),
-                "order": np.concatenate([line.order for line in lines]),
-                "node": np.concatenate([line.node for line in lines]),
-                **{f"{a}_mm": np.concatenate([line.xyz[:, k] for line in lines]) for k, a in enumerate("xyz")},
-                "thickness_mm": np.concatenate([line.thickness for line in lines]),
-                **{
-                    f"{name}_{a}": np.concatenate([v[:, k] for v in values])
-                    for name, values in vectors.items()
-                    for k, a in enumerate("xyz")
-                },
-                "edge_mid": np.concatenate([line.edge_mid for line in lines]),
-            }
-        ),
-        "weld_elements.csv": pa.table(
-            {
-                "weld": np.repeat([row.weld for row, _ in chosen], [cut.elements.size for _, cut in chosen]).tolist(),
-                "element": np.concatenate([cut.elements for _, cut in chosen]),
-            }
-        ),
-    }
-
-
-def _history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: float) -> pa.Table:
-    row = {int(m): k for k, m in enumerate(history.mode)}
-    return pa.table(
-        {"time_s": history.time, **{f"q_{m}": (history.q[row[int(m)]] * factor).astype(np.float32) for m in mode}}
     )
 
 

@@ -102,8 +102,8 @@ def assemble(
 
     Raises
     ------
-    DataError : no blocks, a choice of subcase is needed, a mode given twice, rows that differ between modes, a row given
-        twice, a value that is no number
+    DataError : no blocks, a choice of subcase is needed, a mode or a row given twice, rows that differ between modes, a
+        value that is no number
     """
     chosen, remarks = _choose(source, forces, subcase)
     problems = list(_row_problems(chosen))
@@ -122,6 +122,15 @@ def assemble(
     is_modal = first.mode > 0
     key = np.array([block.mode if is_modal else block.subcase for block in chosen], np.int64)
     known = [eigenvalues.get(int(k)) if is_modal else None for k in key]
+    if is_modal and eigenvalues and (stray := sorted(set(key.tolist()) - set(eigenvalues))):
+        raise DataError(
+            Problem(
+                "unknown_mode",
+                source,
+                f"mode {stray[0]} has forces and is not in the eigenvalue summary of {len(eigenvalues)} modes",
+                "Give the results of one run; copy the file again if it was one",
+            )
+        )
     if is_modal and (silent := sorted(set(eigenvalues) - set(key.tolist()))):
         remarks.append(
             Problem(
@@ -210,7 +219,7 @@ def _row_problems(blocks: list[ForceBlock]) -> Iterator[Problem]:
         yield Problem(
             "bad_id",
             first.where,
-            f"{bad.size} rows with an impossible id, node {first.node[bad[0]]} element {first.element[bad[0]]} the first",
+            f"{bad.size} rows with impossible ids, node {first.node[bad[0]]} element {first.element[bad[0]]} the first",
             "Copy the file again, or repeat the run",
         )
     rows = np.flatnonzero(first.element > 0)

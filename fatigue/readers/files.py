@@ -1,6 +1,7 @@
 """Open one table of the neutral format, Parquet or CSV; a file that is no such table is refused with the reason."""
 
 import csv
+import re
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,8 @@ import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, Problem
+
+DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises over bytes that make no sense
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,7 +48,7 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
         raise DataError(Problem("missing_file", str(path), "there is no such file", "Correct the path")) from None
     except PermissionError:
         raise DataError(Problem("unreadable_file", str(path), "may not be read", "Check its permissions")) from None
-    except (pa.ArrowException, OSError) as error:
+    except DAMAGE as error:
         raise DataError(_damaged(path, error)) from None
     if columns.rows == 0:
         raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
@@ -57,13 +60,19 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
     names = tuple(schema.names)
     file = pq.ParquetFile(path, read_dictionary=[name for name in names if name.strip() in texts])
 
+    rows = file.metadata.num_rows
+
     def read(position: int) -> pa.ChunkedArray:
         try:
-            return file.read(columns=[names[position]]).column(0)
-        except (pa.ArrowException, OSError) as error:
+            column = file.read(columns=[names[position]]).column(0)
+            column.validate(full=True)
+        except DAMAGE as error:
             raise DataError(_damaged(path, error)) from None
+        if len(column) != rows:
+            raise DataError(_damaged(path, EOFError(f"{len(column)} of {rows} rows")))
+        return column
 
-    return Columns(names, tuple(schema.types), file.metadata.num_rows, read)
+    return Columns(names, tuple(schema.types), rows, read)
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:
@@ -125,13 +134,11 @@ def _csv_problem(path: Path, width: int, error: Exception) -> Problem:
 
 
 def _not_utf8(path: Path) -> Problem:
-    data = path.read_bytes()
-    try:
-        data.decode()
-    except UnicodeDecodeError as error:
-        line, byte = data.count(b"\n", 0, error.start) + 1, data[error.start]
-        return Problem("not_utf8", f"{path.name}: line {line}", f"byte {byte:#04x} is not UTF-8", "Save it as UTF-8")
-    raise AssertionError("the file changed while it was read")
+    """Name the line of the first byte that is not UTF-8."""
+    text = path.read_bytes().decode(errors="surrogateescape")
+    good = re.split("[\udc80-\udcff]", text, maxsplit=1)[0]
+    line, byte = good.count("\n") + 1, ord(text[len(good)]) - 0xDC00
+    return Problem("not_utf8", f"{path.name}: line {line}", f"byte {byte:#04x} is not UTF-8", "Save it as UTF-8")
 
 
 def _damaged(path: Path, error: Exception) -> Problem:

@@ -136,18 +136,12 @@ def _mode_columns(
 ) -> NDArray[np.int32]:
     """Position of each row's mode among the used ones (r,), -1 where it is ignored; an unknown mode is a mistake."""
     column = _positions(modes.mode, mode)
-    unused = np.flatnonzero(column < 0)
-    unknown = unused[~np.isin(mode[unused], list(ignore_modes))]
-    if unknown.size:
+    unknown = column < 0
+    unknown[unknown] = ~np.isin(mode[unknown], list(ignore_modes))
+    if unknown.any():
         ids = ", ".join(map(str, np.unique(mode[unknown])))
-        table.problems.append(
-            Problem(
-                "unknown_id",
-                table.where("mode", unknown[0]),
-                f"modes {ids} are not in the table of modes",
-                "Add them there or to ignore_modes",
-            )
-        )
+        what = f"modes {ids} are not in the table of modes"
+        table.report(unknown, "unknown_id", "mode", what, "Add them there or to ignore_modes")
     return column
 
 

@@ -179,9 +179,9 @@ def _by_frequency(
             Problem(
                 "no_such_frequency",
                 history.source,
-                f"column {history.name[k]!r} has {history.frequency[k]:.6g} Hz, the nearest mode is {mode[nearest[k]]} with "
-                f"{frequency[nearest[k]]:.6g} Hz",
+                f"column {history.name[k]!r} has {history.frequency[k]:.6g} Hz, the nearest mode, {mode[nearest[k]]}, "
+                f"has {frequency[nearest[k]]:.6g} Hz",
                 "Use the same modal basis on both sides, or match by number",
             )
         )
-    return mode[nearest]
+    return np.asarray(mode[nearest])

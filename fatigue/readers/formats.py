@@ -17,8 +17,13 @@ from fatigue.readers.text_history import read_parquet_history, read_text_history
 Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
 
 _HEAD = 200_000
-_OP2_STARTS = (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08")
-_BULK_WORDS = ("GRID", "BEGIN", "CEND", "INCLUDE", "CQUAD4", "CTRIA3", "SOL ")
+_BINARY: dict[Format, tuple[bytes, ...]] = {
+    "h5": (b"\x89HDF\r\n\x1a\n",),
+    "parquet": (b"PAR1",),
+    "op2": (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
+}
+_PUNCH_STARTS = ("$TITLE", "$SUBTITLE", "$LABEL", "$SUBCASE ID", "$GRID POINT")
+_BULK_STARTS = ("GRID", "BEGIN BULK", "CEND", "INCLUDE ", "CQUAD4", "CTRIA3", "SOL ")
 
 
 def recognise(path: Path) -> Format:
@@ -37,12 +42,9 @@ def recognise(path: Path) -> Format:
         ) from error
     if not head:
         raise DataError(Problem("empty", str(path), "the file is empty", "Give the file that the solver wrote"))
-    if head.startswith(b"\x89HDF\r\n\x1a\n"):
-        return "h5"
-    if head.startswith(b"PAR1"):
-        return "parquet"
-    if head[:4] in _OP2_STARTS:
-        return "op2"
+    for form, starts in _BINARY.items():
+        if head.startswith(starts):
+            return form
     if b"\0" in head:
         raise DataError(
             Problem(
@@ -52,13 +54,17 @@ def recognise(path: Path) -> Format:
                 "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table",
             )
         )
-    text = head.decode("utf-8", errors="replace")
+    return _text_format(head.decode("utf-8", errors="replace"))
+
+
+def _text_format(text: str) -> Format:
+    """Tell the format of a text file by its first lines."""
+    lines = text.splitlines()
     if is_mcf(text):
         return "mcf"
-    starts = {line[:8].upper().replace("*", " ").rstrip() for line in text.splitlines()}
-    if any(line.startswith(("$TITLE", "$SUBCASE", "$GRID POINT", "$LABEL")) for line in text.splitlines()[:50]):
+    if any(line.startswith(_PUNCH_STARTS) for line in lines[:50]):
         return "punch"
-    if any(start.startswith(_BULK_WORDS) for start in starts):
+    if any(line.lstrip().upper().startswith(_BULK_STARTS) for line in lines):
         return "bdf"
     return "text"
 

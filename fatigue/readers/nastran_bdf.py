@@ -13,6 +13,8 @@ from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.nastran_cards import Card, Deck, cards, case_sets, read_deck, set_members
 from fatigue.readers.nastran_frames import FrameCard, Frames
 
+_ELEMENT_CARDS = ("C", "RBE", "RBAR", "RROD", "RSPLINE")
+_NO_ELEMENTS = ("CORD", "CONV", "CSET", "CAERO", "CSUPEXT")
 _THICKNESS_SPREAD = 0.01
 _FULL_BENDING = 1.0  # 12 I / T^3 of a homogeneous plate
 
@@ -46,9 +48,7 @@ def read_bdf(path: Path) -> FeModel:
         handle = _HANDLERS.get(card.name)
         if handle:
             handle(bulk, card)
-        elif card.name.startswith("C") and not card.name.startswith(("CORD", "CONV", "CSET", "CAERO", "CSUPEXT")):
-            bulk.others[card.name] += 1
-        elif card.name.startswith("RBE") or card.name in ("RBAR", "RROD", "RSPLINE", "CONM2"):
+        elif card.name.startswith(_ELEMENT_CARDS) and not card.name.startswith(_NO_ELEMENTS):
             bulk.others[card.name] += 1
     return _model(bulk, deck)
 

@@ -1,4 +1,4 @@
-"""Lines of NASTRAN bulk data to cards: small, large and free fields, continuations, INCLUDE, and the SETs of case control."""
+"""Lines of NASTRAN bulk data to cards: small, large and free fields, continuations, INCLUDE; SETs of case control."""
 
 import re
 from collections.abc import Iterator
@@ -10,6 +10,9 @@ from fatigue.errors import DataError, Problem
 _REAL = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[ED]?[+-]?\d+)?\Z", re.ASCII)
 _EXPONENT = re.compile(r"(?<=[\d.])[ED]?([+-]\d+)\Z|(?<=[\d.])[ED](\d+)\Z", re.ASCII)
 _INCLUDE = re.compile(r"\s*INCLUDE\s+", re.IGNORECASE)
+_DELIMITER = re.compile(r"\s*(BEGIN|ENDDATA)\b", re.IGNORECASE)
+_SUPERELEMENT = re.compile(r"\s*BEGIN\s+(SUPER|AUXMODEL)", re.IGNORECASE)
+_NAME = re.compile(r"[A-Z][A-Z0-9]*\Z", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,15 +39,22 @@ class Card:
 
     def real(self, at: int, default: float | None = None) -> float:
         """Real number in field ``at``, in any NASTRAN spelling such as ``2.9+7``; an empty field takes the default."""
-        text = self.text(at).upper()
+        text = self.text(at)
         if not text and default is not None:
             return default
-        if not _REAL.match(text):
-            raise self._bad(at, text, "a number")
-        value = float(_EXPONENT.sub(lambda m: "E" + (m[1] or m[2]), text))
-        if abs(value) > 1e100:
+        try:
+            value = float(text)
+        except ValueError:
+            value = self._nastran_real(at, text.upper())
+        if not abs(value) < 1e100 or "_" in text:
             raise self._bad(at, text, "a number of sensible size")
         return value
+
+    def _nastran_real(self, at: int, text: str) -> float:
+        """Read ``2.9+7`` and ``1.D3``, which only FORTRAN understands."""
+        if not _REAL.match(text):
+            raise self._bad(at, text, "a number")
+        return float(_EXPONENT.sub(lambda m: "E" + (m[1] or m[2]), text))
 
     def _bad(self, at: int, text: str, wanted: str) -> DataError:
         found = (
@@ -72,19 +82,18 @@ def read_deck(path: Path) -> Deck:
     bulk: list[tuple[str, str]] = []
     began = False
     for where, line in _lines(path, ()):
-        upper = line.upper()
-        if re.match(r"\s*BEGIN\b", upper) and not began:
+        if not (found := _DELIMITER.match(line)):
+            bulk.append((where, line))
+        elif found[1].upper() == "ENDDATA":
+            break
+        elif not began and not _SUPERELEMENT.match(line):
             control, bulk, began = bulk, [], True
-        elif re.match(r"\s*BEGIN\s+(SUPER|AUXMODEL)", upper):
+        else:
             raise DataError(
                 Problem(
                     "superelement", where, f"the model has superelements ({line.strip()})", "Give a model without them"
                 )
             )
-        elif re.match(r"\s*ENDDATA", upper):
-            break
-        else:
-            bulk.append((where, line))
     return Deck(control, bulk)
 
 
@@ -148,7 +157,7 @@ def cards(lines: list[tuple[str, str]]) -> Iterator[Card]:
         else:
             if name:
                 yield Card(name, tuple(fields), where)
-            if head.startswith("=") or not re.match(r"[A-Z][A-Z0-9]*\Z", head.rstrip("* "), re.ASCII):
+            if not _NAME.match(head.rstrip("* ")):
                 raise DataError(
                     Problem("bad_card", place, f"{head!r} is no card name", "Write the cards out, without replication")
                 )

@@ -84,7 +84,7 @@ class Frames:
         return frame
 
     def position(self, cid: int, coordinates: tuple[float, float, float]) -> Vector:
-        """Basic coordinates of a point given in system ``cid``; angles in degrees."""
+        """Give the basic coordinates of a point of system ``cid``; angles in degrees."""
         a, b, c = coordinates
         if cid == 0:
             return np.array([a, b, c])

@@ -45,7 +45,7 @@ def _block(path: Path, lines: list[str], head: int, eigenvalues: dict[int, Eigen
             mode = int(found[2])
             eigenvalue = _real(path, at, found[1])
             eigenvalues[mode] = Eigenvalue(float(np.sqrt(abs(eigenvalue)) / (2 * np.pi)), float("nan"))
-        if not line.startswith("$REAL OUTPUT") and "REAL-IMAGINARY" in line or "MAGNITUDE" in line:
+        if line.startswith(("$REAL-IMAGINARY", "$MAGNITUDE-PHASE")):
             raise DataError(
                 Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103")
             )

@@ -1,9 +1,9 @@
 """The record structure of a NASTRAN OUTPUT2 file: where every table and every record of it lies.
 
-An OP2 file is a stream of Fortran records, each between two copies of its byte length. One-word records are *markers*:
-a positive marker announces a record of that many words, the markers -1, -2, -3 ... count the logical records of a table,
-and a zero ends a table or the file. The structure is checked to the last byte before anything is decoded, so that a cut
-or damaged file is refused whatever the damage hits.
+An OP2 file is a stream of Fortran records, each between two copies of its byte length. One-word records are markers: a
+positive marker announces a record of that many words, the markers -1, -2, -3 ... count the logical records of a table,
+and a zero ends a table or the file. The structure is checked to the last byte before anything is decoded, so that a
+cut or damaged file is refused whatever the damage hits.
 """
 
 import mmap

@@ -31,6 +31,7 @@ class Table:
     position : where each column stands, by its trimmed name
     problems : mistakes found so far
     warnings : unknown columns and other doubts
+    spoilt : columns with a mistake in their values, from which nothing more is concluded
     """
 
     path: Path
@@ -38,6 +39,7 @@ class Table:
     position: dict[str, int]
     problems: list[Problem] = field(default_factory=list)
     warnings: list[Problem] = field(default_factory=list)
+    spoilt: set[str] = field(default_factory=set)
 
     @property
     def rows(self) -> int:
@@ -46,7 +48,8 @@ class Table:
 
     def expect(self, required: Collection[str], optional: Collection[str], *, strict: bool) -> None:
         """Refuse a table without a required column; an unknown column is a doubt, or a mistake where strict."""
-        refuse(DataError, self._missing_columns(required))
+        if missing := list(self._missing_columns(required)):
+            raise DataError(*self.problems, *missing)
         known = (*required, *optional)
         for name in (name for name in self.position if name not in known):
             near = difflib.get_close_matches(name, set(known) - self.position.keys(), n=1)
@@ -64,12 +67,13 @@ class Table:
         return all(self.columns.kinds[self.position[name]] == pa.float32() for name in names)
 
     def report(self, bad: NDArray[np.bool_], code: str, column: str, what: str, remedy: str) -> None:
-        """Note a mistake at the first row marked in ``bad``, with the number of further rows."""
-        if not bad.any():
+        """Note a mistake at the first row marked in ``bad``, with the number of further rows; one for each column."""
+        if column in self.spoilt or not bad.any():
             return
         row, more = int(bad.argmax()), int(np.count_nonzero(bad)) - 1
         also = f" (and {more} more row{'s' if more > 1 else ''})" if more else ""
         self.problems.append(Problem(code, self.where(column, row), what + also, remedy))
+        self.spoilt.add(column)
 
     def refuse(self) -> None:
         """Raise everything found so far."""
@@ -169,15 +173,16 @@ class Table:
     ) -> None:
         """Note every text of ``groups`` that another table does not have."""
         for i, text in enumerate(names):
-            if text not in allowed:
+            if text and text not in allowed:
                 near = difflib.get_close_matches(text, allowed, n=1)
                 remedy = f"Write {near[0]!r}" if near else f"Add it to {of} or remove its rows"
-                self.report(code == i, "unknown_id", name, f"{text!r} is not one of {of}", remedy)
+                where = self.where(name, int((code == i).argmax()))
+                self.problems.append(Problem("unknown_id", where, f"{text!r} is not one of {of}", remedy))
 
     def complete(self, name: str, names: Sequence[str], wanted: Sequence[str], of: str) -> None:
         """Note every wanted text that no row has."""
         for text in wanted:
-            if text not in names:
+            if text not in names and name not in self.spoilt:
                 self.problems.append(
                     Problem("missing_id", self.where(name), f"{name} {text!r} has no {of}", f"Add its {of}")
                 )
@@ -186,6 +191,8 @@ class Table:
         self, keys: Mapping[str, NDArray[np.integer]], labels: Mapping[str, Sequence[str]] | None = None
     ) -> None:
         """Note rows that repeat a key; ``labels`` are the texts behind a column of ``groups``."""
+        if not self.spoilt.isdisjoint(keys):
+            return
         columns = tuple(keys.values())
         order = np.lexsort(columns[::-1])
         same = np.all([column[order[1:]] == column[order[:-1]] for column in columns], axis=0)
@@ -238,6 +245,7 @@ class Table:
         self.problems.append(
             Problem("bad_type", self.where(name, row), f"{values[row]!r} is not {wanted}", f"Give {wanted}")
         )
+        self.spoilt.add(name)
 
 
 def open_table(path: Path, *, texts: Collection[str] = ()) -> Table:

@@ -166,7 +166,7 @@ def _fields(line: str, separator: str | None) -> list[str]:
 
 
 def _names(head: list[str], separator: str | None, count: int) -> tuple[str, ...]:
-    """Column names: the first of the lines right above the numbers that has as many fields; a line of units follows it."""
+    """Find the column names: the first of the lines right above the numbers with as many fields; units may follow."""
     names: tuple[str, ...] = ()
     for line in reversed(head):
         fields = _fields(line.lstrip("#%! "), separator)

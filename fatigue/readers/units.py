@@ -22,7 +22,7 @@ class UnitSystem:
         return self.mass * self.length
 
     def modal_coordinate(self, normalisation: Normalisation) -> float:
-        """Unit of the modal coordinate in sqrt(t) mm for mass-normalised modes, in mm for modes of unit displacement.
+        """Give the unit of the modal coordinate: sqrt(t) mm for modes of unit mass, mm for modes of unit displacement.
 
         A displacement is shape times coordinate, so modes of unit generalised mass have shapes in 1/sqrt(mass).
         """

@@ -20,9 +20,10 @@ from fatigue.weld.cuts import WeldCut
 from fatigue.weld.line import length
 
 STATUSES = ("assess", "candidate", "excluded")
-_COLUMNS = (
-    "weld line status reason kind pids pid nodes length_mm thickness_mm confirmed surface curve end_length_mm description"
-).split()
+_COLUMNS = [
+    *("weld", "line", "status", "reason", "kind", "pids", "pid", "nodes", "length_mm"),
+    *("thickness_mm", "confirmed", "surface", "curve", "end_length_mm", "description"),
+]
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,7 @@ def coefficients(x: NDArray[np.floating], residue: Residue) -> Floats:
     samples = x.shape[-1]
     spectrum = np.fft.rfft(x.astype(np.float64, copy=False), norm="ortho")
     packed = spectrum.view(np.float64)  # Re 0, Im 0, Re 1, Im 1, ...
-    packed[..., 2:samples + 1] *= np.sqrt(2.0)  # cosine and sine of +f and -f; 0 Hz and Nyquist have no mirror image
+    packed[..., 2 : samples + 1] *= np.sqrt(2.0)  # cosine and sine of +f and -f; 0 Hz and Nyquist have no mirror image
     if samples % 2 == 0:
         packed[..., samples] /= np.sqrt(2.0)
     packed[..., 1] = packed[..., 0]

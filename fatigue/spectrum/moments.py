@@ -7,13 +7,16 @@ stress history, to rounding (Braccesi, Cianetti et al. published the idea for mo
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.life.history import ModalHistory
+
+Real = TypeVar("Real", bound=np.floating)
 
 DIRLIK_ORDERS = (0.0, 1.0, 2.0, 4.0)
 FREQUENCY_TOLERANCE = 1e-9  # a bin that rounding puts above the upper limit still counts
@@ -41,6 +44,10 @@ class Spectra:
     resolution_hz: float
     upper_hz: float
     segment_s: float
+
+    def part(self, first: int, last: int) -> "Spectra":
+        """Take the segments from ``first`` to before ``last``."""
+        return replace(self, amplitude=self.amplitude[first:last])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -159,20 +166,20 @@ def point_moments(shapes: NDArray[np.float64], matrices: MomentMatrices) -> NDAr
 
     ``shapes`` is (n, m), the stress per unit modal coordinate [MPa]; returns (p, n) [MPa**2 Hz**p], never negative.
     """
-    return quadratic_forms(shapes, matrices.matrix)
+    return np.maximum(quadratic_forms(shapes, matrices.matrix), 0.0)
 
 
-def quadratic_forms(shapes: NDArray[np.float64], matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+def quadratic_forms(shapes: NDArray[np.floating], matrices: NDArray[Real]) -> NDArray[Real]:
     """Evaluate ``s' M s`` for all rows s of ``shapes`` (n, m) and all M of ``matrices`` (p, m, m): (p, n).
 
-    The matrices are positive semi-definite; what rounding makes negative becomes 0.
+    Works in the precision of the matrices.
     """
-    forms = np.empty((len(matrices), len(shapes)))
+    forms = np.empty((len(matrices), len(shapes)), dtype=matrices.dtype)
     for first in range(0, len(shapes), BLOCK_POINTS):
-        block = shapes[first : first + BLOCK_POINTS].astype(np.float64, copy=False)
+        block = shapes[first : first + BLOCK_POINTS].astype(matrices.dtype, copy=False)
         for row, matrix in zip(forms, matrices, strict=True):
             np.einsum("nm,nm->n", block @ matrix, block, out=row[first : first + BLOCK_POINTS])
-    return np.maximum(forms, 0.0, out=forms)
+    return forms
 
 
 def _trapezoid_weights(frequency: NDArray[np.float64]) -> NDArray[np.float64]:

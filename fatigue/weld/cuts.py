@@ -76,7 +76,7 @@ class _Walker:
         return b if node == a else a
 
     def away(self, edge: int, node: int) -> NDArray[np.float64]:
-        """Unit vector along an edge away from one of its nodes."""
+        """Return the unit vector along an edge away from one of its nodes."""
         xyz = self.topo.mesh.xyz
         return unit(xyz[self.other_end(edge, node)] - xyz[node])
 
@@ -177,7 +177,7 @@ def _cut(walker: _Walker, chain: list[tuple[int, int, int]], is_closed: bool) ->
     topo = walker.topo
     mesh = topo.mesh
     sides = [side for side, _, _ in chain]
-    elements: set[int] = set(side // 4 for side in sides)
+    elements: set[int] = {side // 4 for side in sides}
     for k, (side, first, _) in enumerate(chain):
         if k > 0 or is_closed:
             elements |= walker.round_node(side, first, {int(topo.edge[side]), int(topo.edge[sides[k - 1]])})
@@ -228,7 +228,7 @@ def _line_nodes(
 
 
 def _side_normals(topo: Topology, sides: list[int]) -> NDArray[np.float64]:
-    """Normals of the elements along a line, turned the same way, towards the attached plate if there is one."""
+    """Turn the normals of the elements along a line the same way, towards the attached plate if there is one."""
     normal = topo.normal[[side // 4 for side in sides]].copy()
     for k in range(1, len(sides)):
         if normal[k] @ normal[k - 1] < 0:

@@ -23,6 +23,8 @@ from fatigue.weld.mesh import NONE, ShellMesh, centroids, inward, normals
 SMOOTH_DEG = 30.0
 """Shells that meet at a smaller angle are one plate."""
 
+_OPPOSITE = -np.cos(np.radians(SMOOTH_DEG))
+
 WELDS = ("tee", "corner")
 CANDIDATES = ("flat", "fold")
 
@@ -59,7 +61,7 @@ class Topology:
 
     def is_smooth(self, a: int, b: int) -> bool:
         """Whether the elements of two sides of one edge continue each other as one plate."""
-        return float(self.inward[a] @ self.inward[b]) < -np.cos(np.radians(SMOOTH_DEG))
+        return bool(self.inward[a] @ self.inward[b] < _OPPOSITE)
 
 
 def topology(mesh: ShellMesh) -> Topology:
@@ -87,11 +89,11 @@ def classify(topo: Topology) -> dict[int, Key]:
     count = np.diff(topo.first)
     pid = np.repeat(topo.mesh.pid, 4)
     found: dict[int, Key] = {}
-    for edge in np.flatnonzero(count >= 3):
-        found[int(edge)] = ("tee", tuple(sorted(int(pid[s]) for s in topo.sides_of(edge))))
+    for edge in np.flatnonzero(count >= 3).tolist():
+        found[edge] = ("tee", tuple(sorted(int(pid[s]) for s in topo.sides_of(edge))))
     pair = np.flatnonzero(count == 2)
     a, b = topo.sides[topo.first[pair]], topo.sides[topo.first[pair] + 1]
-    is_turned = np.einsum("ij,ij->i", topo.inward[a], topo.inward[b]) >= -np.cos(np.radians(SMOOTH_DEG))
+    is_turned = np.einsum("ij,ij->i", topo.inward[a], topo.inward[b]) >= _OPPOSITE
     changes = pid[a] != pid[b]
     for kind, where in (
         ("corner", is_turned & changes),

@@ -14,7 +14,7 @@ Vectors = NDArray[np.float64]
 
 KINK_LIMIT = 30.0  # [deg] above it the traction may jump at the node, so the line is split there
 KINK_TOLERANCE = 1e-6  # [deg] a regular 12-gon, whose corners turn by 30 degrees, is a smooth ring
-GAUSS_POINT, GAUSS_WEIGHT = np.polynomial.legendre.leggauss(12)  # round-off accuracy on arcs of up to 90 degrees an edge
+GAUSS_POINT, GAUSS_WEIGHT = np.polynomial.legendre.leggauss(12)  # exact to round-off on arcs of 90 degrees an edge
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -40,7 +40,7 @@ class ShellMesh:
         return np.where(self.corner[:, 3] == NONE, 3, 4)
 
     def side_ends(self) -> NDArray[np.int64]:
-        """Indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
+        """Give the indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
         first = self.corner
         last = np.roll(first, -1, axis=1)
         triangle = first[:, 3] == NONE
@@ -57,7 +57,7 @@ def centroids(mesh: ShellMesh) -> NDArray[np.float64]:
 
 
 def normals(mesh: ShellMesh) -> NDArray[np.float64]:
-    """Unit normal of each element by the right-hand rule of its corners, (e, 3); zero for an element without area."""
+    """Return the unit normal of each element by the right-hand rule, (e, 3); zero for an element without area."""
     a, b, c, d = (mesh.xyz[mesh.corner[:, k]] for k in range(4))
     is_triangle = (mesh.corner[:, 3] == NONE)[:, None]
     vector = np.where(is_triangle, np.cross(b - a, c - a), np.cross(c - a, d - b))
@@ -65,7 +65,7 @@ def normals(mesh: ShellMesh) -> NDArray[np.float64]:
 
 
 def inward(mesh: ShellMesh) -> NDArray[np.float64]:
-    """Unit vector from each side into its element, in plane and normal to the side, (e, 4, 3); zero on no side."""
+    """Return the unit vector from each side into its element, normal to the side, (e, 4, 3); zero on no side."""
     ends = mesh.side_ends()
     along = mesh.xyz[ends[:, :, 1]] - mesh.xyz[ends[:, :, 0]]
     vector = unit(np.cross(normals(mesh)[:, None, :], along))
@@ -76,4 +76,5 @@ def inward(mesh: ShellMesh) -> NDArray[np.float64]:
 def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
     """Vectors of length one along the last axis; a zero vector stays zero."""
     length = np.linalg.norm(vector, axis=-1, keepdims=True)
-    return np.divide(vector, length, out=np.zeros_like(vector), where=length > 0)
+    scaled: NDArray[np.float64] = np.divide(vector, length, out=np.zeros_like(vector), where=length > 0)
+    return scaled

@@ -41,7 +41,8 @@ def test_a_constant_parabolic_load_is_recognised(line):
     assert warning.code == "edge_type"
     assert str(warning) == (
         "nodal_forces.csv, weld W1: the line load jumps up and down from node to node, and would not if every other "
-        "node were the mid-side node of a parabolic edge. Mark the mid-side nodes in edge_mid if the elements have them."
+        "node were the mid-side node of a parabolic edge. "
+        "Mark the mid-side nodes in edge_mid if the elements have them."
     )
 
 

@@ -151,7 +151,12 @@ def test_an_open_line_is_split_at_its_corner():
 def test_a_loop_is_split_into_its_sides():
     """A square loop becomes four open parts that begin at its first corner, wherever its numbering begins."""
     parts = split_at_kinks(shifted(square(), 1))
-    assert [part.node.tolist() for part in parts] == [[103, 104, 105], [105, 106, 107], [107, 108, 101], [101, 102, 103]]
+    assert [part.node.tolist() for part in parts] == [
+        [103, 104, 105],
+        [105, 106, 107],
+        [107, 108, 101],
+        [101, 102, 103],
+    ]
     assert all(part.corner_start and part.corner_end and not part.closed for part in parts)
     assert sum(length(part) for part in parts) == pytest.approx(length(square()), rel=1e-14)
 

@@ -37,7 +37,7 @@ def assert_same_stress(actual, expected, at=slice(None), signs=None):
     ],
 )
 def test_one_component_at_a_time(component, name, stress):
-    """t = 10, local axes = global axes: f / t from 100 N/mm, 6 m / t^2 from 100 N; drilling is no stress."""
+    """Thickness 10, local axes = global axes: f / t from 100 N/mm, 6 m / t^2 from 100 N; drilling is no stress."""
     load = np.zeros((2, 1, 6))
     load[..., component] = 100.0
     found = structural_stress(straight([10.0]), load)
@@ -94,7 +94,9 @@ def test_stress_does_not_depend_on_the_frame(line, rotation, shift):
 def test_stress_does_not_depend_on_the_direction_of_the_line(line):
     """Numbered the other way round, all five components stay: y' follows outward, hence x' stays too."""
     nodal = fields(line, 2, 6)
-    assert_same_stress(assess_line(reversed_line(line), nodal[::-1]), assess_line(line, nodal), at=slice(None, None, -1))
+    assert_same_stress(
+        assess_line(reversed_line(line), nodal[::-1]), assess_line(line, nodal), at=slice(None, None, -1)
+    )
 
 
 @given(lines(closed=True), st.integers(1, 7))
@@ -118,10 +120,10 @@ def test_the_other_side_of_an_unloaded_line_sees_the_same_stress(line):
 @given(lines())
 @settings(deadline=None, max_examples=20)
 def test_top_and_bottom(line):
-    """Seen from below (normal reversed), bending, twist and transverse shear change sign, membrane and shear do not."""
+    """With the normal reversed x' and z' turn: bending and both mean shears change sign, membrane and twist do not."""
     nodal = fields(line, 2, 6)
     below = assess_line(replace(line, normal=-line.normal), nodal)
-    signs = {"bending": -1, "twist_shear": -1, "transverse_shear": -1}
+    signs = {"bending": -1, "in_plane_shear": -1, "transverse_shear": -1}
     assert_same_stress(below, assess_line(line, nodal), signs=signs)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gamma, gammainc
+from scipy.special import gamma, gammainc, gammaincc
 
 Floats = NDArray[np.float64]
 
@@ -59,7 +59,9 @@ class Curve:
         for j, (k, (log_n, log_s)) in enumerate(zip(self.slopes, self.points, strict=True)):
             lower = max(self.knees[j] if j < len(self.knees) else 0.0, self.cutoff)
             a = 1.0 + k / shape
-            share = gammainc(a, (upper / scale) ** shape) - gammainc(a, (lower / scale) ** shape)
+            from_u, to_u = (lower / scale) ** shape, (upper / scale) ** shape
+            below, above = gammainc(a, to_u) - gammainc(a, from_u), gammaincc(a, from_u) - gammaincc(a, to_u)
+            share = above if from_u > a else below  # the one that does not cancel
             total += np.exp(k * (np.log(scale) - log_s) - log_n) * gamma(a) * share
             upper = lower
         return float(total)

@@ -11,6 +11,8 @@ from fatigue.verify.recount.inputs import Inputs, Modes, read_frame
 
 Floats = NDArray[np.float64]
 
+SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
@@ -60,8 +62,8 @@ def spectrum_rules(case: Mapping[str, Any], modes: Modes, step: float) -> Spectr
     return SpectrumRules(asked.get("segment_s", 4.0), upper)
 
 
-def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, upsample: int) -> Record:
-    """Read the history of an event and cut its start-up."""
+def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, fastest: float) -> Record:
+    """Read the history of an event and cut its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
     frame = read_frame(inputs.folder / event["history"])
     time = frame["time_s"].to_numpy(dtype=float)
     step = (time[-1] - time[0]) / (len(time) - 1)
@@ -72,6 +74,7 @@ def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, upsample
     by_number = "per_1000_km" in event
     by_default = "half" if by_number else inputs.case.get("counting", {}).get("residue", "repeat")
     recurs = event.get("residue", by_default) == "repeat"
+    upsample = _upsample(inputs.case.get("counting", {}).get("upsample", 1), step, fastest)
     length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * q.shape[1] * step / 3600)
     return Record(
         name=event["name"],
@@ -85,6 +88,16 @@ def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, upsample
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
     )
+
+
+def _upsample(asked: int | str, step: float, fastest: float) -> int:
+    """Upsampling factor as asked, or the power of 2 that gives the fastest point its samples per peak."""
+    if asked != "auto":
+        return int(asked)
+    factor = 1
+    while factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+        factor *= 2
+    return factor
 
 
 def finer(q: Floats, factor: int, *, recurs: bool) -> Floats:

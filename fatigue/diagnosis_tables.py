@@ -1,0 +1,177 @@
+"""Rows of the tables that say what makes the damage: attribution, track and levers."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.attribute import Attribution, EventAttribution, Points
+from fatigue.levers import Levers
+from fatigue.life.mission import Plan, life_km
+from fatigue.readers.body import Modes
+from fatigue.results import Column
+from fatigue.tables import FACES
+
+Floats = NDArray[np.float64]
+
+_POINT = (
+    Column("weld", "text", "-", "weld line"),
+    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
+    Column("node", "int", "-", "FE node id"),
+    Column("order", "int", "-", "position along the weld line, as given"),
+    Column("surface", "text", "-", "top (side of the plate normal) or bottom face of the assessed plate"),
+    Column(
+        "chosen",
+        "text",
+        "-",
+        "why the point is in this table: all points are, or it is the worst of its weld, or above a share of the limit",
+    ),
+)
+
+ATTRIBUTION = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission; every column of numbers adds up over the events"),
+    Column(
+        "kind",
+        "text",
+        "-",
+        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses of the event; "
+        "thickness: the plate through its stress, at constant line force and moment; thickness_rule: the plate through "
+        "the thickness rule of the curve",
+    ),
+    Column("mode", "int", "-", "mode id, for kind mode"),
+    Column("low_hz", "float", "Hz", "lower edge, for kind band"),
+    Column("high_hz", "float", "Hz", "upper edge, for kind band; empty: no upper edge"),
+    Column(
+        "damage_per_km",
+        "float",
+        "1/km",
+        "damage owed to it per km of the mission, below 0 where it relieves; empty for load and thickness",
+    ),
+    Column("share", "float", "-", "the same over the damage of the point in all events"),
+    Column(
+        "resonant_share",
+        "float",
+        "-",
+        "part of share within the half-power band f (1 +- 2 zeta) of the mode; empty without damping ratio",
+    ),
+    Column(
+        "life_exponent",
+        "float",
+        "-",
+        "d ln(life) / d ln of the amplitude, the number of passes of the event, the load or the thickness",
+    ),
+)
+
+TRACK = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column("start_km", "float", "km", "from the first kept sample; empty for an event counted by number"),
+    Column("end_km", "float", "km", "end of the bin; empty for an event counted by number"),
+    Column("start_s", "float", "s", "file time at the start of the bin"),
+    Column("end_s", "float", "s", "file time at the end of the bin"),
+    Column("damage_per_km", "float", "1/km", "damage of the bin per km of the mission; half a cycle at either instant"),
+    Column("share", "float", "-", "the same over the damage of the point in this event"),
+    Column("intensity", "float", "-", "share over the part of the event that the bin is long; 1: as the average"),
+)
+
+LEVERS = (
+    *_POINT,
+    Column("rank", "int", "-", "1: buys most"),
+    Column("mode", "int", "-", "mode id"),
+    Column("frequency_hz", "float", "Hz", "natural frequency of the mode"),
+    Column("kind", "text", "-", "normal, interface or rigid"),
+    Column("share", "float", "-", "share of the damage owed to the mode"),
+    Column("life_exponent", "float", "-", "d ln(life) / d ln(amplitude of the mode in all events)"),
+    Column("life_km", "float", "km", "life as it is"),
+    Column("life_km_estimated", "float", "km", "life with the mode 10 % smaller, by the exponent"),
+    Column("life_km_counted", "float", "km", "the same with all cycles counted again"),
+    Column("gain_km", "float", "km", "life_km_counted - life_km"),
+)
+
+
+def attribution_rows(modes: Modes, attribution: Attribution, event: EventAttribution) -> dict[str, Any]:
+    """Rows of ``attribution.parquet`` for one event: per point the event, its modes, its bands, load and thickness."""
+    bands = event.band.shape[1]
+    missing = np.full((len(attribution.points), 3), np.nan)
+    damage = np.column_stack([event.damage, event.mode, event.band, missing])
+    slope = np.column_stack(
+        [
+            event.damage,
+            event.mode_slope,
+            event.band_slope,
+            event.load_slope,
+            event.thickness_slope,
+            event.rule_slope,
+        ]
+    )
+    rows = damage.shape[1]
+    resonant = np.full(damage.shape, np.nan)
+    resonant[:, 1 : 1 + len(modes.mode)] = attribution.share(event.resonant)
+    before, after = [np.nan] * (1 + len(modes.mode)), [np.nan] * 3
+    points = len(attribution.points)
+    return {
+        **point_columns(attribution.points, rows),
+        "event": np.full(points * rows, event.event, dtype=object),
+        "kind": _each(
+            ["event", *["mode"] * len(modes.mode), *["band"] * bands, "load", "thickness", "thickness_rule"], points
+        ),
+        "mode": _each([None, *modes.mode.tolist(), *[None] * (bands + 3)], points),
+        "low_hz": np.tile([*before, *event.edges_hz[:-1], *after], points),
+        "high_hz": np.tile([*before, *event.edges_hz[1:-1], np.nan, *after], points),
+        "damage_per_km": damage.ravel(),
+        "share": attribution.share(damage).ravel(),
+        "resonant_share": resonant.ravel(),
+        "life_exponent": -attribution.share(slope).ravel(),
+    }
+
+
+def track_rows(points: Points, event: EventAttribution) -> dict[str, Any]:
+    """Rows of ``track.parquet`` for one event: per point the bins of the track."""
+    bins = event.place.shape[1]
+    damage = event.damage[:, None]
+    share = np.divide(event.place, damage, out=np.zeros_like(event.place), where=damage > 0.0)
+    return {
+        **point_columns(points, bins),
+        "event": np.full(share.size, event.event, dtype=object),
+        "start_km": np.tile(event.place_km[:-1], len(points)),
+        "end_km": np.tile(event.place_km[1:], len(points)),
+        "start_s": np.tile(event.place_s[:-1], len(points)),
+        "end_s": np.tile(event.place_s[1:], len(points)),
+        "damage_per_km": event.place.ravel(),
+        "share": share.ravel(),
+        "intensity": (share / event.place_length).ravel(),
+    }
+
+
+def lever_rows(modes: Modes, plan: Plan, attribution: Attribution, levers: Levers) -> dict[str, Any]:
+    """Rows of ``levers.parquet``: the modes whose reduction buys most, at the worst point of every weld."""
+    ranks = levers.mode.shape[1]
+    mode = levers.mode.ravel()
+    life = np.repeat(life_km(attribution.damage[levers.point], plan.damage_limit), ranks)
+    return {
+        **point_columns(attribution.points.of(levers.point), ranks),
+        "rank": np.tile(np.arange(1, ranks + 1), len(levers.point)),
+        "mode": modes.mode[mode],
+        "frequency_hz": modes.frequency[mode],
+        "kind": np.array(modes.kind, dtype=object)[mode],
+        "share": attribution.mode_share[np.repeat(levers.point, ranks), mode],
+        "life_exponent": levers.exponent.ravel(),
+        "life_km": life,
+        "life_km_estimated": levers.life_estimated.ravel(),
+        "life_km_counted": levers.life_counted.ravel(),
+        "gain_km": levers.life_counted.ravel() - life,
+    }
+
+
+def point_columns(points: Points, repeat: int) -> dict[str, Any]:
+    """Key columns of points, each ``repeat`` times."""
+    surface = np.array(FACES, dtype=object)[points.face]
+    key = {"weld": points.weld, "part": points.part, "node": points.node, "order": points.order, "surface": surface}
+    return {name: np.repeat(column, repeat) for name, column in {**key, "chosen": points.chosen}.items()}
+
+
+def _each(values: Sequence[object], points: int) -> NDArray[np.object_]:
+    """Repeat the values for every point."""
+    return np.tile(np.array(values, dtype=object), points)

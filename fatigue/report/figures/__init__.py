@@ -1,0 +1,40 @@
+"""The figures of the report as functions of tables, for notebooks too: each returns a plotly figure.
+
+They take the tables of a result folder as ``pandas.read_parquet`` reads them, or a part of their rows.
+"""
+
+from fatigue.report.figures.lines import along_weld
+from fatigue.report.figures.overview import damage_by_event, ratio_histogram, time_against_frequency, weld_lives, weld_strips
+from fatigue.report.figures.point import (
+    exceedance,
+    rainflow_matrices,
+    shares,
+    sn_with_spectrum,
+    stress_history,
+    stress_spectrum,
+)
+from fatigue.report.figures.scene import body_outline, line_rows, projections, scene, worst_faces
+from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
+
+__all__ = [
+    "CONFIG",
+    "TEMPLATE",
+    "along_weld",
+    "body_outline",
+    "damage_by_event",
+    "event_colours",
+    "exceedance",
+    "line_rows",
+    "projections",
+    "rainflow_matrices",
+    "ratio_histogram",
+    "scene",
+    "shares",
+    "sn_with_spectrum",
+    "stress_history",
+    "stress_spectrum",
+    "time_against_frequency",
+    "weld_lives",
+    "weld_strips",
+    "worst_faces",
+]

@@ -1,0 +1,131 @@
+"""How the result was found, rule by rule: the parameter, the choice made, and the clause or paper it comes from."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from fatigue.report.wording import number
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One rule of the method as it was applied."""
+
+    subject: str
+    choice: str
+    source: str
+
+
+def rules(record: Mapping[str, Any]) -> list[Rule]:
+    """List every rule of an assessment with its source, in the order of the calculation."""
+    chosen, mission = record["rules"], record["mission"]
+    return [
+        Rule(
+            "Nodal forces",
+            f"force convention {record['force_convention']}, global axes, {len(record['modes']['used'])} modes",
+            "case file: body.force_convention",
+        ),
+        Rule(
+            "Line forces",
+            "consistent with the edge shape functions along each weld line, solved once for all modes",
+            "Dong 2001, Int. J. Fatigue 23; ASME VIII-2 5.5.5.1",
+        ),
+        Rule("Weld ends", chosen["weld_ends"], "case file: end_length_mm"),
+        Rule(
+            "Structural stress",
+            "membrane plus bending normal to the weld line, per face: σm = fy′/t, σb = −6 mx′/t²",
+            "Dong 2001; ASME VIII-2 5.5.5.2 (a)",
+        ),
+        *(_curve_rule(name, curve) for name, curve in record["curves"].items()),
+        Rule("Thickness in ΔS", _thickness(chosen["thickness_rule"]), "ASME VIII-2 5.5.5.2 (e)"),
+        Rule("Bending ratio", chosen["bending_ratio"], "ASME VIII-2 5.5.5.2 (d): I(r)^(1/m)"),
+        Rule("Below the knee", _extension(chosen), "case file: curve.extension; Haibach 1970"),
+        Rule(
+            "Mean stress",
+            "no correction"
+            if chosen["mean_stress"] == "none"
+            else f"f_M for high mean tension, yield {number(chosen['yield_MPa'])} MPa",
+            "ASME VIII-2 5.5.5.2 (c)",
+        ),
+        Rule(
+            "Shear",
+            "not in the headline life; the factor it would bring is given for every point",
+            "ASME VIII-2 5.5.5.3",
+        ),
+        *(Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85") for words in _unique(chosen["residue"].values())),
+        Rule("Upsampling before counting", str(chosen["upsample"]), "case file: counting.upsample"),
+        Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
+        Rule(
+            "Mission",
+            f"target {number(mission['target_km'])} km, {number(mission['km_per_year'])} km per year",
+            "case file: mission",
+        ),
+        Rule(
+            "Spectra",
+            f"{chosen['spectrum']['window']}, segments of {number(chosen['spectrum']['segment_s'])} s, upper frequency "
+            + (
+                f"{number(chosen['spectrum']['upper_hz'])} Hz"
+                if chosen["spectrum"]["upper_hz"]
+                else "the lower of 0.4 sampling rates and 1.5 times the highest normal mode"
+            ),
+            "Welch 1967",
+        ),
+        Rule("Frequency-domain life", "Dirlik, with one bending ratio per point and event", "Dirlik 1985"),
+        Rule("Frequency-domain life, second", "Tovo-Benasciutti", "Benasciutti and Tovo 2005, Int. J. Fatigue 27"),
+    ]
+
+
+def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Say in a few lines what the life on the first page assumes."""
+    chosen, mission = record["rules"], record["mission"]
+    curves = [
+        f"{name}, {_survival(chosen['survival'][name])} ({curve['source']})" for name, curve in record["curves"].items()
+    ]
+    return [
+        ("S-N curve" if len(curves) == 1 else "S-N curves", "; ".join(curves)),
+        ("Thickness in ΔS", _thickness(chosen["thickness_rule"])),
+        ("Below the knee", _extension(chosen)),
+        ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
+        ("Residue", "; ".join(_unique(chosen["residue"].values()))),
+        ("Weld ends", chosen["weld_ends"]),
+        ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
+    ]
+
+
+def _curve_rule(name: str, curve: Mapping[str, Any]) -> Rule:
+    used = curve["used"]
+    slopes = ", ".join(number(k) for k in used["slopes"])
+    ranges = ", ".join(f"{level} {number(value)}" for level, value in curve["reference_range"].items())
+    unit = "MPa mm^(−0.222)" if curve["applies"] == "dS" else "MPa"
+    return Rule(
+        f"Curve {name}",
+        f"slopes {slopes}; range at {number(curve['reference_cycles'])} cycles [{unit}]: {ranges}; used: {used['survival']}",
+        curve["source"],
+    )
+
+
+def _survival(level: str) -> str:
+    meaning = {
+        "mean": "50 % survival",
+        "mean-1sigma": "84 % survival",
+        "mean-2sigma": "97.7 % survival",
+        "mean-3sigma": "99.9 % survival",
+    }
+    return f"{level}: {meaning[level]}" if level in meaning else level
+
+
+def _thickness(rule: str) -> str:
+    return {"actual": "actual plate thickness", "asme": "ASME: at least 16 mm, at most 150 mm"}[rule]
+
+
+def _extension(chosen: Mapping[str, Any]) -> str:
+    words = {
+        "none": "the curve as it is, no further knee",
+        "haibach": f"slope 2k − 1 beyond {number(chosen['knee_cycles'])} cycles (Haibach)",
+        "cutoff": f"cut-off at {number(chosen['knee_cycles'])} cycles",
+    }
+    return words[chosen["extension"]]
+
+
+def _unique(words: Any) -> Sequence[str]:
+    return list(dict.fromkeys(words))

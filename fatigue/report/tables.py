@@ -1,0 +1,236 @@
+"""The tables of the page: what a cell says, and the value it is sorted by."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fatigue.report.wording import NOT_AVAILABLE, number, share, whole
+
+_BEYOND = 1e300  # sorts after every number; what is not available sorts last
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """Head of a column: what it holds, its unit, and whether it holds numbers."""
+
+    text: str
+    unit: str = ""
+    numeric: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One cell: its text, the number it is sorted by (None: its text), a link within the page, a mark for the style."""
+
+    text: str
+    value: float | None = None
+    link: str = ""
+    mark: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table of the page; one with a ``label`` gets a filter above it."""
+
+    id: str
+    headings: tuple[Heading, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    label: str = ""
+
+
+WELD, FACE, EVENT = Heading("weld", numeric=False), Heading("face", numeric=False), Heading("governing event", numeric=False)
+LIFE = (Heading("life", "km"), Heading("life", "years"), Heading("utilisation", "-"), Heading("load factor", "-"))
+LIFE_COLUMNS = ("life_km", "life_years", "utilisation", "load_factor")
+
+
+def text(value: Any) -> Cell:
+    """Cell with a name; a dash where there is none."""
+    return Cell(NOT_AVAILABLE if value is None or value != value or value == "" else str(value))  # noqa: PLR0124
+
+
+def num(value: Any) -> Cell:
+    """Cell with a number of four digits."""
+    missing = value is None or value != value  # noqa: PLR0124
+    return Cell(number(value), 2 * _BEYOND if missing else float(np.clip(float(value), -_BEYOND, _BEYOND)))
+
+
+def integer(value: Any, *, grouped: bool = False) -> Cell:
+    """Cell with a count (grouped) or an id."""
+    return Cell(whole(int(value)) if grouped else str(int(value)), float(value))
+
+
+def percent(value: Any) -> Cell:
+    """Cell with a share."""
+    return Cell(share(value), -_BEYOND if value != value else float(value))  # noqa: PLR0124
+
+
+def verdict(fulfilled: Any) -> Cell:
+    """Cell that says whether a target is met: in words and a sign, not in colour alone."""
+    return Cell("✓ met", 1.0, mark="met") if fulfilled else Cell("✕ missed", 0.0, mark="missed")
+
+
+def lives(row: Mapping[str, Any] | pd.Series) -> list[Cell]:
+    """Cells of life in km and years, utilisation and load factor."""
+    return [num(row[name]) for name in LIFE_COLUMNS]
+
+
+def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) -> Table:
+    """Worst welds with their worst points."""
+    rows = tuple(
+        (
+            _linked(row.weld, links),
+            verdict(row.fulfilled),
+            *(num(getattr(row, name)) for name in LIFE_COLUMNS),
+            integer(row.worst_node),
+            text(row.worst_surface),
+            num(row.worst_arc_length_mm),
+            text(row.governing_event),
+        )
+        for row in welds[welds["status"] == "assessed"].head(most).itertuples()
+    )
+    headings = (
+        WELD,
+        Heading("target", numeric=False),
+        *LIFE,
+        Heading("worst node"),
+        FACE,
+        Heading("arc length", "mm"),
+        EVENT,
+    )
+    return Table("worst-welds", headings, rows)
+
+
+def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: str, label: str = "") -> Table:
+    """Worst toe points of all welds."""
+    worst = nodes[nodes["toe"]].sort_values("utilisation", ascending=False, kind="stable").head(most)
+    rows = tuple(
+        (
+            integer(rank),
+            _linked(row.weld, links),
+            integer(row.node),
+            text(row.surface),
+            num(row.arc_length_mm),
+            *(num(getattr(row, name)) for name in LIFE_COLUMNS),
+            num(row.life_km_dirlik),
+            num(row.dirlik_ratio),
+            num(row.max_range_MPa),
+            num(row.equivalent_range_2e6_MPa),
+            text(row.governing_event),
+            text(", ".join(w for w, flag in (("end", row.at_end), ("corner", row.at_corner)) if flag)),
+        )
+        for rank, row in enumerate(worst.itertuples(), start=1)
+    )
+    headings = (
+        Heading("rank"),
+        WELD,
+        Heading("node"),
+        FACE,
+        Heading("arc length", "mm"),
+        *LIFE,
+        Heading("Dirlik life", "km"),
+        Heading("Dirlik / rainflow damage", "-"),
+        Heading("largest range", "MPa"),
+        Heading("equiv. range at 2e6", "MPa"),
+        EVENT,
+        Heading("place", numeric=False),
+    )
+    return Table(id_, headings, rows, label)
+
+
+def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
+    """Every weld of the case: assessed, or excluded and why."""
+    rows = tuple(
+        (
+            _linked(row.weld, links),
+            text(row.description),
+            text(row.status if not row.reason else f"{row.status}: {row.reason}"),
+            verdict(row.fulfilled) if row.status == "assessed" else text(None),
+            num(row.length_mm),
+            integer(row.nodes, grouped=True),
+            integer(row.parts),
+            text("closed" if row.closed else "open"),
+            Cell(_span(row.thickness_min_mm, row.thickness_max_mm), float(row.thickness_min_mm)),
+            text(row.surface),
+            text(row.curve),
+            text(row.survival),
+            Cell("plate thickness" if row.end_length_mm != row.end_length_mm else number(row.end_length_mm), 0.0),  # noqa: PLR0124
+            *(num(getattr(row, name)) for name in LIFE_COLUMNS),
+        )
+        for row in welds.itertuples()
+    )
+    headings = (
+        WELD,
+        Heading("description", numeric=False),
+        Heading("status", numeric=False),
+        Heading("target", numeric=False),
+        Heading("length", "mm"),
+        Heading("nodes"),
+        Heading("parts"),
+        Heading("line", numeric=False),
+        Heading("thickness", "mm"),
+        Heading("toe on face", numeric=False),
+        Heading("curve", numeric=False),
+        Heading("survival", numeric=False),
+        Heading("end length", "mm"),
+        *LIFE,
+    )
+    return Table("weld-register", headings, rows, "Find a weld")
+
+
+def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str], steps: Mapping[str, float]) -> Table:
+    """Load definition: the events of the mission; ``steps`` [s] where the records were found."""
+    rows = tuple(
+        (
+            text(event["event"]),
+            percent(event["share"]) if event["share"] is not None else text(None),
+            num(event["per_1000_km"]),
+            num(event["length"]),
+            num(event["passes_per_km"]),
+            integer(event["samples"], grouped=True),
+            num(steps[event["event"]] * event["samples"] if event["event"] in steps else None),
+            num(3600.0 * event["length"] / (steps[event["event"]] * event["samples"]) if event["event"] in steps and event["length"] else None),
+            num(event["start_s"]),
+            num(event["stress_factor"]),
+            text(residues[event["event"]].split(":")[0]),
+        )
+        for event in events
+    )  # fmt: skip
+    headings = (
+        Heading("event", numeric=False),
+        Heading("share of mileage", "%"),
+        Heading("number in 1000 km", "-"),
+        Heading("length of a pass", "km"),
+        Heading("passes per km", "1/km"),
+        Heading("samples"),
+        Heading("duration", "s"),
+        Heading("speed", "km/h"),
+        Heading("start-up cut", "s"),
+        Heading("stress factor", "-"),
+        Heading("residue", numeric=False),
+    )
+    return Table("events", headings, rows)
+
+
+def mode_table(modes: Mapping[str, Any]) -> Table:
+    """The modes used."""
+    rows = tuple(
+        (integer(mode), num(frequency), text(kind))
+        for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True)
+    )
+    return Table("modes", (Heading("mode"), Heading("frequency", "Hz"), Heading("kind", numeric=False)), rows, "Find a mode")
+
+
+def plain_table(id_: str, headings: Sequence[Heading], rows: Iterable[Sequence[Cell]]) -> Table:
+    """Any other table."""
+    return Table(id_, tuple(headings), tuple(tuple(row) for row in rows))
+
+
+def _linked(weld: str, links: Mapping[str, str]) -> Cell:
+    return Cell(weld, link=links.get(weld, ""))
+
+
+def _span(low: float, high: float) -> str:
+    return number(low) if low == high else f"{number(low)} to {number(high)}"

@@ -1,0 +1,252 @@
+"""Verdict time against frequency domain: may Dirlik's damage be trusted at a point in an event, and if not, why not.
+
+A spectrum describes a stationary Gaussian process sampled densely and long enough. Each of these words is measured, for
+all points at once, and the first one that fails gives the verdict. Time domain damage stays the result either way: the
+estimate from the spectrum screens and explains.
+
+The order of the rule and its limits were calibrated on synthetic records (stationary, stepped and modulated, with
+tones, bursts, impacts, a spike, quasi-static parts, non-linear); where chance in a short record exceeds a limit, the
+limit gives way to what chance allows.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.history import ModalHistory
+from fatigue.spectrum.methods import spectral_shape
+from fatigue.spectrum.moments import Spectra, quadratic_forms
+from fatigue.spectrum.stationarity import PeriodMatrices, Stationarity, modulation_factor, period_matrices, stationarity
+from fatigue.spectrum.whole_record import RecordMatrices, record_matrices
+
+VERDICTS = (
+    "not_assessed",
+    "valid",
+    "sampling",
+    "quasi_static",
+    "single_event",
+    "non_stationary",
+    "harmonic",
+    "non_gaussian",
+    "bandwidth",
+)
+
+FEWEST_SAMPLES_PER_PEAK = 6.0  # rainflow on samples loses k (pi nu_p / fs)^2 / 6 of the damage: 16 % at k = 3.6
+HIGHEST_PEAK_RATE = 3.0  # over the highest mode: more peaks than modes can make are noise
+SLOW_SHARE = 0.20  # of the variance
+TOP_CYCLE_SHARE = 0.10  # of the damage
+MODULATED, STEADY = 1.4, 0.6  # modulation index; Gaussian records of 51 s keep 0.7 to 1.35
+LINE_SHARE = 0.30  # of the variance, in tones
+STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
+KURTOSIS_OFF = 0.5  # from what the modulation found explains
+RATIO_BAND = {4.0: (0.80, 1.25), 5.0: (0.65, 1.35)}  # of Dirlik / rainflow on Gaussian records, by slope k
+CONFIDENT = 0.25  # coefficient of variation of the damage from one record to the next
+TOP_CYCLE_QUANTILE = 4.6  # -ln(-ln 0.99): 99 of 100 largest values of N exponential variables stay below ln N + 4.6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DiagnosisMatrices:
+    """What the diagnosis of all points of an event needs, computed once.
+
+    ``periods`` is None if the record holds too few segments to judge its scatter.
+    """
+
+    record: RecordMatrices
+    periods: PeriodMatrices | None
+    duration: float
+    segments: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Diagnosis:
+    """Verdict and the numbers behind it; every array is (n,). What could not be measured is NaN.
+
+    Attributes
+    ----------
+    verdict : index into `VERDICTS`
+    record_too_short : the damage would scatter by more than `CONFIDENT` from record to record, or that is unknown
+    dirlik_ratio, tb_ratio : damage of Dirlik and of Tovo-Benasciutti over rainflow damage
+    ratio_low, ratio_high : band in which the ratio means agreement
+    alpha2 : irregularity
+    samples_per_peak : of the record that was counted
+    peaks_over_top_mode : rate of peaks over the highest frequency of a mode
+    slow_share : of the variance, below ``slow_hz``
+    top_cycle_share : of the rainflow damage, in the largest cycle
+    top_cycle_limit : share that chance allows
+    modulation_index, modulation_low, modulation_high : see `Stationarity`
+    modulation_factor : damage that the modulation found adds
+    line_share : of the variance, in spectral lines
+    line_factor : damage that lines take away: of tone plus noise over Gaussian of the same variance
+    kurtosis, expected_kurtosis, kurtosis_tolerance : Gaussian 3, more when modulated
+    bandwidth_hz : statistical bandwidth B_s [Hz]
+    damage_cov : coefficient of variation of the damage, of either domain, from one record of this length to the next
+    slope : k the limits were chosen for
+    slow_hz : frequency below which the record holds too few cycles [Hz]
+    segments : spectral segments of the record
+    """
+
+    verdict: NDArray[np.int8]
+    record_too_short: NDArray[np.bool_]
+    dirlik_ratio: NDArray[np.float64]
+    tb_ratio: NDArray[np.float64]
+    ratio_low: NDArray[np.float64]
+    ratio_high: NDArray[np.float64]
+    alpha2: NDArray[np.float64]
+    samples_per_peak: NDArray[np.float64]
+    peaks_over_top_mode: NDArray[np.float64]
+    slow_share: NDArray[np.float64]
+    top_cycle_share: NDArray[np.float64]
+    top_cycle_limit: NDArray[np.float64]
+    modulation_index: NDArray[np.float64]
+    modulation_low: NDArray[np.float64]
+    modulation_high: NDArray[np.float64]
+    modulation_factor: NDArray[np.float64]
+    line_share: NDArray[np.float64]
+    line_factor: NDArray[np.float64]
+    kurtosis: NDArray[np.float64]
+    expected_kurtosis: NDArray[np.float64]
+    kurtosis_tolerance: NDArray[np.float64]
+    bandwidth_hz: NDArray[np.float64]
+    damage_cov: NDArray[np.float64]
+    slope: float
+    slow_hz: float
+    segments: int
+
+
+def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatrices:
+    """Prepare the diagnosis of an event from its kept record and the segment spectra of it."""
+    return DiagnosisMatrices(
+        record=record_matrices(history, spectra.upper_hz),
+        periods=period_matrices(history, spectra),
+        duration=history.duration,
+        segments=len(spectra.amplitude),
+    )
+
+
+def diagnose(
+    shapes: NDArray[np.float64],
+    moments: NDArray[np.float64],
+    matrices: DiagnosisMatrices,
+    *,
+    slope: float,
+    dirlik_ratio: NDArray[np.float64],
+    tb_ratio: NDArray[np.float64],
+    kurtosis: NDArray[np.float64],
+    top_cycle_share: NDArray[np.float64],
+    samples_per_peak: NDArray[np.float64],
+    top_mode_hz: float | None,
+) -> Diagnosis:
+    """Diagnose all points of one event.
+
+    Parameters
+    ----------
+    shapes : (n, m) stress per unit modal coordinate [MPa]
+    moments : (4, n) spectral moments of that stress, orders 0, 1, 2, 4
+    matrices : of the event
+    slope : k of the S-N curve where the damage is done
+    dirlik_ratio, tb_ratio : (n,) frequency-domain over rainflow damage, same bending ratio in both
+    kurtosis : (n,) of the stress samples, Gaussian 3
+    top_cycle_share : (n,) damage of the largest cycle over all
+    samples_per_peak : (n,) sampling rate of the counted record over the rate of peaks
+    top_mode_hz : highest frequency of a normal mode [Hz]; None: unknown
+    """
+    shape = spectral_shape(moments)
+    total, slow, lines = quadratic_forms(
+        shapes, np.stack([matrices.record.covariance, matrices.record.slow, matrices.record.lines])
+    )
+    time = _stationarity(shapes, matrices.periods)
+    relative_variance_of_record = _quotient(1.0, matrices.duration * time.bandwidth_hz)
+    damage_cov = 0.5 * slope * np.sqrt(relative_variance_of_record)
+    low, high = _ratio_band(slope)
+    # Both damages come from one record and err together; their ratio scatters half as much (Monte Carlo).
+    chance = np.exp(1.645 * 0.5 * np.nan_to_num(damage_cov))
+    line_share = np.clip(_quotient(lines, total), 0.0, 1.0)
+    explained = 1 + time.relative_variance.var(axis=0)
+    diagnosis = Diagnosis(
+        verdict=np.zeros(len(shapes), dtype=np.int8),
+        record_too_short=~(damage_cov <= CONFIDENT),
+        dirlik_ratio=dirlik_ratio,
+        tb_ratio=tb_ratio,
+        ratio_low=low / chance,
+        ratio_high=high * chance,
+        alpha2=shape.alpha2,
+        samples_per_peak=samples_per_peak,
+        peaks_over_top_mode=shape.peaks / (np.nan if top_mode_hz is None else top_mode_hz),
+        slow_share=_quotient(slow, total),
+        top_cycle_share=top_cycle_share,
+        top_cycle_limit=np.maximum(TOP_CYCLE_SHARE, _top_cycle_share(shape.zero_crossings * matrices.duration, slope)),
+        modulation_index=time.modulation_index,
+        modulation_low=np.minimum(STEADY, time.lower),
+        modulation_high=np.maximum(MODULATED, time.upper),
+        modulation_factor=modulation_factor(time, slope),
+        line_share=line_share,
+        line_factor=tone_damage_factor(line_share, slope),
+        kurtosis=kurtosis,
+        expected_kurtosis=3 * explained / (1 + time.expected_cov**2),
+        # A Gaussian record's kurtosis has the variance 24/T times the integral of rho^4, at most 8 / (T B_s).
+        kurtosis_tolerance=np.maximum(KURTOSIS_OFF, 2.6 * np.sqrt(8 * relative_variance_of_record)),
+        bandwidth_hz=time.bandwidth_hz,
+        damage_cov=damage_cov,
+        slope=slope,
+        slow_hz=matrices.record.slow_hz,
+        segments=matrices.segments,
+    )
+    diagnosis.verdict[:] = _verdict(diagnosis)
+    return diagnosis
+
+
+def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float64]:
+    """Damage of a tone that holds ``share`` of the variance, plus narrow-band noise, over all-Gaussian damage.
+
+    Mean of a Rice-distributed amplitude to the power k: ``1F1(-k/2; 1; -s) / (1 + s)**(k/2)`` with s the variance of
+    the tone over that of the noise (Rice, 1945); ``1 / Gamma(1 + k/2)`` for a pure tone.
+    """
+    from scipy.special import hyp1f1  # noqa: PLC0415 - slow to import
+
+    over_noise = np.minimum(share, 0.999) / (1 - np.minimum(share, 0.999))
+    return np.asarray(hyp1f1(-k / 2, 1.0, -over_noise) / (1 + over_noise) ** (k / 2))
+
+
+def _verdict(of: Diagnosis) -> NDArray[np.int8]:
+    """Apply the rule: the first finding that holds; a number that could not be had accuses nobody."""
+    steady = of.modulation_index < of.modulation_low
+    tones = (of.line_share > LINE_SHARE) & (of.modulation_index < STEADIER_THAN_CHANCE)
+    findings = {
+        "not_assessed": ~np.isfinite(of.dirlik_ratio),
+        "sampling": (of.samples_per_peak < FEWEST_SAMPLES_PER_PEAK) | (of.peaks_over_top_mode > HIGHEST_PEAK_RATE),
+        "quasi_static": of.slow_share > SLOW_SHARE,
+        "single_event": of.top_cycle_share > of.top_cycle_limit,
+        "non_stationary": of.modulation_index > of.modulation_high,
+        "harmonic": steady | tones,
+        "non_gaussian": np.abs(of.kurtosis - of.expected_kurtosis) > of.kurtosis_tolerance,
+        "bandwidth": (of.dirlik_ratio < of.ratio_low) | (of.dirlik_ratio > of.ratio_high),
+    }
+    codes = [VERDICTS.index(name) for name in findings]
+    return np.select(list(findings.values()), codes, VERDICTS.index("valid")).astype(np.int8)
+
+
+def _stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
+    """Judge the variance over time, or say nothing (NaN) of a record too short for it."""
+    if periods is not None:
+        return stationarity(shapes, periods)
+    unknown = np.full(len(shapes), np.nan)
+    return Stationarity(unknown[None], unknown, unknown, unknown, unknown, unknown)
+
+
+def _ratio_band(slope: float) -> tuple[float, float]:
+    """Band of agreement for a slope: methods differ more at steep curves."""
+    slopes, bands = list(RATIO_BAND), np.array(list(RATIO_BAND.values()))
+    return float(np.interp(slope, slopes, bands[:, 0])), float(np.interp(slope, slopes, bands[:, 1]))
+
+
+def _top_cycle_share(cycles: NDArray[np.float64], k: float) -> NDArray[np.float64]:
+    """Share of the damage that the largest of ``cycles`` Rayleigh cycles exceeds in one record of a hundred."""
+    n = np.maximum(cycles, 1.0)
+    return np.asarray((np.log(n) + TOP_CYCLE_QUANTILE) ** (k / 2) / (n * math.gamma(1 + k / 2)))
+
+
+def _quotient(a: NDArray[np.float64] | float, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Divide: ``a / b``, NaN where b is 0."""
+    return np.asarray(np.divide(a, b, out=np.full(np.shape(b), np.nan), where=b > 0))

@@ -1,0 +1,1 @@
+"""Does the installed program compute what it says: known values, and a recount of finished results."""

@@ -1,0 +1,171 @@
+"""Stored numbers against recounted ones: the largest difference in each column and where it is."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fatigue.results import TABLES
+
+TOLERANCE = 1e-6  # two programs written apart agree to this
+HISTOGRAM_BIN = 10 ** (1 / 64) - 1  # the load factor on a curve with a knee comes from bins this wide
+UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa"}
+LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnCheck:
+    """One column of a result table: how many values were recounted, and the one that differs most.
+
+    ``difference`` is relative; ``where``, ``found`` (in the table) and ``expected`` (recounted) are those of that value.
+    """
+
+    table: str
+    column: str
+    unit: str
+    compared: int
+    difference: float
+    tolerance: float
+    where: str
+    found: Any
+    expected: Any
+
+    @property
+    def passed(self) -> bool:
+        """Whether the largest difference is within the tolerance."""
+        return self.difference <= self.tolerance
+
+
+@dataclass(frozen=True, slots=True)
+class Recount:
+    """What a recount of a result found."""
+
+    folder: Path
+    points: int
+    points_in_all: int
+    columns: tuple[ColumnCheck, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every column agrees."""
+        return all(column.passed for column in self.columns)
+
+    def as_record(self) -> dict[str, Any]:
+        """For machines."""
+        return {
+            "folder": str(self.folder),
+            "points": self.points,
+            "points_in_all": self.points_in_all,
+            "passed": self.passed,
+            "columns": [asdict(column) | {"passed": column.passed} for column in self.columns],
+        }
+
+    def as_text(self) -> str:
+        """For people: the columns that differ with their place, else the largest difference of each table."""
+        wrong = [column for column in self.columns if not column.passed]
+        verdict = "agree with the recount" if not wrong else f"{len(wrong)} of {len(self.columns)} columns differ"
+        lines = [f"{self.folder}: {self.points} of {self.points_in_all} points recounted from the input files: {verdict}"]
+        for column in wrong:
+            lines.append(
+                f"  {column.table}.{column.column}: {_shown(column.found)} where the recount has {_shown(column.expected)} "
+                f"{column.unit.replace('-', '')}".rstrip() + f" (difference {column.difference:.2g}), {column.where}"
+            )
+        for table in dict.fromkeys(column.table for column in self.columns):
+            checked = [column for column in self.columns if column.table == table]
+            worst = max(checked, key=lambda column: column.difference / column.tolerance)
+            lines.append(
+                f"  {table}: {len(checked)} columns, {sum(c.compared for c in checked)} values, largest difference "
+                f"{worst.difference:.2g} in {worst.column}"
+            )
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Recounted values of one row of a table.
+
+    ``scale`` gives the size a difference in a column is relative to where that is not the value itself;
+    ``is_bound`` marks a row that stands for a proven bound.
+    """
+
+    where: str
+    found: Mapping[str, Any]
+    expected: Mapping[str, Any]
+    scale: Mapping[str, float]
+    is_bound: bool = False
+
+
+def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> list[ColumnCheck]:
+    """Compare every recounted column of a table, in the order of the table."""
+    units = {column.name: column.unit for column in TABLES[table]}
+    checks = []
+    for name in (name for name in units if any(name in row.expected for row in rows)):
+        compared = [row for row in rows if name in row.expected and not (row.is_bound and _is_undefined(name, row))]
+        differences = np.array([_difference(name, row) for row in compared])
+        if not compared:
+            continue
+        worst = compared[int(differences.argmax())]
+        checks.append(
+            ColumnCheck(
+                table=table,
+                column=name,
+                unit=units[name],
+                compared=len(compared),
+                difference=float(differences.max()),
+                tolerance=tolerance.get(name, TOLERANCE),
+                where=worst.where,
+                found=worst.found[name],
+                expected=worst.expected[name],
+            )
+        )
+    return checks
+
+
+def _is_undefined(name: str, row: Row) -> bool:
+    """Whether a row that stands for a bound says nothing exact about a column."""
+    is_exact = "dirlik" in name or "_tb" in name or name in {"irregularity", "peaks_per_s", "samples_per_peak"}
+    missing = row.found[name] is None or row.found[name] != row.found[name]
+    return missing or not (is_exact or name in UPPER_BOUNDS | LOWER_BOUNDS)
+
+
+def _difference(name: str, row: Row) -> float:
+    """Relative difference of a value, 1 between texts and flags that differ, infinite between a number and none."""
+    found, expected = row.found[name], row.expected[name]
+    if not isinstance(expected, float):
+        return float(found != expected)
+    found = np.nan if found is None else float(found)
+    if found == expected or (np.isnan(found) and np.isnan(expected)):
+        return 0.0
+    if not (np.isfinite(found) and np.isfinite(expected)):
+        within = row.is_bound and ((name in UPPER_BOUNDS) == (found > expected))
+        return 0.0 if within else np.inf
+    excess = found - expected
+    if row.is_bound and name in UPPER_BOUNDS | LOWER_BOUNDS:
+        excess = min(excess, 0.0) if name in UPPER_BOUNDS else max(excess, 0.0)
+    size = max(row.scale.get(name, 0.0), abs(expected))
+    return abs(excess) / size if size > 0 else np.inf
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+
+def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnCheck:
+    """Compare which rows a table has with those it should have: none dropped, none twice, none from elsewhere."""
+    expected = pd.MultiIndex.from_tuples(keys, names=found.names) if found.nlevels > 1 else pd.Index(keys)
+    astray = [*found[found.duplicated()], *expected.symmetric_difference(found.drop_duplicates())]
+    return ColumnCheck(
+        table=table,
+        column=", ".join(found.names),
+        unit="rows",
+        compared=len(expected),
+        difference=float(len(astray)),
+        tolerance=0.5,  # rows
+        where=f"first {astray[0]}" if astray else "",
+        found=len(found),
+        expected=len(expected),
+    )

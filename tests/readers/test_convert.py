@@ -1,0 +1,299 @@
+"""From foreign files to a neutral folder: forces, frames, units, offsets, registers, refusals."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from fatigue.errors import CaseError, DataError
+from fatigue.readers.body import read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.convert import ConvertOptions, convert, mode_list
+from fatigue.readers.forces import read_element_forces, read_weld_elements
+from fatigue.readers.history import read_history
+from fatigue.readers.weld_lines import WeldSources
+from fatigue.weld.element_forces import balance, side_forces
+from tests.readers.op2_writer import modal_op2
+from tests.readers.tee_model import bulk, tee
+
+NASTRAN = Path("data/nastran")
+
+
+@pytest.fixture
+def files(tmp_path):
+    """Bulk data, forces and coordinates of the T joint."""
+    case = tee()
+    (tmp_path / "tee.bdf").write_text(bulk(case))
+    (tmp_path / "tee.op2").write_bytes(modal_op2(case.results, word=8))
+    time = np.arange(200) / 100
+    q = np.stack([np.sin((k + 1) * time) for k in range(5)])
+    rows = [f"{t:.9g}," + ",".join(f"{x:.9g}" for x in q[:, k]) for k, t in enumerate(time)]
+    (tmp_path / "straight.csv").write_text("\n".join(["time," + ",".join(f"q_{k}" for k in range(1, 6)), *rows]) + "\n")
+    return ConvertOptions(
+        forces=tmp_path / "tee.op2",
+        mesh=tmp_path / "tee.bdf",
+        out=tmp_path / "body",
+        coordinates=(tmp_path / "straight.csv",),
+        interface_modes=(5,),
+    )
+
+
+def neutral(folder):
+    """Read a converted folder back with the neutral readers, strictly."""
+    modes, _ = read_modes(folder / "modes.csv", (), strict=True)
+    welds, _ = read_welds(folder / "welds.csv", (), strict=True)
+    lines, _ = read_weld_nodes(folder / "weld_nodes.csv", welds, strict=True)
+    convention = "on_node" if 'force_convention = "on_node"' in (folder / "case.toml").read_text() else "on_element"
+    forces, _ = read_element_forces(folder / "element_forces.parquet", modes, convention, (), strict=True)
+    sides, _ = read_weld_elements(folder / "weld_elements.csv", welds, strict=True)
+    mesh, _ = read_mesh(folder / "nodes.parquet", folder / "elements.parquet", strict=True)
+    return modes, lines, forces, sides, mesh
+
+
+def test_neutral_forces_are_those_of_the_model(files):
+    """The folder holds, in basic axes and after frames, sign and file format, exactly K_e u_e of every plate side."""
+    result = convert(files)
+    case = tee()
+    modes, lines, forces, sides, mesh = neutral(files.out)
+    assert result.audit.convention == "on_node"
+    assert not result.audit.is_red
+    assert len(lines) == 3
+    for line in lines:
+        found = side_forces((line,), sides[line.weld], forces, modes.mode, line.weld)[0]
+        for k, u in enumerate(case.shape):
+            wanted = case.model.side_forces(u, sides[line.weld] - 1, line.node - 1)
+            assert np.allclose(found[:, k], wanted, rtol=0, atol=1e-9 * np.abs(wanted).max())
+    state = balance(forces, dict(zip(mesh.node.tolist(), mesh.xyz, strict=True)))
+    assert state.force_residual.max() < 1e-9
+
+
+def test_lines_have_thickness_ends_and_sides_of_the_joint(files):
+    """Two sides of the base, 8 elements each with those beyond both ends, and the upright's 6; normals to the upright."""
+    convert(files)
+    _, lines, _, sides, _ = neutral(files.out)
+    counts = sorted((line.thickness[0], sides[line.weld].size) for line in lines)
+    assert counts == [(6.0, 6), (8.0, 8), (8.0, 8)]
+    for line in lines:
+        if line.thickness[0] == 8.0:
+            assert np.allclose(line.normal, [0, 0, 1])
+            assert np.allclose(np.abs(line.outward), [0, 1, 0])
+
+
+def test_history_survives(files):
+    """The history of the folder is the one given, to single precision."""
+    convert(files)
+    modes, *_ = neutral(files.out)
+    history, _ = read_history(files.out / "q_straight.parquet", "straight", modes.mode, (), strict=True)
+    assert history.step == pytest.approx(0.01)
+    assert np.allclose(history.q[1], np.sin(2 * np.arange(200) / 100), atol=1e-6)
+
+
+def test_folder_can_be_assessed(files, tmp_path):
+    """The folder of one command is a case that the assessment accepts."""
+    from fatigue.assess import assess  # noqa: PLC0415
+    from fatigue.case import load_case  # noqa: PLC0415
+
+    convert(files)
+    assess(load_case(files.out / "case.toml"), tmp_path / "result")
+    nodes = pq.read_table(tmp_path / "result" / "nodes.parquet")
+    assert nodes.num_rows == 3 * 7 * 2
+
+
+def test_units_cancel(files, tmp_path):
+    """A model in m, kg, s gives the same products of force and coordinate in N and N mm as the one in mm, t, s."""
+    convert(files)
+    case = tee()
+    factor = np.array([1.0] * 3 + [1e-3] * 3) / np.sqrt(1e-3) / 1000
+    # shapes per sqrt(t) become shapes per sqrt(kg): one coordinate of the m, kg, s system is sqrt(1e-3) x 1000 of ours
+    metric = replace(case.results, force=case.results.force * factor * 1000 * np.sqrt(1e-3) * 1000 * np.sqrt(1e-3))
+    shape = case.results.shape * np.array([1.0] * 3 + [1e3] * 3) * np.sqrt(1e-3)
+    metric = replace(metric, shape=shape)
+    (tmp_path / "m.op2").write_bytes(modal_op2(metric, word=8))
+    text = bulk(case)
+    scaled = []
+    for line in text.splitlines():
+        cells = line.split(",")
+        if cells[0] == "GRID":
+            cells[3:6] = [f"{float(c) / 1000:.9f}" for c in cells[3:6]]
+        if cells[0] == "PSHELL":
+            cells[3] = f"{float(cells[3]) / 1000:.6f}"
+        scaled.append(",".join(cells))
+    (tmp_path / "m.bdf").write_text("\n".join(scaled))
+    out = tmp_path / "metric"
+    convert(
+        replace(
+            files, forces=tmp_path / "m.op2", mesh=tmp_path / "m.bdf", out=out, force_units="m-kg-s", coordinate_units="m-kg-s"
+        )
+    )
+    ours, theirs = (pq.read_table(f / "element_forces.parquet").to_pandas() for f in (files.out, out))
+    q_ours, q_theirs = (pq.read_table(f / "q_straight.parquet").to_pandas() for f in (files.out, out))
+    ratio = (q_theirs["q_1"] / q_ours["q_1"]).dropna().median()
+    assert ratio == pytest.approx(np.sqrt(1e-3) * 1000, rel=1e-5)
+    for name in ("fx_N", "mx_Nmm"):
+        size = ours[name].abs().max()
+        assert np.allclose(theirs[name] * ratio, ours[name], rtol=0, atol=1e-5 * size * ratio) or np.allclose(
+            theirs[name], ours[name], rtol=0, atol=1e-5 * size
+        )
+
+
+def test_offset_moves_the_moments(files, tmp_path):
+    """A shell offset z in pure membrane force f carries the moment of f about its mid-surface away."""
+    text = bulk(tee())
+    text = text.replace("CQUAD4,1,1,1,2,15,14", "CQUAD4,1,1,1,2,15,14,,2.5") if "CQUAD4,1,1,1,2,15,14" in text else text
+    lines = []
+    for line in text.splitlines():
+        cells = line.split(",")
+        lines.append(line + ",,2.5" if cells[0] == "CQUAD4" and cells[2] == "1" else line)
+    (tmp_path / "offset.bdf").write_text("\n".join(lines))
+    convert(files)
+    convert(replace(files, mesh=tmp_path / "offset.bdf", out=tmp_path / "offset"))
+    flat, moved = (pq.read_table(f / "element_forces.parquet").to_pandas() for f in (files.out, tmp_path / "offset"))
+    base = flat["element"] <= 96
+    # the grid is 2.5 mm below the mid-surface: M' = M + (-2.5 z) x F
+    assert np.allclose((moved["mx_Nmm"] - flat["mx_Nmm"])[base], 2.5 * flat["fy_N"][base], atol=1e-6 * flat["mx_Nmm"].abs().max())
+    assert np.allclose((moved["my_Nmm"] - flat["my_Nmm"])[base], -2.5 * flat["fx_N"][base], atol=1e-6 * flat["my_Nmm"].abs().max())
+    assert np.allclose(moved["mx_Nmm"][~base], flat["mx_Nmm"][~base])
+
+
+def test_register_wins_on_the_next_run(files):
+    """An excluded line stays excluded with its reason, a renamed one keeps its name and its end length."""
+    convert(files)
+    register = files.out / "welds_register.csv"
+    rows = register.read_text().splitlines()
+    rows[1] = rows[1].replace(",assess,,", ",excluded,ground flush,")
+    cells = rows[2].split(",")
+    cells[0], cells[13] = "my weld", "4.5"
+    rows[2] = ",".join(cells)
+    register.write_text("\n".join(rows) + "\n")
+    result = convert(files)
+    assert {row.reason for row in result.welds if row.status == "excluded"} == {"ground flush"}
+    _, lines, *_ = neutral(files.out)
+    assert "my weld" in {line.weld for line in lines}
+    assert {line.end_length for line in lines} == {4.5, None}
+
+
+def test_layered_section_needs_a_confirmation(files):
+    """A PCOMP side is excluded until the register confirms its thickness."""
+    files.mesh.write_text(bulk(tee()).replace("PSHELL,1,1,8.,1,,1", "PCOMP,1\n,1,4.,0.,,1,4.,90."))
+    first = convert(files)
+    layered = [row for row in first.welds if row.pid == 1]
+    assert all(row.status == "excluded" and "layered" in row.reason for row in layered)
+    register = files.out / "welds_register.csv"
+    text = "\n".join(
+        ",".join([*r[:2], "assess", "", *r[-11:-6], "7.5", "true", *r[-4:]]) if r[-9] == "1" else ",".join(r)
+        for r in (line.split(",") for line in register.read_text().replace('"', "").splitlines())
+    )
+    header = "weld,line,status,reason,kind,pids,pid,nodes,length_mm,thickness_mm,confirmed,surface,curve,end_length_mm,description"
+    plain = [header] + [
+        f"{row.weld},{row.line},assess,,tee,,{row.pid},7,60,{7.5 if row.pid == 1 else 6},true,both,,," for row in first.welds
+    ]
+    assert text
+    register.write_text("\n".join(plain) + "\n")
+    convert(files)
+    _, lines, *_ = neutral(files.out)
+    assert sorted(line.thickness[0] for line in lines) == [6.0, 7.5, 7.5]
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "words"),
+    [
+        ({"convention": "on_element"}, "audit", "forces on_node, but on_element is stated"),
+        ({"subcase": 9}, "no_subcase", "subcase 9"),
+        ({"coordinates": (Path("data/nastran/geom.inc"),)}, "no_coordinates", "format bdf"),
+        ({"mesh": NASTRAN / "modes_elements.op2"}, "no_mesh", "format op2"),
+        ({"forces": NASTRAN / "geom.inc"}, "no_forces", "format bdf"),
+        ({"mesh": NASTRAN / "modes_elements.bdf"}, "audit", "not in the mesh"),
+        ({"ignore_modes": (4, 5), "match": "order"}, "column_count", "5 columns for 3 modes"),
+        ({"welds": WeldSources(sets=(8,))}, "no_set", "Sets found: 7"),
+        ({"welds": WeldSources(markers=("PLOTEL",))}, "no_marker", "no PLOTEL"),
+    ],
+)
+def test_refusals(files, change, code, words):
+    """Every contradiction is refused with what was found, and nothing is written."""
+    with pytest.raises(DataError, match=words) as caught:
+        convert(replace(files, **change))
+    assert code in {problem.code for problem in caught.value.problems}
+    assert not files.out.exists()
+
+
+def test_modes_must_agree(files, tmp_path):
+    """A mode on one side only is refused by name; listed under ignore_modes it is left out on both."""
+    text = files.coordinates[0].read_text().replace("q_5", "q_6")
+    files.coordinates[0].write_text(text)
+    with pytest.raises(DataError, match=r"modes 6 have coordinates and no forces(.|\n)*modes 5 have forces"):
+        convert(files)
+    result = convert(replace(files, ignore_modes=(5, 6), interface_modes=(4,)))
+    assert result.modes == 4
+
+
+def test_foreign_files_are_not_overwritten(files):
+    """A folder of somebody else, or an edited case, is refused without force; an untouched conversion is repeated."""
+    convert(files)
+    convert(files)
+    case = files.out / "case.toml"
+    case.write_text(case.read_text() + "\n# mine\n")
+    with pytest.raises(DataError, match="changed since it was converted"):
+        convert(files)
+    convert(replace(files, force=True))
+    (files.out / "convert.json").unlink()
+    with pytest.raises(DataError, match="not the work of an earlier conversion"):
+        convert(files)
+    with pytest.raises(DataError, match="this is a file"):
+        convert(replace(files, out=files.mesh))
+
+
+def test_audit_is_kept(files):
+    """convert.json holds every check with its number, and the hashes of the inputs."""
+    convert(files)
+    record = json.loads((files.out / "convert.json").read_text())
+    assert {row["check"] for row in record["audit"]} >= {"element balance", "sign", "grid totals", "displacement frames"}
+    assert len(record["inputs"]) == 3
+
+
+def test_simulation_modes_scale_and_compare(files, tmp_path):
+    """Masses of the simulation give the scale sqrt(M_sim / M_fe); frequencies 2 % apart are refused."""
+    table = tmp_path / "modes_sim.csv"
+    f = tee().frequency
+    table.write_text("mode,frequency_hz,modal_mass\n" + "".join(f"{k + 1},{f[k]:.9g},{4.0}\n" for k in range(5)))
+    convert(replace(files, simulation_modes=table, match="frequency"))
+    modes, *_ = neutral(files.out)
+    assert np.allclose(modes.scale, 2.0)
+    table.write_text("mode,frequency_hz\n" + "".join(f"{k + 1},{1.02 * f[k]:.9g}\n" for k in range(5)))
+    with pytest.raises(DataError, match="frequency match"):
+        convert(replace(files, simulation_modes=table))
+
+
+def test_wing_box_from_inches(tmp_path):
+    """The wing box gives its 8 T lines from 3 sides; the three sides balance at every inner node to single precision."""
+    name = "wingbox_stitched_together-000"
+    options = ConvertOptions(NASTRAN / f"{name}.op2", NASTRAN / f"{name}.bdf", tmp_path / "wing", force_units="in-lbf-s")
+    result = convert(options)
+    assert [row.nodes for row in result.welds if row.status == "assess"] == [33] * 24
+    modes, lines, forces, sides, _ = neutral(options.out)
+    sums: dict[int, np.ndarray] = {}
+    largest = 0.0
+    for line in lines:
+        force = side_forces((line,), sides[line.weld], forces, modes.mode, line.weld)[0][1:-1, 0, :3]
+        largest = max(largest, np.abs(force).max())
+        for node, f in zip(line.node[1:-1].tolist(), force, strict=True):
+            sums[node] = sums.get(node, 0.0) + f
+    assert len(sums) == 8 * 31
+    assert np.abs(list(sums.values())).max() < 1e-6 * largest
+
+
+def test_mode_lists():
+    """Lists and ranges of modes; anything else is refused."""
+    assert mode_list("1-3, 7") == (1, 2, 3, 7)
+    with pytest.raises(CaseError, match="no mode or range"):
+        mode_list("1-x")
+
+
+def test_undecided_sign_is_refused(files, tmp_path):
+    """Without mode shapes nothing proves the sign: it has to be stated."""
+    bare = replace(tee().results, shape_node=np.empty(0, np.int64), shape=np.empty((5, 0, 6)))
+    files.forces.write_bytes(modal_op2(bare, word=8))
+    with pytest.raises(CaseError, match="do not prove the sign"):
+        convert(files)
+    assert convert(replace(files, convention="on_node")).modes == 5
