@@ -1,4 +1,4 @@
-"""Whose damage it is: that of every point, event by event, shared out to modes, frequency bands and places on the track.
+"""Whose damage it is: that of every point and event, shared out to modes, frequency bands and places on the track.
 
 One pass over the records. Cycles are counted as in the assessment, so the parts add up to the damage of the result; see
 `fatigue.life.attribution` for the method. Everything is weighted with the mission: damages are per km, and the sum over
@@ -102,7 +102,7 @@ class EventAttribution:
     damage : (p,) Miner sum
     top_cycle_share : (p,) share of ``damage`` that the one most damaging cycle has; NaN where nothing damages
     load_slope : (p,) by ln(load), all stresses of the event scaled
-    thickness_slope : (p,) by ln(t) through the stress, at constant line force and moment: membrane ~ 1/t, bending ~ 1/t^2
+    thickness_slope : (p,) by ln(t) through the stress: membrane ~ 1/t, bending ~ 1/t^2 at constant line load
     rule_slope : (p,) by ln(t) through the thickness rule of the curve
     mode, mode_slope : (p, m) damage owed to each mode, below 0 where it relieves; slope by ln(amplitude) of the mode
     resonant : (p, m) part of ``mode`` within the half-power band f (1 +- 2 zeta) of the mode; NaN without damping
@@ -132,7 +132,7 @@ class EventAttribution:
     @property
     def has_bands(self) -> bool:
         """Whether the record is long enough for frequency bands."""
-        return self.band.shape[1] > 1
+        return len(self.edges_hz) > 2
 
     @property
     def place_length(self) -> Floats:
@@ -202,29 +202,27 @@ def attribute_event(
     time = load.counted.start + load.counted.step * np.arange(q.shape[1])
     bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
 
-    rows = max(
-        1, _SAMPLES_AT_ONCE // q.shape[1]
-    )  # depends on the record only: the numbers do not depend on the machine
+    rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # of the record only: the numbers are the same on every machine
     pieces = []
     for first in range(0, len(points), rows):
         some = points.of(slice(first, first + rows))
         shapes_m, shapes_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         sigma_m, sigma_b = shapes_m @ q, shapes_b @ q
-        credits = [
+        counted = [
             count_credit(m, b, side, rule, residue)
             for m, b, side, rule in zip(sigma_m, sigma_b, some.side, some.rule, strict=True)
         ]
-        share = coefficients(np.stack([c.share for c in credits]), residue)
-        by_m, by_b = np.stack([c.by_membrane for c in credits]), np.stack([c.by_bending for c in credits])
+        share = coefficients(np.stack([c.share for c in counted]), residue)
+        by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
         shapes = shapes_m + some.side[:, None] * shapes_b
         owed = shapes[:, :, None] * band_products(share, Q, bands)
         slope = shapes_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
         slope += shapes_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
-        load_slope = np.array([c.slope for c in credits])
+        load_slope = np.array([c.slope for c in counted])
         pieces.append(
             {
-                "damage": np.array([c.damage for c in credits]),
-                "top_cycle": np.array([c.top_cycle for c in credits]),
+                "damage": np.array([c.damage for c in counted]),
+                "top_cycle": np.array([c.top_cycle for c in counted]),
                 "load_slope": load_slope,
                 "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
                 "rule_slope": load_slope * some.rule_exponent,
@@ -233,7 +231,7 @@ def attribute_event(
                 "resonant": shapes * _resonant_products(share, Q, frequency, modes),
                 "band": owed.sum(axis=1),
                 "band_slope": slope.sum(axis=1),
-                "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in credits]),
+                "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in counted]),
             }
         )
     per_pass = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}

@@ -4,6 +4,7 @@ import logging
 import os
 import shutil
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -13,16 +14,17 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.attribute import Attribution, Points, attribute_event
+from fatigue.attribute import Attribution, EventAttribution, Points, attribute_event, points_of
+from fatigue.body import Body, read_body
 from fatigue.case import Case, load_case
 from fatigue.checkpoint import locked
 from fatigue.diagnosis_summary import Diagnosis, findings
 from fatigue.diagnosis_tables import ATTRIBUTION, LEVERS, TRACK, attribution_rows, lever_rows, track_rows
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.events import event_load, mission_plan
+from fatigue.events import event_loads, mission_plan
 from fatigue.levers import best_levers
 from fatigue.life.mission import Plan
-from fatigue.model import Model, read_model
+from fatigue.model import solve_welds, weld_groups
 from fatigue.results import _ARROW_TYPE, Column, read_provenance, read_table, sha256
 from fatigue.spectrum.bands import third_octaves
 
@@ -60,75 +62,84 @@ def diagnose(
     ------
     DataError : no finished result in the folder, or its inputs are gone or have changed
     """
-    model, plan = _same_case(folder, case_file)
+    body = _same_body(folder, case_file)
+    plan, _ = mission_plan(body)
     edges = third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64)
     with locked(folder), threadpool_limits(limits=1, user_api="blas"):
-        points, worst, which = choose_points(model, plan, folder, share_of_limit)
+        chosen, worst, which = choose_points(folder, body, plan, share_of_limit)
+        points = gather_points(folder, body, chosen)
+        loads = event_loads(body)
         log.info("diagnosing %s", which)
-        events = []
-        for event, one_pass in zip(model.case.mission.event, plan.passes, strict=True):
-            progress("diagnosis", len(events), len(plan.passes))
-            events.append(attribute_event(model, event_load(model, event), one_pass, points, edges, bin_km))
-        progress("diagnosis", len(plan.passes), len(plan.passes))
+        events: list[EventAttribution] = []
+        for load, one_pass in zip(loads, plan.passes, strict=True):
+            progress("diagnosis", len(events), len(loads))
+            events.append(attribute_event(points, load, one_pass, body.modes, edges, bin_km))
+        progress("diagnosis", len(loads), len(loads))
         attribution = Attribution(points, tuple(events))
-        levers = best_levers(model, plan, attribution, [i for i in worst if attribution.damage[i] > 0.0])
+        levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
         _write(
             folder,
             {
-                "attribution": (ATTRIBUTION, [attribution_rows(model, attribution, event) for event in events]),
-                "track": (TRACK, [track_rows(model, points, event) for event in events]),
-                "levers": (LEVERS, [lever_rows(model, plan, attribution, levers)]),
+                "attribution": (ATTRIBUTION, [attribution_rows(body.modes, attribution, event) for event in events]),
+                "track": (TRACK, [track_rows(points, event) for event in events]),
+                "levers": (LEVERS, [lever_rows(body.modes, plan, attribution, levers)]),
             },
         )
-    return findings(model, plan, attribution, levers, which)
+    return findings(body, plan, attribution, levers, which)
 
 
 def choose_points(
-    model: Model, plan: Plan, folder: Path, share_of_limit: float
-) -> tuple[Points, NDArray[np.int64], str]:
+    folder: Path, body: Body, plan: Plan, share_of_limit: float
+) -> tuple[NDArray[np.object_], NDArray[np.int64], str]:
     """Choose all points if that is affordable, else the worst of every weld and those above a share of the limit.
 
-    Returns the points, where among them the worst of every weld is, and the choice in words.
+    Returns for every row of ``nodes.parquet`` why it is chosen, empty if it is not; where among the chosen rows the
+    worst of every weld is; and the choice in words.
     """
-    stations = model.stations
-    nodes = read_table(folder, "nodes", ["node", "utilisation", "toe"])
-    if not np.array_equal(nodes["node"].to_numpy(), np.repeat(stations.node, 2)):
-        raise DataError(
-            Problem("other_points", str(folder / "nodes.parquet"), "has other points than the case", "Assess again")
-        )
-    utilisation = np.where(nodes["toe"].to_numpy(), nodes["utilisation"].to_numpy(), -1.0)  # no toe never governs
-    weld = np.repeat(stations.weld, 2)
-    worst = np.array([np.flatnonzero(weld == w)[utilisation[weld == w].argmax()] for w in range(len(model.welds))])
+    nodes = read_table(folder, "nodes", ["weld", "utilisation", "toe"]).to_pandas()
+    utilisation = nodes["utilisation"].where(nodes["toe"], -1.0)  # a face without a toe never governs
+    worst = np.sort(utilisation.groupby(nodes["weld"]).idxmax().to_numpy())
 
-    upsample = model.case.counting.upsample
+    upsample = body.case.counting.upsample
     samples = sum(one.samples for one in plan.passes) * (upsample if isinstance(upsample, int) else 1)
-    if utilisation.size * samples <= MOST_SAMPLES:
-        chosen = np.full(utilisation.size, "all", dtype=object)
-        which = f"all {utilisation.size} points"
-    else:
-        above = f"above {share_of_limit:g} of the limit"
-        chosen = np.where(utilisation >= share_of_limit, above, "").astype(object)
-        chosen[worst] = "worst of its weld"
-        which = (
-            f"the worst point of every weld and the points {above}, {np.count_nonzero(chosen)} of {utilisation.size}: "
-            "all of them would take long"
-        )
-    index = np.flatnonzero(chosen)
-    return Points(index // 2, index % 2, chosen[index]), np.searchsorted(index, worst), which
+    if len(nodes) * samples <= MOST_SAMPLES:
+        return np.full(len(nodes), "all", dtype=object), worst, f"all {len(nodes)} points"
+    above = f"above {share_of_limit:g} of the limit"
+    chosen = np.where(utilisation >= share_of_limit, above, "").astype(object)
+    chosen[worst] = "worst of its weld"
+    rows = np.flatnonzero(chosen)
+    which = f"the worst point of every weld and those {above}, {len(rows)} of {len(nodes)}: all would take long"
+    return chosen, np.searchsorted(rows, worst), which
 
 
-def _same_case(folder: Path, case_file: Path | None) -> tuple[Model, Plan]:
-    """Read the case of a result again and make sure that nothing in it has changed since."""
+def gather_points(folder: Path, body: Body, chosen: NDArray[np.object_]) -> Points:
+    """Solve the welds group by group and keep the stress shapes of the chosen points only."""
+    node = read_table(folder, "nodes", ["node"])["node"].to_numpy()
+    pieces, first = [], 0
+    for group in weld_groups(body):
+        model = solve_welds(body, group)
+        here = slice(first, first + 2 * len(model.stations))
+        if not np.array_equal(node[here], np.repeat(model.stations.node, 2)):
+            raise DataError(
+                Problem("other_points", str(folder / "nodes.parquet"), "has other points than the case", "Assess again")
+            )
+        rows = np.flatnonzero(chosen[here])
+        pieces.append(points_of(model, rows // 2, rows % 2, chosen[here][rows]))
+        first = here.stop
+    return Points(*(np.concatenate([getattr(piece, f.name) for piece in pieces]) for f in fields(Points)))
+
+
+def _same_body(folder: Path, case_file: Path | None) -> Body:
+    """Read the body of a result again and make sure that none of its files has changed since."""
     record = read_provenance(folder)
-    path = case_file or folder / record.get("case_path", record["case_file"])
+    path = case_file or folder / record["case_path"]
     if not path.is_file():
         raise DataError(
             Problem("no_case", str(path), "the case of this result is not there any more", "Give the case file")
         )
     case = load_case(path)
     refuse(DataError, _changed_inputs(case, record))
-    model = read_model(case, strict=False)
-    return model, mission_plan(model)[0]
+    return read_body(case, strict=False)
 
 
 def _changed_inputs(case: Case, record: Mapping[str, Any]) -> list[Problem]:

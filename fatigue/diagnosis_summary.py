@@ -1,4 +1,4 @@
-"""What a diagnosis says in words: at each weld's worst point the event, the band, the modes, the place and the lever."""
+"""What a diagnosis says in words: at each weld's worst point event, band, modes, place and lever."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.attribute import Attribution
+from fatigue.body import Body
 from fatigue.levers import SMALLER, Levers
 from fatigue.life.mission import Plan, life_km
-from fatigue.model import Model
+from fatigue.readers.body import Modes
 from fatigue.tables import FACES
 
 LONGEST_LIFE_KM = 1e12
@@ -43,10 +44,10 @@ class LeverFinding:
 class Finding:
     """What makes the damage at the worst point of a weld.
 
-    ``modes`` are those with the largest shares; ``relieving_share`` is what all relieving modes take off; ``low_hz`` and
-    ``high_hz`` bound the band with the largest share, None where no record is long enough for bands or the band is open;
-    ``half_damage_part`` is the smallest part of the governing event that holds half of its damage, and its worst bin
-    begins at ``place_km`` (None for an event counted by number) and ``place_s``.
+    ``modes`` are those with the largest shares; ``relieving_share`` is what all relieving modes take off; ``low_hz``
+    and ``high_hz`` bound the band with the largest share, None where no record is long enough for bands or the band is
+    open; ``half_damage_part`` is the smallest part of the governing event that holds half of its damage, and its worst
+    bin begins at ``place_km`` (None for an event counted by number) and ``place_s``.
     """
 
     weld: str
@@ -74,18 +75,16 @@ class Finding:
         place = f"km {self.place_km:.1f} of the record" if self.place_km is not None else f"{self.place_s:.1f} s"
         best = self.levers[0]
         gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
-        return "\n".join(
-            [
-                f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}",
-                f"  event   {self.event} makes {_percent(self.event_share)} of the damage",
-                f"  band    {self._band()}",
-                f"  modes   {modes}; relieving modes {_percent(self.relieving_share)}",
-                f"  place   half of the damage of {self.event} on {_percent(self.half_damage_part)} of its length; most at "
-                f"{place}, {self.place_intensity:.1f} times the average",
-                f"  lever   mode {best.mode} {100 * (1 - SMALLER):.0f} % smaller: {_km(best.life_km_counted)} "
-                f"({gain:+.0f} %; {_km(best.life_km_estimated)} by its exponent)",
-            ]
+        lines = (
+            f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}",
+            f"  event   {self.event} makes {_percent(self.event_share)} of the damage",
+            f"  band    {self._band()}",
+            f"  modes   {modes}; relieving modes {_percent(self.relieving_share)}",
+            f"  place   half of {self.event} on {_percent(self.half_damage_part)} of its length",
+            f"          most at {place}, {self.place_intensity:.1f} times the average",
+            f"  lever   mode {best.mode} {100 * (1 - SMALLER):.0f} % smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
         )
+        return "\n".join(lines)
 
     def _band(self) -> str:
         if self.band_share is None:
@@ -119,20 +118,19 @@ class Diagnosis:
         )
 
 
-def findings(model: Model, plan: Plan, attribution: Attribution, levers: Levers, points: str) -> Diagnosis:
+def findings(body: Body, plan: Plan, attribution: Attribution, levers: Levers, points: str) -> Diagnosis:
     """Sum up a diagnosis; there is a finding for every point the levers were sought at."""
-    found = [_finding(model, plan, attribution, levers, row) for row in range(len(levers.point))]
+    found = [_finding(body.modes, plan, attribution, levers, row) for row in range(len(levers.point))]
     return Diagnosis(
-        title=model.case.title,
+        title=body.case.title,
         points=points,
         findings=tuple(sorted(found, key=lambda finding: finding.life_km)),
-        notes=tuple(_notes(model, attribution)),
+        notes=tuple(_notes(body, attribution)),
     )
 
 
-def _finding(model: Model, plan: Plan, attribution: Attribution, levers: Levers, row: int) -> Finding:
-    point, stations = int(levers.point[row]), model.stations
-    station = int(attribution.points.station[point])
+def _finding(modes: Modes, plan: Plan, attribution: Attribution, levers: Levers, row: int) -> Finding:
+    point, points = int(levers.point[row]), attribution.points
     event_share = attribution.event_share[point]
     event = attribution.events[int(event_share.argmax())]
     share, resonant = attribution.mode_share[point], attribution.resonant_share[point]
@@ -142,19 +140,19 @@ def _finding(model: Model, plan: Plan, attribution: Attribution, levers: Levers,
     intensity = event.place[point] / event.damage[point] / event.place_length
     hottest = int(intensity.argmax())
     return Finding(
-        weld=model.welds[stations.weld[station]].name,
-        part=int(stations.part[station]),
-        order=int(stations.order[station]),
-        node=int(stations.node[station]),
-        surface=FACES[attribution.points.face[point]],
+        weld=str(points.weld[point]),
+        part=int(points.part[point]),
+        order=int(points.order[point]),
+        node=int(points.node[point]),
+        surface=FACES[points.face[point]],
         life_km=float(life_km(attribution.damage[[point]], plan.damage_limit)[0]),
         event=event.event,
         event_share=float(event_share.max()),
         modes=tuple(
             ModeFinding(
-                mode=int(model.modes.mode[k]),
-                kind=model.modes.kind[k],
-                frequency_hz=float(model.modes.frequency[k]),
+                mode=int(modes.mode[k]),
+                kind=modes.kind[k],
+                frequency_hz=float(modes.frequency[k]),
                 share=float(share[k]),
                 resonant_share=float(resonant[k]) if np.isfinite(resonant[k]) else None,
                 life_exponent=float(attribution.mode_exponent[point, k]),
@@ -170,7 +168,7 @@ def _finding(model: Model, plan: Plan, attribution: Attribution, levers: Levers,
         place_s=float(event.place_s[hottest]),
         place_intensity=float(intensity[hottest]),
         levers=tuple(
-            LeverFinding(int(model.modes.mode[k]), float(estimated), float(counted))
+            LeverFinding(int(modes.mode[k]), float(estimated), float(counted))
             for k, estimated, counted in zip(
                 levers.mode[row], levers.life_estimated[row], levers.life_counted[row], strict=True
             )
@@ -185,8 +183,8 @@ def _part_that_holds(share: float, intensity: NDArray[np.float64], length: NDArr
     return float(np.interp(share, np.append(0.0, held), np.append(0.0, covered)))
 
 
-def _notes(model: Model, attribution: Attribution) -> Iterator[str]:
-    damping = model.modes.damping_ratio
+def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
+    damping = body.modes.damping_ratio
     if np.isnan(damping).any():
         without = (
             "no mode has" if np.isnan(damping).all() else f"{np.count_nonzero(np.isnan(damping))} modes do not have"
@@ -200,7 +198,7 @@ def _notes(model: Model, attribution: Attribution) -> Iterator[str]:
             )
         if np.isnan(event.place_km).any():
             yield f"event '{event.event}' is counted by number, so its damage has an instant but no place on the track"
-    if any(rated.law.cutoff > 0.0 for rated in model.curves.values()):
+    if any(rated.law.cutoff > 0.0 for rated in body.curves.values()):
         yield (
             "a curve with a cut-off: damage jumps there, and life exponents do not see cycles that cross it; the lives "
             "counted again do"

@@ -1,10 +1,8 @@
 """Rows of the tables that say what makes the damage: attribution, track and levers."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fatigue.attribute import Attribution, EventAttribution, Points
 from fatigue.levers import Levers
@@ -12,8 +10,6 @@ from fatigue.life.mission import Plan, life_km
 from fatigue.readers.body import Modes
 from fatigue.results import Column
 from fatigue.tables import FACES
-
-Floats = NDArray[np.float64]
 
 _POINT = (
     Column("weld", "text", "-", "weld line"),
@@ -36,9 +32,8 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses of the event; "
-        "thickness: the plate through its stress, at constant line force and moment; thickness_rule: the plate through "
-        "the thickness rule of the curve",
+        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses; thickness: "
+        "the plate through its stress, at constant line force and moment; thickness_rule: the plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
     Column("low_hz", "float", "Hz", "lower edge, for kind band"),
@@ -93,33 +88,31 @@ LEVERS = (
 
 def attribution_rows(modes: Modes, attribution: Attribution, event: EventAttribution) -> dict[str, Any]:
     """Rows of ``attribution.parquet`` for one event: per point the event, its modes, its bands, load and thickness."""
-    bands = event.band.shape[1]
-    missing = np.full((len(attribution.points), 3), np.nan)
-    damage = np.column_stack([event.damage, event.mode, event.band, missing])
-    slope = np.column_stack(
-        [
-            event.damage,
-            event.mode_slope,
-            event.band_slope,
-            event.load_slope,
-            event.thickness_slope,
-            event.rule_slope,
-        ]
+    points, bands = len(attribution.points), event.band.shape[1]
+    of_mode = slice(1, 1 + len(modes.mode))
+    of_band = slice(of_mode.stop, of_mode.stop + bands)
+    kind = np.array(["event", *["mode"] * len(modes.mode), *["band"] * bands, "load", "thickness", "thickness_rule"])
+    mode = np.full(len(kind), None)
+    mode[of_mode] = modes.mode
+    low, high = np.full((2, len(kind)), np.nan)
+    low[of_band], high[of_band] = (
+        event.edges_hz[:-1],
+        np.where(np.isinf(event.edges_hz[1:]), np.nan, event.edges_hz[1:]),
     )
-    rows = damage.shape[1]
+
+    damage = np.column_stack([event.damage, event.mode, event.band, np.full((points, 3), np.nan)])
+    slope = np.column_stack(
+        [event.damage, event.mode_slope, event.band_slope, event.load_slope, event.thickness_slope, event.rule_slope]
+    )
     resonant = np.full(damage.shape, np.nan)
-    resonant[:, 1 : 1 + len(modes.mode)] = attribution.share(event.resonant)
-    before, after = [np.nan] * (1 + len(modes.mode)), [np.nan] * 3
-    points = len(attribution.points)
+    resonant[:, of_mode] = attribution.share(event.resonant)
     return {
-        **point_columns(attribution.points, rows),
-        "event": np.full(points * rows, event.event, dtype=object),
-        "kind": _each(
-            ["event", *["mode"] * len(modes.mode), *["band"] * bands, "load", "thickness", "thickness_rule"], points
-        ),
-        "mode": _each([None, *modes.mode.tolist(), *[None] * (bands + 3)], points),
-        "low_hz": np.tile([*before, *event.edges_hz[:-1], *after], points),
-        "high_hz": np.tile([*before, *event.edges_hz[1:-1], np.nan, *after], points),
+        **point_columns(attribution.points, len(kind)),
+        "event": np.full(damage.size, event.event, dtype=object),
+        "kind": np.tile(kind.astype(object), points),
+        "mode": np.tile(mode, points),
+        "low_hz": np.tile(low, points),
+        "high_hz": np.tile(high, points),
         "damage_per_km": damage.ravel(),
         "share": attribution.share(damage).ravel(),
         "resonant_share": resonant.ravel(),
@@ -170,8 +163,3 @@ def point_columns(points: Points, repeat: int) -> dict[str, Any]:
     surface = np.array(FACES, dtype=object)[points.face]
     key = {"weld": points.weld, "part": points.part, "node": points.node, "order": points.order, "surface": surface}
     return {name: np.repeat(column, repeat) for name, column in {**key, "chosen": points.chosen}.items()}
-
-
-def _each(values: Sequence[object], points: int) -> NDArray[np.object_]:
-    """Repeat the values for every point."""
-    return np.tile(np.array(values, dtype=object), points)

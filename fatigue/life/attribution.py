@@ -1,4 +1,4 @@
-"""What makes the damage: every cycle's damage shared out exactly to modes, frequency bands and instants, and its slopes.
+"""What makes the damage: every cycle's share for modes, frequency bands and instants, and the slopes of the damage.
 
 Structural stress is linear in the modal coordinates, s = sum_k w_k q_k. A rainflow cycle between the instants i and j
 has the signed range ``ds = s[j] - s[i] = sum_k w_k (q_k[j] - q_k[i])``, so the part ``w_k (q_k[j] - q_k[i]) / ds`` of
@@ -6,10 +6,10 @@ its damage is owed to mode k. The parts add up to one for any S-N curve; a part 
 With the damage over ds laid on the two instants of every cycle, as one vector g over time, mode k owes
 ``w_k (q_k @ g)``: cycles need no list, and whatever adds up to q (modes, bands) gets parts that add up to the damage.
 
-The same cycles give the gradient of the damage with respect to every sample of the membrane and the bending stress, from
-which every sensitivity follows by the chain rule: the range, the bending ratio and the mean-stress factor of each cycle
-all move. The gradient is exact where no two cycles tie and none sits on a knee; at a cut-off, where damage jumps, it is
-the gradient on the side where the cycle is.
+The same cycles give the gradient of the damage with respect to every sample of the membrane and the bending stress.
+Every sensitivity follows from it by the chain rule: the range, the bending ratio and the mean-stress factor of each
+cycle all move. The gradient is exact where no two cycles tie and none sits on a knee; at a cut-off, where damage jumps,
+it is that of the side where the cycle is.
 """
 
 from dataclasses import dataclass
@@ -36,14 +36,14 @@ Indices = NDArray[np.intp]
 class DamageRule:
     """From a structural stress range of one point to its damage.
 
-    ``size`` is the factor of the thickness on the range; ``uses_bending_ratio`` is False for a curve in plain structural
-    stress; ``yield_MPa`` is given where the mean-stress factor is part of the damage, else None.
+    ``size`` is the factor of the thickness on the range; ``uses_bending_ratio`` is False for a curve in plain
+    structural stress; ``yield_stress`` [MPa] is given where the mean-stress factor is part of the damage, else None.
     """
 
     law: DamageLaw
     size: float
     uses_bending_ratio: bool
-    yield_MPa: float | None
+    yield_stress: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,8 +76,8 @@ def credit(
 
     Parameters
     ----------
-    start, end, count : (c,) sample indices of the two reversals of each cycle of ``membrane + side * bending``, and 1 or
-        0.5; ranges are above 0; a cycle that runs across the end of the record has its own two instants like any other
+    start, end, count : (c,) sample indices of the two reversals of each cycle of ``membrane + side * bending``, and 1
+        or 0.5; ranges are above 0; a cycle that runs across the end of the record has two instants like any other
     membrane, bending : (t,) membrane stress, and bending stress of the top face [MPa]
     side : +1 top face, -1 bottom face
     """
@@ -92,9 +92,9 @@ def credit(
     by_range: Floats | float = 1.0  # d ln x / d ln S
     by_peak: Floats | None = None  # d ln x / d (maximum stress)
     peak = np.where(ds > 0.0, end, start)
-    if rule.yield_MPa is not None:  # f_M = (S / maximum)**(1/m) where it applies
+    if rule.yield_stress is not None:  # f_M = (S / maximum)**(1/m) where it applies
         maximum = stress[peak]
-        f_M = mean_stress_factor(maximum - S, maximum, rule.yield_MPa)
+        f_M = mean_stress_factor(maximum - S, maximum, rule.yield_stress)
         x = x / f_M
         by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)
         by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)
@@ -114,7 +114,9 @@ def credit(
         top_cycle=float(damage.max(initial=0.0)),
         slope=float(slope.sum()),
         share=_on_instants(start, end, damage / ds, samples),
-        place=0.5 * (np.bincount(start, damage, samples) + np.bincount(end, damage, samples)),
+        place=np.asarray(
+            np.bincount(start, 0.5 * damage, samples) + np.bincount(end, 0.5 * damage, samples), np.float64
+        ),
         by_membrane=by_membrane,
         by_bending=by_bending,
     )
@@ -144,4 +146,4 @@ def size_exponent(thickness: float, curve: SNCurve, rule: ThicknessRule) -> floa
 
 def _on_instants(start: Indices, end: Indices, value: Floats, samples: int) -> Floats:
     """Add ``value`` at the end and subtract it at the start of every cycle: the transpose of taking ranges."""
-    return np.bincount(end, value, samples) - np.bincount(start, value, samples)
+    return np.asarray(np.bincount(end, value, samples) - np.bincount(start, value, samples), dtype=np.float64)

@@ -206,17 +206,16 @@ def _not_finite(where: str) -> NumericalError:
     )
 
 
-def _compiled(*, reassociate: bool = False) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Compile at the first call, keep the result on disk, run outside the GIL; ``reassociate``: sum in vector lanes."""
-    fastmath = {"reassoc", "nsz", "contract"} if reassociate else False
+def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Compile at the first call, keep the result on disk, run outside the GIL; ``fastmath``: flags of LLVM."""
 
     def compile_lazily(function: Callable[P, R]) -> Callable[P, R]:
-        return cast(Callable[P, R], njit(cache=True, nogil=True, error_model="numpy", fastmath=fastmath)(function))
+        return cast(Callable[P, R], njit(cache=True, nogil=True, error_model="numpy", fastmath=set(fastmath))(function))
 
     return compile_lazily
 
 
-@_compiled()
+@compiled()
 def unroll(s: Floats, path: Floats) -> int:
     """Write a recurring block (t,) into ``path`` (t + 1,) from its largest sample to the next time it occurs.
 
@@ -238,7 +237,7 @@ def unroll(s: Floats, path: Floats) -> int:
     return first
 
 
-@_compiled()
+@compiled()
 def turning_points(s: Floats, step: NDArray[np.int8], reversal: Indices) -> int:
     """Write the sample indices of the reversals of s (t,) into ``reversal`` (t + 1,) and return how many there are.
 
@@ -257,7 +256,7 @@ def turning_points(s: Floats, step: NDArray[np.int8], reversal: Indices) -> int:
     return n + 1 if direction != 0 else 0
 
 
-@_compiled()
+@compiled()
 def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: _Buffers) -> int:
     """Pair the reversals into cycles, in the order in which they close, and return how many (ASTM E1049-85, 5.4.4).
 
@@ -292,7 +291,7 @@ def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: _Buffers) -> 
     return cycles
 
 
-@_compiled()
+@compiled()
 def find_cycles(s: Floats, recurs: bool, buffers: _Buffers) -> int:
     """Write the cycles of s into ``start``, ``end`` and ``weight`` of the buffers and return how many there are."""
     if not recurs or s.size == 0:
@@ -306,7 +305,7 @@ def find_cycles(s: Floats, recurs: bool, buffers: _Buffers) -> int:
     return cycles
 
 
-@_compiled(reassociate=True)
+@compiled("reassoc", "nsz", "contract")  # sums in vector lanes
 def mean_and_kurtosis(s: Floats) -> tuple[float, float]:
     """Mean and Pearson's kurtosis; deviations from the first sample keep a constant signal exactly constant."""
     if s.size == 0:
@@ -324,13 +323,13 @@ def mean_and_kurtosis(s: Floats) -> tuple[float, float]:
     return mean, m4 * s.size / (m2 * m2) if m2 * m2 > 0.0 else math.nan
 
 
-@_compiled()
+@compiled()
 def ratio_factor(r: float) -> float:
     """I(r)^(1/m) of a bending ratio, load controlled (ASME VIII-2 5.5.5.2)."""
     return (1.23 - 0.364 * r - 0.17 * r**2) / (1.007 - 0.306 * r - 0.178 * r**2)
 
 
-@_compiled()
+@compiled()
 def mean_stress_factor(minimum: float, maximum: float, yield_stress: float) -> float:
     """f_M = (1 - R)^(1/m) of a cycle in high mean tension, else 1 (ASME VIII-2 5.5.5.2)."""
     if minimum > 0.0 and minimum + maximum >= yield_stress and maximum - minimum <= 2.0 * yield_stress:
@@ -338,7 +337,7 @@ def mean_stress_factor(minimum: float, maximum: float, yield_stress: float) -> f
     return 1.0
 
 
-@_compiled()
+@compiled()
 def cycle_damage(x: float, rules: _Rules) -> float:
     """Damage d(x) of one cycle of the equivalent range x."""
     if x < rules.cutoff or x == 0.0:
@@ -349,7 +348,7 @@ def cycle_damage(x: float, rules: _Rules) -> float:
     return math.exp(rules.slopes[j] * math.log(x) - rules.log_constants[j])
 
 
-@_compiled()
+@compiled()
 def tally(block: _Block, point: tuple[int, int], rules: _Rules, buffers: _Buffers, cycles: int) -> None:
     """Add the cycles of one row and surface to its totals and its histogram."""
     row, surface = point
@@ -386,7 +385,7 @@ def tally(block: _Block, point: tuple[int, int], rules: _Rules, buffers: _Buffer
         total["damage_same_ratio"] = cycle_damage(same_scale, rules) * total["power_sum"]
 
 
-@_compiled()
+@compiled()
 def count_rows(block: _Block, rules: _Rules, buffers: _Buffers) -> None:
     """Count both surfaces of every row of the block."""
     s = np.empty(block.membrane.shape[1])

@@ -87,11 +87,20 @@ def audit(
 def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
     """Rows of shells of the mesh that have all their nodes in the file, (r,)."""
     mesh = model.mesh
-    nodes_of = (mesh.corner != NONE).sum(axis=1) + (mesh.mid != NONE).sum(axis=1)
+    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
+    at, is_own = _own_rows(results, model)
+    rows = np.bincount(at[is_own], minlength=mesh.element.size)
+    return np.asarray(is_own & (rows == (around != NONE).sum(axis=1))[at])
+
+
+def _own_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Position in the mesh of each row's element, and whether the row is that of a shell at one of its nodes."""
+    mesh = model.mesh
+    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
     at = np.minimum(np.searchsorted(mesh.element, results.element), mesh.element.size - 1)
-    is_shell = results.of_element & (mesh.element[at] == results.element)
-    rows = np.bincount(at[is_shell], minlength=mesh.element.size)
-    return np.asarray(is_shell & (rows == nodes_of)[at])
+    node = np.where(around[at] == NONE, 0, mesh.node[around[at]])
+    at_own_node = (node == results.node[:, None]).any(axis=1)
+    return at, np.asarray(results.of_element & (mesh.element[at] == results.element) & at_own_node)
 
 
 def element_forces(
@@ -211,14 +220,16 @@ def _completeness(results: FeResults, model: FeModel) -> AuditRow:
     """Compare the shells of the mesh with those that have force rows."""
     mesh = model.mesh
     listed = np.unique(results.element[results.of_element])
-    stray = np.unique(results.element[results.of_element & np.isin(results.kind, sorted(SHELL_KINDS))])
-    stray = np.setdiff1d(stray, mesh.element)
+    is_shell = results.of_element & (
+        np.isin(results.kind, sorted(SHELL_KINDS)) | np.isin(results.element, mesh.element)
+    )
+    stray = np.unique(results.element[is_shell & ~_own_rows(results, model)[1]])
     if stray.size:
         return AuditRow(
             "completeness",
             "red",
             float(stray.size),
-            f"{stray.size} shells with forces are not in the mesh, element {stray[0]} the first",
+            f"{stray.size} shells have forces and are not in the mesh with these nodes, element {stray[0]} the first",
             "Give the mesh of the run that wrote the forces",
         )
     full = np.unique(results.element[shell_rows(results, model)]).size

@@ -42,45 +42,17 @@ def read_nodal_forces(
     """
     table = open_table(path, texts=("weld",))
     table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
-    names, code = table.groups("weld")
-    node, mode = table.integers("node"), table.integers("mode")
-    table.known("weld", names, code, {line.weld for line in lines}, "the welds")
-    column = _mode_columns(table, mode, modes, ignore_modes)
-    table.refuse()
-    station = _stations(names, code, node, lines)
-    if (stray := station < 0).any():
-        row = int(stray.argmax())
-        table.warnings.append(
-            Problem(
-                "extra_node",
-                table.where("node", row),
-                f"node {node[row]} is not on the line of weld {names[code[row]]}; {np.count_nonzero(stray)} rows of "
-                "such nodes are not used",
-                "Remove them, or add the nodes to the weld's line",
-            )
-        )
-    slots = sum(line.node.size for line in lines) * modes.mode.size
-    slot = np.where(stray | (column < 0), -1, station.astype(np.int64) * modes.mode.size + column)
-    del station, stray, column
-    filled = np.zeros(slots, dtype=np.bool_)
-    filled[slot[slot >= 0]] = True
-    if np.count_nonzero(filled) < np.count_nonzero(slot >= 0):
-        table.unique({"weld": code, "node": node, "mode": mode}, {"weld": names})
-    del code, node, mode
-    first = np.cumsum([line.node.size for line in lines])[:-1]
-    for line, present in zip(lines, np.split(filled.reshape(-1, modes.mode.size), first), strict=True):
-        table.problems.extend(_gaps(path, line, modes, present))
-    table.refuse()
-
-    single = table.single_precision(COMPONENTS)
-    force = np.empty((slots, 6), dtype=np.float32 if single else np.float64)
-    used = slice(None) if slots == table.rows else slot >= 0
+    slot = _slots(table, lines, modes, ignore_modes)
+    sizes = [line.node.size for line in lines]
+    dtype = np.float32 if table.single_precision(COMPONENTS) else np.float64
+    force = np.empty((sum(sizes) * modes.mode.size, 6), dtype)
+    used = slice(None) if len(force) == table.rows else slot >= 0
     for axis, name in enumerate(COMPONENTS):
         force[slot[used], axis] = table.numbers(name)[used]
     table.refuse()
     by_mode = force.reshape(-1, modes.mode.size, 6)
-    by_mode *= _factor(modes, convention)[:, np.newaxis].astype(force.dtype)
-    return tuple(np.split(by_mode, first)), table.warnings
+    by_mode *= _factor(modes, convention)[:, np.newaxis].astype(dtype)
+    return tuple(np.split(by_mode, np.cumsum(sizes)[:-1])), table.warnings
 
 
 def read_element_forces(
@@ -129,6 +101,35 @@ def read_weld_elements(
 def _factor(modes: Modes, convention: Convention) -> NDArray[np.float64]:
     """Factor of each mode that turns the file's forces into on_element forces of the simulation's mode."""
     return modes.scale if convention == "on_element" else -modes.scale
+
+
+def _slots(table: Table, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Collection[int]) -> NDArray[np.int64]:
+    """Position of each row among the (station, mode) of all lines (r,), -1 where it is not used.
+
+    Every slot is filled by exactly one row, or the table is refused.
+    """
+    names, code = table.groups("weld")
+    node, mode = table.integers("node"), table.integers("mode")
+    table.known("weld", names, code, {line.weld for line in lines}, "the welds")
+    column = _mode_columns(table, mode, modes, ignore_modes)
+    table.refuse()
+    station = _stations(names, code, node, lines)
+    if (stray := station < 0).any():
+        row = int(stray.argmax())
+        what = f"node {node[row]} is not on the line of weld {names[code[row]]}; {np.count_nonzero(stray)} rows of "
+        what += "such nodes are not used"
+        remedy = "Remove them, or add the nodes to the weld's line"
+        table.warnings.append(Problem("extra_node", table.where("node", row), what, remedy))
+    slot = np.where(stray | (column < 0), -1, station.astype(np.int64) * modes.mode.size + column)
+    filled = np.zeros((sum(line.node.size for line in lines), modes.mode.size), dtype=np.bool_)
+    filled.reshape(-1)[slot[slot >= 0]] = True
+    if np.count_nonzero(filled) < np.count_nonzero(slot >= 0):
+        table.unique({"weld": code, "node": node, "mode": mode}, {"weld": names})
+    ends = np.cumsum([line.node.size for line in lines])
+    for line, present in zip(lines, np.split(filled, ends[:-1]), strict=True):
+        table.problems.extend(_gaps(table.path, line, modes, present))
+    table.refuse()
+    return slot
 
 
 def _mode_columns(

@@ -217,10 +217,7 @@ class Table:
                 )
 
     def _column(self, name: str) -> pa.ChunkedArray:
-        column = self.columns.read(self.position[name])
-        if pt.is_dictionary(column.type) and not _is_text(column.type.value_type):
-            return column.cast(column.type.value_type)
-        return column
+        return self.columns.read(self.position[name])
 
     def _floats(self, name: str) -> NDArray[Any]:
         """Values of a column as floating-point numbers, empty cells and an absent column as NaN."""

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +11,14 @@ import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
 from markupsafe import Markup
+from numpy.typing import NDArray
 from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem
 from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, method, tables, wording
 from fatigue.report.details import Detail, weld_details
+from fatigue.report.embed import Figures, Shown, embedded, packed
 from fatigue.report.figures.scene import Body
 from fatigue.report.inputs import Inputs, find_inputs
 from fatigue.report.result import Result, read_result
@@ -25,44 +27,6 @@ from fatigue.report.variants import Assumptions, assumptions_of, damage_per_km, 
 
 MOST_DETAILED = 60  # welds with their own page of figures; the others have their rows and their lines
 WORST_POINTS = 100
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """A figure of the page."""
-
-    id: str
-    number: int
-    caption: str
-    height: int
-    json: Markup
-
-
-@dataclass(slots=True)
-class Figures:
-    """Numbers the figures of the page in the order in which they are added."""
-
-    shown: list[Shown] = field(default_factory=list)
-
-    def add(self, id_: str, fig: go.Figure, caption: str) -> Shown:
-        """Keep a figure as JSON; the look they all share is in the page once and not in each."""
-        content = fig.to_plotly_json()
-        content["layout"].pop("template", None)
-        height = int(content["layout"].pop("height"))
-        shown = Shown(id_, len(self.shown) + 1, caption, height, embedded(go.Figure(content, skip_invalid=False)))
-        self.shown.append(shown)
-        return shown
-
-
-def embedded(value: Any) -> Markup:
-    """JSON that is safe inside a script element, whatever the names in it."""
-    if isinstance(value, go.Figure):
-        content = json.loads(value.to_json(remove_uids=True))
-        content["layout"].pop("template", None)
-        text = json.dumps(content, ensure_ascii=True, separators=(",", ":"), allow_nan=False)
-    else:
-        text = json.dumps(value, ensure_ascii=True, separators=(",", ":"), allow_nan=False)
-    return Markup(text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,25 +187,30 @@ def _warnings(result: Result) -> list[tuple[str, list[Mapping[str, str]]]]:
     return list(groups.items())
 
 
-def _probe(stations: pd.DataFrame, rows: Any, result: Result, links: Mapping[str, str]) -> Markup:
-    """Data of every station for the scene: what a click shows, and what it can be coloured by."""
-    welds = list(result.welds["weld"])
-    events = [event["event"] for event in result.events]
-    weld_index, event_index = ({name: i for i, name in enumerate(names)} for names in (welds, events))
+def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, links: Mapping[str, str]) -> Markup:
+    """Data of every station for the scene: what a click shows, and what the lines can be coloured by."""
+    welds, events = list(result.welds["weld"]), [event["event"] for event in result.events]
 
-    def column(name: str) -> Any:
-        values = stations[name].to_numpy(dtype=np.float64)
-        return figures.style.single(np.where(np.isinf(values), 3e38, values))
+    def index(column: str, names: Sequence[str]) -> dict[str, str]:
+        place = {name: i for i, name in enumerate(names)}
+        return packed(stations[column].map(place).fillna(len(names)).to_numpy(dtype=np.int32))
 
-    data = go.Figure(
-        go.Scatter(
-            x=rows.astype(np.int32),
-            y=stations["node"].to_numpy(dtype=np.int32),
-            customdata=column("life_km"),
-        )
+    columns = ("arc_length_mm", "life_km", "life_years", "utilisation", "load_factor", "dirlik_ratio", "max_range_MPa")
+    return embedded(
+        {
+            "row": packed(rows.astype(np.int32)),
+            "node": packed(stations["node"].to_numpy(dtype=np.int32)),
+            "weld": index("weld", welds),
+            "event": index("governing_event", events),
+            "bottom": packed((stations["surface"] == "bottom").to_numpy(dtype=np.int32)),
+            **{name: packed(stations[name].to_numpy(dtype=np.float32)) for name in columns},
+            "welds": welds,
+            "events": events,
+            "pages": dict(links),
+            "target_km": result.target_km,
+            "colours": list(figures.event_colours(events).values()),
+        }
     )
-    del data, weld_index, event_index, column, links
-    return Markup("{}")
 
 
 def _events_figure(result: Result, most: int = 20) -> go.Figure:

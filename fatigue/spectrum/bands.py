@@ -8,6 +8,7 @@ A record that recurs is periodic, and its basis that of Fourier. A single pass e
 basis (DCT-II) continues it as its own mirror image, so that the jump does not leak into every band.
 """
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -57,13 +58,13 @@ def coefficient_frequencies(samples: int, step: float, residue: Residue) -> Floa
 
 
 def band_slices(frequency: Floats, edges: Sequence[float] | Floats) -> list[slice]:
-    """Runs of coefficients below the first edge, between neighbouring edges, and from the last edge on.
+    """Find the runs of coefficients below the first edge, between neighbouring edges, and from the last edge on.
 
     ``frequency`` is ascending [Hz]; a band contains its lower edge. One band more than there are edges; a band between
     two coefficients is empty.
     """
     at = [0, *np.searchsorted(frequency, edges).tolist(), len(frequency)]
-    return [slice(a, b) for a, b in zip(at[:-1], at[1:], strict=True)]
+    return [slice(a, b) for a, b in itertools.pairwise(at)]
 
 
 def band_products(x: Floats, y: Floats, bands: Sequence[slice]) -> Floats:
@@ -75,7 +76,7 @@ def band_products(x: Floats, y: Floats, bands: Sequence[slice]) -> Floats:
 
 
 def band_split(x: NDArray[np.floating], step: float, edges: Sequence[float] | Floats, residue: Residue) -> Floats:
-    """Records (..., t) split into bands: (b, ..., t), which add up to the records.
+    """Split records (..., t) into bands (b, ..., t), which add up to the records.
 
     What lies below the first edge [Hz] is the first band, what lies from the last one on the last.
     """

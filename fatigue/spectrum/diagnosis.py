@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.curves import DamageLaw
 from fatigue.life.history import ModalHistory
-from fatigue.spectrum.methods import spectral_shape
+from fatigue.spectrum.methods import dirlik_damage_rate, narrow_band_damage_rate, spectral_shape
 from fatigue.spectrum.moments import Spectra, quadratic_forms
 from fatigue.spectrum.stationarity import PeriodMatrices, Stationarity, modulation_factor, period_matrices, stationarity
 from fatigue.spectrum.whole_record import RecordMatrices, record_matrices
@@ -40,6 +41,10 @@ TOP_CYCLE_SHARE = 0.10  # of the damage
 MODULATED, STEADY = 1.4, 0.6  # modulation index; Gaussian records of 51 s keep 0.7 to 1.35
 LINE_SHARE = 0.30  # of the variance, in tones
 STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
+NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, that of a mode with 3 % damping: a tone is narrower
+EXPLAINED_KURTOSIS = (
+    0.25  # least share of the excess kurtosis that modulation makes; else high peaks scatter the variance
+)
 KURTOSIS_OFF = 0.5  # from what the modulation found explains
 RATIO_BAND = {4.0: (0.80, 1.25), 5.0: (0.65, 1.35)}  # of Dirlik / rainflow on Gaussian records, by slope k
 CONFIDENT = 0.25  # coefficient of variation of the damage from one record to the next
@@ -80,7 +85,7 @@ class Diagnosis:
     line_share : of the variance, in spectral lines
     line_factor : damage that lines take away: of tone plus noise over Gaussian of the same variance
     kurtosis, expected_kurtosis, kurtosis_tolerance : Gaussian 3, more when modulated
-    bandwidth_hz : statistical bandwidth B_s [Hz]
+    bandwidth_hz, relative_bandwidth : statistical bandwidth B_s [Hz], and over the rate of zero crossings
     damage_cov : coefficient of variation of the damage, of either domain, from one record of this length to the next
     slope : k the limits were chosen for
     slow_hz : frequency below which the record holds too few cycles [Hz]
@@ -109,6 +114,7 @@ class Diagnosis:
     expected_kurtosis: NDArray[np.float64]
     kurtosis_tolerance: NDArray[np.float64]
     bandwidth_hz: NDArray[np.float64]
+    relative_bandwidth: NDArray[np.float64]
     damage_cov: NDArray[np.float64]
     slope: float
     slow_hz: float
@@ -156,14 +162,15 @@ def diagnose(
     total, slow, lines = quadratic_forms(
         shapes, np.stack([matrices.record.covariance, matrices.record.slow, matrices.record.lines])
     )
+    line_share = np.clip(_quotient(lines, total), 0.0, 1.0)
     time = _stationarity(shapes, matrices.periods)
-    relative_variance_of_record = _quotient(1.0, matrices.duration * time.bandwidth_hz)
-    damage_cov = 0.5 * slope * np.sqrt(relative_variance_of_record)
+    lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
+    variance_cov = np.sqrt(_quotient(1.0, matrices.duration * time.bandwidth_hz))
+    steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
+    damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
     # Both damages come from one record and err together; their ratio scatters half as much (Monte Carlo).
     chance = np.exp(1.645 * 0.5 * np.nan_to_num(damage_cov))
-    line_share = np.clip(_quotient(lines, total), 0.0, 1.0)
-    explained = 1 + time.relative_variance.var(axis=0)
     diagnosis = Diagnosis(
         verdict=np.zeros(len(shapes), dtype=np.int8),
         record_too_short=~(damage_cov <= CONFIDENT),
@@ -176,18 +183,21 @@ def diagnose(
         peaks_over_top_mode=shape.peaks / (np.nan if top_mode_hz is None else top_mode_hz),
         slow_share=_quotient(slow, total),
         top_cycle_share=top_cycle_share,
-        top_cycle_limit=np.maximum(TOP_CYCLE_SHARE, _top_cycle_share(shape.zero_crossings * matrices.duration, slope)),
+        top_cycle_limit=np.maximum(
+            TOP_CYCLE_SHARE, _top_cycle_share(_rayleigh_cycles(moments, time, matrices.duration, slope), slope)
+        ),
         modulation_index=time.modulation_index,
-        modulation_low=np.minimum(STEADY, time.lower),
-        modulation_high=np.maximum(MODULATED, time.upper),
+        modulation_low=lower,
+        modulation_high=upper,
         modulation_factor=modulation_factor(time, slope),
         line_share=line_share,
         line_factor=tone_damage_factor(line_share, slope),
         kurtosis=kurtosis,
-        expected_kurtosis=3 * explained / (1 + time.expected_cov**2),
+        expected_kurtosis=3 * (1 + time.relative_variance.var(axis=0)) / (1 + time.expected_cov**2),
         # A Gaussian record's kurtosis has the variance 24/T times the integral of rho^4, at most 8 / (T B_s).
-        kurtosis_tolerance=np.maximum(KURTOSIS_OFF, 2.6 * np.sqrt(8 * relative_variance_of_record)),
+        kurtosis_tolerance=np.maximum(KURTOSIS_OFF, 2.6 * np.sqrt(8.0) * variance_cov),
         bandwidth_hz=time.bandwidth_hz,
+        relative_bandwidth=_quotient(time.bandwidth_hz, shape.zero_crossings),
         damage_cov=damage_cov,
         slope=slope,
         slow_hz=matrices.record.slow_hz,
@@ -211,14 +221,16 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
 
 def _verdict(of: Diagnosis) -> NDArray[np.int8]:
     """Apply the rule: the first finding that holds; a number that could not be had accuses nobody."""
-    steady = of.modulation_index < of.modulation_low
-    tones = (of.line_share > LINE_SHARE) & (of.modulation_index < STEADIER_THAN_CHANCE)
+    high_peaks = of.expected_kurtosis - 3 < EXPLAINED_KURTOSIS * (of.kurtosis - 3)
+    narrow = of.relative_bandwidth < NARROW_PEAK
+    steady = (of.modulation_index < of.modulation_low) & narrow
+    tones = (of.modulation_index < STEADIER_THAN_CHANCE) & (of.line_share > LINE_SHARE)
     findings = {
         "not_assessed": ~np.isfinite(of.dirlik_ratio),
         "sampling": (of.samples_per_peak < FEWEST_SAMPLES_PER_PEAK) | (of.peaks_over_top_mode > HIGHEST_PEAK_RATE),
         "quasi_static": of.slow_share > SLOW_SHARE,
         "single_event": of.top_cycle_share > of.top_cycle_limit,
-        "non_stationary": of.modulation_index > of.modulation_high,
+        "non_stationary": (of.modulation_index > of.modulation_high) & ~high_peaks,
         "harmonic": steady | tones,
         "non_gaussian": np.abs(of.kurtosis - of.expected_kurtosis) > of.kurtosis_tolerance,
         "bandwidth": (of.dirlik_ratio < of.ratio_low) | (of.dirlik_ratio > of.ratio_high),
@@ -239,6 +251,17 @@ def _ratio_band(slope: float) -> tuple[float, float]:
     """Band of agreement for a slope: methods differ more at steep curves."""
     slopes, bands = list(RATIO_BAND), np.array(list(RATIO_BAND.values()))
     return float(np.interp(slope, slopes, bands[:, 0])), float(np.interp(slope, slopes, bands[:, 1]))
+
+
+def _rayleigh_cycles(
+    moments: NDArray[np.float64], time: Stationarity, duration: float, k: float
+) -> NDArray[np.float64]:
+    """Count the Rayleigh cycles that would do Dirlik's damage, those only that fall into the periods which do it."""
+    law = DamageLaw(np.array([k]), np.array([0.0]), np.array([]), 0.0)
+    share = _quotient(dirlik_damage_rate(moments, law), narrow_band_damage_rate(moments, law))
+    damage = np.nan_to_num(time.relative_variance, nan=1.0) ** (k / 2)
+    busy = damage.mean(axis=0) ** 2 / np.mean(damage**2, axis=0)
+    return np.asarray(spectral_shape(moments).zero_crossings * duration * share * busy)
 
 
 def _top_cycle_share(cycles: NDArray[np.float64], k: float) -> NDArray[np.float64]:

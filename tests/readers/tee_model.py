@@ -88,6 +88,8 @@ def bulk(tee_model: Tee, extra: str = "") -> str:
     ]
     for k, (x, y, z) in enumerate(tee_model.model.xyz.tolist(), start=1):
         lines.append(f"GRID,{k},,{x:.6f},{y:.6f},{z:.6f},{3 if k in tee_model.turned else ''}")
-    for k, (corners, t) in enumerate(zip(tee_model.model.quads.tolist(), tee_model.model.thickness, strict=True), start=1):
+    for k, (corners, t) in enumerate(
+        zip(tee_model.model.quads.tolist(), tee_model.model.thickness, strict=True), start=1
+    ):
         lines.append(f"CQUAD4,{k},{1 if t == 8 else 2}," + ",".join(str(c + 1) for c in corners))
     return "\n".join([*lines, extra, "ENDDATA", ""])

@@ -229,7 +229,7 @@ def _thinned(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[NDArray[np
     """Keep the largest value of each of many equal spans of log x, so that no peak is lost."""
     if len(x) <= PSD_POINTS:
         return x, y
-    span = np.floor(np.linspace(0, PSD_POINTS - 1e-9, num=1) + np.interp(np.log(x), np.log(x[[0, -1]]), [0, PSD_POINTS - 1e-9]))
+    span = np.floor(np.interp(np.log(x), np.log(x[[0, -1]]), [0.0, PSD_POINTS - 1e-9]))
     first = np.flatnonzero(np.diff(span, prepend=-1.0))
     return x[[a + int(y[a:b].argmax()) for a, b in zip(first, [*first[1:], len(x)], strict=True)]], np.maximum.reduceat(y, first)
 

@@ -75,15 +75,16 @@ def drawn_life(life_km: ArrayLike) -> NDArray[np.float64]:
 
 def life_axis(lives_km: ArrayLike, target_km: float) -> dict[str, Any]:
     """Logarithmic axis of lives [km] that shows the target, and labels its end "> 1e12"."""
-    finite = np.append(drawn_life(lives_km), target_km)
-    finite = finite[np.isfinite(finite) & (finite > 0.0)]
-    low, high = np.floor(np.log10(finite.min()) - 0.05), np.ceil(np.log10(finite.max()) + 0.05)
+    lives = np.append(np.asarray(lives_km, dtype=np.float64), target_km)
+    drawn = drawn_life(lives[lives > 0.0])
+    low, high = np.floor(np.log10(drawn.min()) - 0.05), np.ceil(np.log10(drawn.max()) + 0.05)
     decades = np.arange(low, high + 1, max(1, (high - low) // 8))
+    top = "> 1e12" if lives.max() > LONGEST else "1e12"
     return {
         "type": "log",
         "range": [float(low), float(high)],
         "tickvals": [float(10.0**d) for d in decades],
-        "ticktext": ["> 1e12" if d == 12 and np.max(lives_km, initial=0.0) > LONGEST else f"1e{int(d)}" for d in decades],
+        "ticktext": [top if d == np.log10(LONGEST) else f"1e{int(d)}" for d in decades],
         "minor": {"dtick": "D1", "ticks": "outside", "ticklen": 2, "tickcolor": QUIET},
     }
 

@@ -134,6 +134,8 @@ def _is_undefined(name: str, row: Row) -> bool:
 def _difference(name: str, row: Row) -> float:
     """Relative difference of a value, 1 between texts and flags that differ, infinite between a number and none."""
     found, expected = row.found[name], row.expected[name]
+    if isinstance(expected, str):
+        return float(expected != ("" if pd.isna(found) else found))
     if not isinstance(expected, float):
         return float(found != expected)
     found = np.nan if found is None else float(found)

@@ -41,7 +41,7 @@ class Passes:
     raw_damage: list[float]
 
 
-def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_folder: Path | None = None) -> Recount:
+def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_file: Path | None = None) -> Recount:
     """Recount points of a finished result from its input files, by other code than the one that made it.
 
     Nothing here imports the line solver, the counting or the spectra of the program: dense matrices, the ``rainflow``
@@ -52,14 +52,14 @@ def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_folder
     folder : the result folder
     sample : how many points beside each weld's worst one; None: all
     seed : of the choice of these points
-    case_folder : folder of the case file; None: found by the provenance, beside the result or in the current folder
+    case_file : the case it was made from; by default where the provenance of the result says
 
     Raises
     ------
     DataError : no finished result there, or inputs that are missing or changed since
     """
     record = read_provenance(folder)
-    inputs = open_inputs(record, folder, case_folder)
+    inputs = open_inputs(record, folder, case_file)
     modes = read_modes(inputs)
     welds = _welds(inputs, modes, record)
     stations = {

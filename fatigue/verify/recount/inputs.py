@@ -44,43 +44,33 @@ class Modes:
     highest_normal_hz: float
 
 
-def open_inputs(record: Mapping[str, Any], result: Path, case_folder: Path | None) -> Inputs:
+def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> Inputs:
     """Find the input files of a result and make sure they are the very files it was computed from.
 
     Parameters
     ----------
     record : provenance of the result
     result : the result folder
-    case_folder : folder of the case file; None: the one in the provenance, beside the result or the current one
+    case_file : the case; None: where the provenance says
 
     Raises
     ------
-    DataError : the case file is nowhere to be found, or inputs are missing or changed; all of them are named
+    DataError : inputs are missing or changed; all of them are named
     """
-    folder = case_folder or _folder_of_case(record, result)
-    refuse(DataError, _changes(record, folder))
-    return Inputs(tomllib.loads((folder / record["case_file"]).read_text(encoding="utf-8-sig")), folder)
-
-
-def _folder_of_case(record: Mapping[str, Any], result: Path) -> Path:
-    recorded = [result / record["case_folder"]] if "case_folder" in record else []
-    for folder in (*recorded, result.resolve().parent, result, Path.cwd()):
-        if (folder / record["case_file"]).is_file():
-            return folder
-    raise DataError(
-        Problem(
-            "missing_input",
-            str(result),
-            f"the inputs are not to be found: no {record['case_file']} beside the result or in the current folder",
-            "Give the folder of the case file",
+    path = case_file or result / record["case_path"]
+    if not path.is_file():
+        problem = Problem(
+            "missing_input", str(path), "the case of this result is not there", "Name the case file, or assess again"
         )
-    )
+        raise DataError(problem)
+    refuse(DataError, _changes(record, path))
+    return Inputs(tomllib.loads(path.read_text(encoding="utf-8-sig")), path.parent)
 
 
-def _changes(record: Mapping[str, Any], folder: Path) -> Iterator[Problem]:
+def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
     """Name every input that is no longer what it was."""
     for known in record["inputs"]:
-        path = folder / known["file"]
+        path = case_file if known["file"] == record["case_file"] else case_file.parent / known["file"]
         if not path.is_file():
             yield Problem(
                 "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"

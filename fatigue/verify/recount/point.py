@@ -164,7 +164,7 @@ def point_values(
         "damage_factor_if_mean_stress": _quotient(float(weights @ per_pass["with_mean_stress"]), damage),
         "shear_ratio": of_governing("shear_ratio"),
         "damage_factor_if_shear": _quotient(float(weights @ per_pass["with_shear"]), damage),
-        "governing_event": None if governing is None else events[governing].name,
+        "governing_event": "" if governing is None else events[governing].name,
         "bending_ratio": of_governing("bending_ratio"),
         "life_km_raw_end": _life(float(weights @ np.array(raw_damage)), limit),
     }
