@@ -21,7 +21,7 @@ from fatigue.event_block import EventLoad, assess_event_block
 from fatigue.events import event_loads, mission_plan
 from fatigue.folder import publish, refuse_foreign, result_log
 from fatigue.life.mission import Plan
-from fatigue.model import GROUP, Model, check_forces, solve_welds, weld_groups
+from fatigue.model import GROUP, Model, check_forces, solve_group, weld_groups
 from fatigue.provenance import provenance_record
 from fatigue.register import PointLives, toe_faces, weld_rows, worst_points
 from fatigue.results import TableWriter, input_register, result_tables, software_versions, write_json
@@ -73,27 +73,29 @@ def assess(
     """
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
-    check_forces(body)
     inputs = input_register(sorted({case.path, *case.input_files().values()}), case.path.parent)
     key = state_key({"inputs": inputs, "software": software_versions(), "blocks": (GROUP, BLOCK)})
 
     refuse_foreign(folder, force=force)
-    with locked(folder), result_log(folder), one_blas_thread(), Checkpoint(folder, key) as state:
-        log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-        loads = event_loads(body)
-        done = Tally(total=sum(len(line.node) for line in body.lines) * len(loads), progress=progress)
-        unpublished = state.folder / "tables"
-        with workers(threads) as executor, result_tables(unpublished) as tables:
-            for number, group in enumerate(weld_groups(body)):
-                model = solve_welds(body, group)
-                blocks = cut_blocks(model.stations, model.curve_of_weld)
-                parts = count_group(number, model, blocks, loads, state, executor, done)
-                write_group(tables, model, blocks, parts, loads, plan, state, done)
-        log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
-        warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, plan, done))
-        write_json(unpublished / "provenance.json", provenance_record(body, plan, folder, inputs, warnings))
-        publish(unpublished, folder)
-        log.info("the result is complete")
+    with locked(folder), one_blas_thread(), Checkpoint(folder, key) as state:
+        groups = weld_groups(body, scratch=state.folder / "forces")
+        check_forces(groups)
+        with result_log(folder):
+            log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
+            loads = event_loads(groups)
+            done = Tally(total=sum(len(line.node) for line in body.lines) * len(loads), progress=progress)
+            unpublished = state.folder / "tables"
+            with workers(threads) as executor, result_tables(unpublished) as tables:
+                for number in range(len(groups)):
+                    model = solve_group(groups, number)
+                    blocks = cut_blocks(model.stations, model.curve_of_weld)
+                    parts = count_group(number, model, blocks, loads, state, executor, done)
+                    write_group(tables, model, blocks, parts, loads, plan, state, done)
+            log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
+            warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
+            write_json(unpublished / "provenance.json", provenance_record(body, plan, folder, inputs, warnings))
+            publish(unpublished, folder)
+            log.info("the result is complete")
     return Assessment(folder, done.fulfilled, warnings, done.blocks, state.reused)
 
 
@@ -193,7 +195,7 @@ def write_group(
     done.warnings += model.warnings
 
 
-def sampling_warnings(body: Body, plan: Plan, done: Tally) -> list[Problem]:
+def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
     """Tell which records are sampled too coarsely for their points, and what damage that hides.
 
     A peak cut short by sampling loses ``k (pi nu_p / f_s)^2 / 6`` of its damage on average.

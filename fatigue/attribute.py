@@ -6,19 +6,16 @@ the events is the ``damage_per_km`` of a point.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Self
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.event_block import EventLoad
-from fatigue.life.attribution import Credit, DamageRule, credit, size_exponent
-from fatigue.life.damage import size_factor
+from fatigue.life.attribution import Credit, DamageRule, credit
 from fatigue.life.history import Residue
 from fatigue.life.mission import Pass
 from fatigue.life.rainflow import rainflow
-from fatigue.model import Model
 from fatigue.readers.body import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
 
@@ -26,70 +23,6 @@ Floats = NDArray[np.float64]
 
 TIME_BINS = 40  # of an event that has no distance
 _SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a piece of points: 8 MB
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Points:
-    """Points whose damage is shared out.
-
-    Attributes
-    ----------
-    weld, part, order, node, face : (p,) where they are; face 0 is the top, 1 the bottom
-    chosen : (p,) why they were chosen
-    membrane, bending : (p, m) stress shapes with treated ends, bending of the top face [MPa per unit modal coordinate]
-    rule : (p,) from stress range to damage
-    rule_exponent : (p,) d ln(size) / d ln(t) of the thickness rule
-    """
-
-    weld: NDArray[np.object_]
-    part: NDArray[np.int64]
-    order: NDArray[np.int64]
-    node: NDArray[np.int64]
-    face: NDArray[np.int64]
-    chosen: NDArray[np.object_]
-    membrane: Floats
-    bending: Floats
-    rule: NDArray[np.object_]
-    rule_exponent: Floats
-
-    def __len__(self) -> int:
-        """Count the points."""
-        return len(self.node)
-
-    @property
-    def side(self) -> Floats:
-        """Sign of the bending stress, +1 on the top face, -1 on the bottom face."""
-        return np.where(self.face == 0, 1.0, -1.0)
-
-    def of(self, index: NDArray[np.int64] | slice) -> Self:
-        """Take some of the points."""
-        return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self)})
-
-
-def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64], chosen: NDArray[np.object_]) -> Points:
-    """Take points of a model, given by station and face."""
-    stations, curve = model.stations, model.case.curve
-    names = np.array([weld.name for weld in model.welds], dtype=object)
-    yield_MPa = curve.yield_MPa if curve.mean_stress == "asme" else None
-    rule = np.empty(len(station), dtype=object)
-    exponent = np.empty(len(station))
-    for i, at in enumerate(station):
-        rated, t = model.curves[model.curve_of_weld[stations.weld[at]]], stations.thickness[at : at + 1]
-        size = float(size_factor(t, rated.curve, curve.thickness_rule)[0])
-        rule[i] = DamageRule(rated.law, size, rated.curve.applies == "dS", yield_MPa)
-        exponent[i] = size_exponent(float(t[0]), rated.curve, curve.thickness_rule)
-    return Points(
-        weld=names[stations.weld[station]],
-        part=stations.part[station],
-        order=stations.order[station],
-        node=stations.node[station],
-        face=face,
-        chosen=chosen,
-        membrane=stations.treated.membrane[station],
-        bending=stations.treated.bending[station],
-        rule=rule,
-        rule_exponent=exponent,
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,6 +2,8 @@
 
 import time
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -12,7 +14,7 @@ from fatigue.errors import Problem
 from fatigue.events import mission_plan
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rainflow import count_block
-from fatigue.model import solve_welds, weld_groups
+from fatigue.model import solve_group, weld_groups
 
 _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 
@@ -65,20 +67,27 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
     """
     body = read_body(case, strict=strict)
     plan, doubts = mission_plan(body)
-    models = [solve_welds(body, group) for group in weld_groups(body)]
-    stations = sum(len(model.stations) for model in models)
+    parts = stations = 0
+    force_warnings: list[Problem] = []
+    with TemporaryDirectory() as scratch:
+        groups = weld_groups(body, Path(scratch))
+        for number in range(len(groups)):
+            model = solve_group(groups, number)
+            parts += len(model.lines)
+            stations += len(model.stations)
+            force_warnings += model.warnings
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,
         welds=len(body.welds),
-        parts=sum(len(model.lines) for model in models),
+        parts=parts,
         stations=stations,
         modes=len(body.modes.mode),
         events=len(plan.passes),
         samples=samples,
         distance_km=sum(p.length or 0.0 for p in plan.passes),
         estimated_s=samples * _seconds_per_sample(len(body.modes.mode)),
-        warnings=(*body.warnings, *doubts, *(w for model in models for w in model.warnings)),
+        warnings=(*body.warnings, *doubts, *force_warnings),
     )
 
 

@@ -50,8 +50,8 @@ class Checkpoint:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Remove the folder after success; keep it for the next run after anything else."""
-        if kind is None:
+        """Remove the folder after success, or when nothing in it is worth keeping for the next run."""
+        if kind is None or not any(self.folder.glob("*.npz")):
             shutil.rmtree(self._root, ignore_errors=True)
 
     def has(self, part: str) -> bool:
@@ -106,6 +106,7 @@ def locked(result_folder: Path) -> Iterator[None]:
     DataError : another run is writing to the folder, or it cannot be written
     """
     path = result_folder / ".fatigue-lock"
+    ours = not result_folder.exists()
     try:
         result_folder.mkdir(parents=True, exist_ok=True)
         file = path.open("a+b")
@@ -125,6 +126,8 @@ def locked(result_folder: Path) -> Iterator[None]:
             yield
         finally:
             path.unlink(missing_ok=True)
+            if ours and not any(result_folder.iterdir()):
+                result_folder.rmdir()  # refused before anything was written: leave no empty folder behind
 
 
 def _take(descriptor: int) -> bool:

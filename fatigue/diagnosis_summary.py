@@ -1,6 +1,6 @@
 """What a diagnosis says in words: at each weld's worst point event, band, modes, place and lever."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -13,9 +13,11 @@ from fatigue.levers import SMALLER, Levers
 from fatigue.life.mission import Plan, life_km
 from fatigue.readers.body import Modes
 from fatigue.tables import FACES
+from fatigue.verdicts import EventVerdicts
 
 LONGEST_LIFE_KM = 1e12
-MODES_NAMED = 3
+NAMED = 3  # modes and bands
+FAR_ABOVE = 3.0  # a mode at three times the frequency answers by 1 / (1 - 1/9), 12 % more than at 0 Hz
 HALF = 0.5
 
 
@@ -32,6 +34,15 @@ class ModeFinding:
 
 
 @dataclass(frozen=True, slots=True)
+class BandFinding:
+    """A frequency band and its share of the damage; no upper edge: None."""
+
+    low_hz: float
+    high_hz: float | None
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
 class LeverFinding:
     """What a mode buys if it is 10 % smaller: life by its exponent, and counted again [km]."""
 
@@ -44,10 +55,11 @@ class LeverFinding:
 class Finding:
     """What makes the damage at the worst point of a weld.
 
-    ``modes`` are those with the largest shares; ``relieving_share`` is what all relieving modes take off; ``low_hz``
-    and ``high_hz`` bound the band with the largest share, None where no record is long enough for bands or the band is
-    open; ``half_damage_part`` is the smallest part of the governing event that holds half of its damage, and its worst
-    bin begins at ``place_km`` (None for an event counted by number) and ``place_s``.
+    ``modes`` and ``bands`` are those with the largest shares, no bands where no record is long enough for a spectrum;
+    ``relieving_share`` is what all relieving modes take off; ``half_damage_part`` is the smallest part of the governing
+    event that holds half of its damage, and its worst bin begins at ``place_km`` (None for an event counted by number)
+    and ``place_s``; ``verdict`` and the split of the Dirlik ratio into errors of formula and process, None where it was
+    not made, are those of the governing event.
     """
 
     weld: str
@@ -60,38 +72,43 @@ class Finding:
     event_share: float
     modes: tuple[ModeFinding, ...]
     relieving_share: float
-    low_hz: float | None
-    high_hz: float | None
-    band_share: float | None
+    bands: tuple[BandFinding, ...]
     half_damage_part: float
     place_km: float | None
     place_s: float
     place_intensity: float
     levers: tuple[LeverFinding, ...]
+    verdict: str
+    reason: str
+    formula_error: float | None
+    process_error: float | None
 
     def as_text(self) -> str:
         """For people: a heading and a line for each question."""
-        modes = ", ".join(f"{_mode(m)} {_percent(m.share)}" for m in self.modes)
+        modes = ", ".join(f"{self._mode(m)} {_percent(m.share)}" for m in self.modes)
+        bands = ", ".join(f"{_band(b)} {_percent(b.share)}" for b in self.bands)
         place = f"km {self.place_km:.1f} of the record" if self.place_km is not None else f"{self.place_s:.1f} s"
         best = self.levers[0]
         gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
-        lines = (
+        lines = [
             f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}",
-            f"  event   {self.event} makes {_percent(self.event_share)} of the damage",
-            f"  band    {self._band()}",
+            f"  event   {self.event} {_percent(self.event_share)}",
+            f"  bands   {bands or 'not available: no record is long enough for a spectrum'}",
             f"  modes   {modes}; relieving modes {_percent(self.relieving_share)}",
             f"  place   half of {self.event} on {_percent(self.half_damage_part)} of its length",
             f"          most at {place}, {self.place_intensity:.1f} times the average",
-            f"  lever   mode {best.mode} {100 * (1 - SMALLER):.0f} % smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
-        )
+            f"  lever   mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
+            f"  Dirlik  {self.verdict}: {self.reason}",
+        ]
+        if self.formula_error is not None and self.process_error is not None:
+            lines.append(f"          ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)")
         return "\n".join(lines)
 
-    def _band(self) -> str:
-        if self.band_share is None:
-            return "not available: no record is long enough for a spectrum"
-        low = 0.0 if self.low_hz is None else self.low_hz
-        edges = f"above {low:.3g} Hz" if self.high_hz is None else f"{low:.3g} to {self.high_hz:.3g} Hz"
-        return f"{edges} makes {_percent(self.band_share)}"
+    def _mode(self, mode: ModeFinding) -> str:
+        """Name a mode; one far above the band it damages in follows its load and does not swing."""
+        high = self.bands[0].high_hz if self.bands else None
+        follows = high is not None and mode.frequency_hz > FAR_ABOVE * high
+        return f"{mode.mode} ({mode.kind}, {mode.frequency_hz:.4g} Hz{', quasi-static' if follows else ''})"
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,9 +135,11 @@ class Diagnosis:
         )
 
 
-def findings(body: Body, plan: Plan, attribution: Attribution, levers: Levers, points: str) -> Diagnosis:
+def findings(
+    body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], points: str
+) -> Diagnosis:
     """Sum up a diagnosis; there is a finding for every point the levers were sought at."""
-    found = [_finding(body.modes, plan, attribution, levers, row) for row in range(len(levers.point))]
+    found = [_finding(body.modes, plan, attribution, levers, verdicts, row) for row in range(len(levers.point))]
     return Diagnosis(
         title=body.case.title,
         points=points,
@@ -129,14 +148,14 @@ def findings(body: Body, plan: Plan, attribution: Attribution, levers: Levers, p
     )
 
 
-def _finding(modes: Modes, plan: Plan, attribution: Attribution, levers: Levers, row: int) -> Finding:
+def _finding(
+    modes: Modes, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], row: int
+) -> Finding:
     point, points = int(levers.point[row]), attribution.points
     event_share = attribution.event_share[point]
-    event = attribution.events[int(event_share.argmax())]
+    governing = int(event_share.argmax())
+    event, verdict = attribution.events[governing], verdicts[governing]
     share, resonant = attribution.mode_share[point], attribution.resonant_share[point]
-    band = attribution.band_share[point]
-    edges = next((e.edges_hz for e in attribution.events if e.has_bands), None)
-    largest = int(band[:-1].argmax()) if edges is not None else -1
     intensity = event.place[point] / event.damage[point] / event.place_length
     hottest = int(intensity.argmax())
     return Finding(
@@ -154,17 +173,15 @@ def _finding(modes: Modes, plan: Plan, attribution: Attribution, levers: Levers,
                 kind=modes.kind[k],
                 frequency_hz=float(modes.frequency[k]),
                 share=float(share[k]),
-                resonant_share=float(resonant[k]) if np.isfinite(resonant[k]) else None,
+                resonant_share=_or_none(resonant[k]),
                 life_exponent=float(attribution.mode_exponent[point, k]),
             )
-            for k in np.argsort(-share, kind="stable")[:MODES_NAMED]
+            for k in np.argsort(-share, kind="stable")[:NAMED]
         ),
         relieving_share=float(share[share < 0.0].sum()),
-        low_hz=None if edges is None else float(edges[largest]),
-        high_hz=None if edges is None or np.isinf(edges[largest + 1]) else float(edges[largest + 1]),
-        band_share=None if edges is None else float(band[largest]),
+        bands=_largest_bands(attribution, point),
         half_damage_part=_part_that_holds(HALF, intensity, event.place_length),
-        place_km=None if np.isnan(event.place_km[hottest]) else float(event.place_km[hottest]),
+        place_km=_or_none(event.place_km[hottest]),
         place_s=float(event.place_s[hottest]),
         place_intensity=float(intensity[hottest]),
         levers=tuple(
@@ -173,6 +190,22 @@ def _finding(modes: Modes, plan: Plan, attribution: Attribution, levers: Levers,
                 levers.mode[row], levers.life_estimated[row], levers.life_counted[row], strict=True
             )
         ),
+        verdict=str(verdict.verdict[point]),
+        reason=str(verdict.reason[point]),
+        formula_error=_or_none(verdict.formula[point]),
+        process_error=_or_none(verdict.process[point]),
+    )
+
+
+def _largest_bands(attribution: Attribution, point: int) -> tuple[BandFinding, ...]:
+    """Take the bands with the largest shares; none where no event is long enough for bands."""
+    edges = next((event.edges_hz for event in attribution.events if event.has_bands), None)
+    if edges is None:
+        return ()
+    share = attribution.band_share[point, :-1]
+    return tuple(
+        BandFinding(float(edges[b]), _or_none(edges[b + 1]), float(share[b]))
+        for b in np.argsort(-share, kind="stable")[:NAMED]
     )
 
 
@@ -205,8 +238,13 @@ def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
         )
 
 
-def _mode(mode: ModeFinding) -> str:
-    return f"{mode.mode} ({mode.kind}, {mode.frequency_hz:.4g} Hz)"
+def _band(band: BandFinding) -> str:
+    return f"above {band.low_hz:.3g} Hz" if band.high_hz is None else f"{band.low_hz:.3g}-{band.high_hz:.3g} Hz"
+
+
+def _or_none(value: float) -> float | None:
+    """Turn what is infinite or not a number into None."""
+    return float(value) if np.isfinite(value) else None
 
 
 def _percent(share: float) -> str:

@@ -1,15 +1,17 @@
-"""Rows of the tables that say what makes the damage: attribution, track and levers."""
+"""Rows of the tables that say what makes the damage and may the frequency domain be trusted, with their columns."""
 
 from typing import Any
 
 import numpy as np
 
-from fatigue.attribute import Attribution, EventAttribution, Points
+from fatigue.attribute import Attribution, EventAttribution
 from fatigue.levers import Levers
 from fatigue.life.mission import Plan, life_km
+from fatigue.points import Points
 from fatigue.readers.body import Modes
 from fatigue.results import Column
 from fatigue.tables import FACES
+from fatigue.verdicts import EventVerdicts
 
 _POINT = (
     Column("weld", "text", "-", "weld line"),
@@ -69,6 +71,53 @@ TRACK = (
     Column("damage_per_km", "float", "1/km", "damage of the bin per km of the mission; half a cycle at either instant"),
     Column("share", "float", "-", "the same over the damage of the point in this event"),
     Column("intensity", "float", "-", "share over the part of the event that the bin is long; 1: as the average"),
+)
+
+DIAGNOSIS = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column(
+        "verdict",
+        "text",
+        "-",
+        "may the frequency domain be trusted in this event: not_assessed, valid, or the first reason why not (sampling, "
+        "quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth)",
+    ),
+    Column("reason", "text", "-", "the verdict in words, with its numbers"),
+    Column("record_too_short", "flag", "-", "the damage scatters by more than 25 % from record to record, or unknown"),
+    Column(
+        "damage_cov", "float", "-", "coefficient of variation of the damage from one record of this length to the next"
+    ),
+    Column("dirlik_ratio", "float", "-", "D_dirlik / D_rainflow of the event, one bending ratio in both"),
+    Column("tb_ratio", "float", "-", "D_tovo_benasciutti / D_rainflow"),
+    Column("ratio_low", "float", "-", "from here on the ratio means agreement"),
+    Column("ratio_high", "float", "-", "up to here the ratio means agreement"),
+    Column(
+        "segmentwise_ratio", "float", "-", "Dirlik summed over periods / D_rainflow, where the event is not stationary"
+    ),
+    Column(
+        "formula_error", "float", "-", "A of the ratio A B: Dirlik / rainflow of Gaussian surrogates; governing points"
+    ),
+    Column("process_error", "float", "-", "B of the ratio A B: rainflow of the surrogates / of the record"),
+    Column("split_standard_error", "float", "-", "of ln A and of ln B"),
+    Column("explained_share", "float", "-", "share of ln B that the modulation and the tones found explain"),
+    Column("alpha2", "float", "-", "irregularity m2 / sqrt(m0 m4)"),
+    Column("samples_per_peak", "float", "-", "sampling rate of the counted record over the rate of peaks"),
+    Column("peaks_over_top_mode", "float", "-", "rate of peaks over the highest frequency of a normal mode"),
+    Column("slow_share", "float", "-", "of the variance, slower than the record can hold ten cycles of"),
+    Column("top_cycle_share", "float", "-", "of the damage, in the one most damaging cycle"),
+    Column("top_cycle_limit", "float", "-", "share that chance allows"),
+    Column("modulation_index", "float", "-", "scatter of the variance over time / scatter by chance"),
+    Column("modulation_low", "float", "-", "below, the stress is steadier than chance"),
+    Column("modulation_high", "float", "-", "above, the stress is not stationary"),
+    Column("modulation_factor", "float", "-", "damage that the modulation found adds"),
+    Column("line_share", "float", "-", "of the variance, in tones"),
+    Column("line_factor", "float", "-", "damage of tones plus noise / of noise of the same variance"),
+    Column("kurtosis", "float", "-", "Pearson kurtosis of the stress, 3 for a Gaussian record"),
+    Column("expected_kurtosis", "float", "-", "of a Gaussian record with the modulation found"),
+    Column("kurtosis_tolerance", "float", "-", "difference that chance allows"),
+    Column("bandwidth_hz", "float", "Hz", "statistical bandwidth: the variance over T scatters by 1 / sqrt(T B)"),
+    Column("relative_bandwidth", "float", "-", "the same over the rate of zero crossings"),
 )
 
 LEVERS = (
@@ -135,6 +184,23 @@ def track_rows(points: Points, event: EventAttribution) -> dict[str, Any]:
         "damage_per_km": event.place.ravel(),
         "share": share.ravel(),
         "intensity": (share / event.place_length).ravel(),
+    }
+
+
+def diagnosis_rows(points: Points, of: EventVerdicts) -> dict[str, Any]:
+    """Rows of ``diagnosis.parquet`` for one event."""
+    return {
+        **point_columns(points, 1),
+        **of.measured,
+        "event": np.full(len(points), of.event, dtype=object),
+        "verdict": of.verdict,
+        "reason": of.reason,
+        "record_too_short": of.measured["record_too_short"] != 0.0,
+        "segmentwise_ratio": of.segmentwise_ratio,
+        "formula_error": of.formula,
+        "process_error": of.process,
+        "split_standard_error": of.standard_error,
+        "explained_share": of.explained,
     }
 
 

@@ -12,7 +12,7 @@ from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.event_block import EventLoad, prepare_event
 from fatigue.life.history import ModalHistory, kept
 from fatigue.life.mission import Pass, Plan
-from fatigue.model import solve_welds, weld_groups
+from fatigue.model import WeldGroups, solve_group
 from fatigue.readers.history import read_history
 from fatigue.spectrum.moments import MomentMatrices, has_spectrum, moment_matrices, point_moments, segment_spectra
 
@@ -49,11 +49,11 @@ def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def event_loads(body: Body) -> tuple[EventLoad, ...]:
+def event_loads(groups: WeldGroups) -> tuple[EventLoad, ...]:
     """Read the records of all events and compute what all stations share; they stay in memory while welds stream by."""
-    events = body.case.mission.event
+    body, events = groups.body, groups.body.case.mission.event
     factor = body.case.counting.upsample
-    factors = _automatic_factors(body) if factor == "auto" else [factor] * len(events)
+    factors = _automatic_factors(groups) if factor == "auto" else [factor] * len(events)
     return tuple(event_load(body, event, upsample) for event, upsample in zip(events, factors, strict=True))
 
 
@@ -128,13 +128,14 @@ def _record_warnings(body: Body, event: Event, history: ModalHistory) -> list[Pr
     return []
 
 
-def _automatic_factors(body: Body) -> list[int]:
+def _automatic_factors(groups: WeldGroups) -> list[int]:
     """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak."""
+    body = groups.body
     records = [_record(body, event)[0] for event in body.case.mission.event]
     moments = [event_moments(body, history) for history in records]
     peaks_per_s = np.zeros(len(records))
-    for group in weld_groups(body):
-        stress = solve_welds(body, group).stations.treated
+    for number in range(len(groups)):
+        stress = solve_group(groups, number).stations.treated
         faces = np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending])
         for i, matrices in enumerate(moments):
             if matrices is not None:

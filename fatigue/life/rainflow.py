@@ -128,7 +128,7 @@ def rainflow(signal: NDArray[np.generic], residue: Residue) -> Cycles:
     """
     s = np.array(signal, dtype=np.float64)
     if not np.isfinite(s).all():
-        raise _not_finite(f"sample {np.flatnonzero(~np.isfinite(s))[0]} of the signal")
+        raise not_finite(f"sample {np.flatnonzero(~np.isfinite(s))[0]} of the signal")
     buffers = _buffers(s.size)
     cycles = find_cycles(s, residue == "repeat", buffers)
     start, end = buffers.start[:cycles], buffers.end[:cycles]
@@ -172,7 +172,7 @@ def count_block(
     with np.errstate(invalid="ignore", over="ignore"):
         row_sum = membrane.sum(axis=1) + bending.sum(axis=1)
     if not np.isfinite(row_sum).all():
-        raise _not_finite(f"row {np.flatnonzero(~np.isfinite(row_sum))[0]} of the block")
+        raise not_finite(f"row {np.flatnonzero(~np.isfinite(row_sum))[0]} of the block")
     points, samples = membrane.shape
     totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
     histogram = np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
@@ -200,7 +200,7 @@ def _buffers(samples: int) -> _Buffers:
     return _Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight)
 
 
-def _not_finite(where: str) -> NumericalError:
+def not_finite(where: str) -> NumericalError:
     return NumericalError(
         Problem("not_finite", where, "the stress is NaN or infinite", "Look for such values in the input")
     )

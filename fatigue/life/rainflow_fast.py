@@ -19,11 +19,12 @@ point is counted again in double precision by `count_block`, and so is every poi
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
 from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import NDArray
@@ -31,7 +32,7 @@ from numpy.typing import NDArray
 from fatigue.life import damage
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue
-from fatigue.life.rainflow import BlockCount, compiled, count_block
+from fatigue.life.rainflow import BlockCount, compiled, count_block, not_finite
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -44,6 +45,7 @@ FEW = 32  # reversals that are not worth another pass
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
 FLAT = 1e-6  # stress difference lost to rounding, in units of the rms of the modal stresses
 CANCELLATION = 16.0  # modal stresses over their sum from which on single precision is not enough
+RATIO_DEGREE = 10
 DOUBT = 2e-7  # relative doubt about the damage that is let pass
 
 
@@ -83,7 +85,8 @@ class _State(NamedTuple):
     which either may be the extreme.
     """
 
-    first: Singles
+    start: Singles
+    flat: Singles
     first_m: Singles
     first_up: NDArray[np.int64]
     up: NDArray[np.int64]
@@ -99,6 +102,14 @@ class _State(NamedTuple):
     doubt: Floats
     maximum: Floats
     minimum: Floats
+
+
+class _Stage(NamedTuple):
+    """Where in the record a chunk is, and whether the record recurs."""
+
+    begins: bool
+    ends: bool
+    recurs: bool
 
 
 class _Room(NamedTuple):
@@ -290,18 +301,270 @@ def close_on_stack(room: _Room, n: int, recurs: bool, cycles: int) -> tuple[int,
 
 
 @compiled()
-def begin(m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int, at: tuple[int, int], state: _State) -> None:
-    """Find the first step of a record. A single pass has a reversal at its first sample; a block that recurs may have
-    one at the last sample of its first plateau, which shows at its end."""
+def begin(m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int) -> tuple[int, np.float32, float]:
+    """Find the first step: its direction (-1: there is none), the membrane stress before it, and the doubt about it."""
     for i in range(samples):
         s, following = m[i] + side * b[i], m[i + 1] + side * b[i + 1]
         if s != following:
-            state.up[at] = state.first_up[at] = int(following > s)
-            state.first_m[at] = m[i]
-            state.doubt[at] += abs(m[i + 1] - m[i]) if abs(following - s) <= flat else _ZERO
-            return
+            return int(following > s), m[i], abs(m[i + 1] - m[i]) if abs(following - s) <= flat else _ZERO
+    return -1, _ZERO, _ZERO
 
 
 @compiled()
-def finish(at: tuple[int, int], n: int, recurs: bool, law: _Law, state: _State, room: _Room, last: tuple[np.float32, np.float32]) -> None:
-    """Close the record"""
+def extremes(z: Singles, n: int, first_peak: int) -> tuple[float, float]:
+    """Largest and smallest stress: closing cycles never takes the last one of either out."""
+    largest, smallest = -np.inf, -np.inf
+    for i in range(n):
+        if (i - first_peak) % 2 == 0:
+            largest = max(largest, z[i])
+        else:
+            smallest = max(smallest, z[i])
+    return largest, -smallest
+
+
+@compiled()
+def count_side(
+    m: Singles, b: Singles, at: tuple[int, int], samples: int, stage: _Stage, law: _Law, state: _State, room: _Room
+) -> None:
+    """Count one surface of one point over the steps of one chunk."""
+    side = np.float32(1 - 2 * at[1])
+    flat = state.flat[at[0]]
+    z, zm = room.z, room.m
+    n = state.waiting[at]
+    z[:n], zm[:n] = state.z[at][:n], state.m[at][:n]
+    if state.up[at] < 0:
+        first_up, state.first_m[at], doubt = begin(m, b, side, flat, samples)
+        state.up[at] = state.first_up[at] = first_up
+        state.doubt[at] += doubt
+        if first_up < 0:
+            return
+        if not stage.recurs:  # a single pass has a reversal at its first sample
+            first, first_m = state.start[at[0], 0] + side * state.start[at[0], 1], state.start[at[0], 0]
+            z[0], zm[0] = (-first, -first_m) if first_up else (first, first_m)
+            n = 1
+    first_up = state.first_up[at]
+    n, up, near, doubtful = write_reversals(m, b, side, flat, samples, state.up[at], state.near[at], room, n)
+    state.up[at], state.near[at] = up, near
+    if doubtful:
+        state.doubt[at] += material_difference(m, b, side, flat, samples)
+    if stage.ends and not (stage.recurs and up == first_up):
+        last = m[samples] + side * b[samples]
+        last_m = state.first_m[at] if stage.recurs else m[samples]
+        z[n], zm[n] = (last, last_m) if up else (-last, -last_m)
+        n += 1
+
+    cycles, before = 0, 2 * n
+    while n > FEW and before - n > before // 8:
+        before = n
+        n, cycles = close_pass(room, n, cycles)
+    if stage.ends:
+        first_peak = 1 - first_up if stage.recurs else first_up
+        state.maximum[at], state.minimum[at] = extremes(z, n, first_peak)
+        if stage.recurs:
+            n = rotate_to_maximum(room, n, first_peak)
+        cycles, halves = close_on_stack(room, n, stage.recurs, cycles)
+        raise_to_slope(room.half_S, room.half_dm, halves, law)
+        add_cycles(room.half_S, room.half_dm, halves, 0.5, at, state)
+    elif n <= RESIDUE:
+        state.z[at][:n], state.m[at][:n] = z[:n], zm[:n]
+        state.waiting[at] = n
+    else:
+        state.doubt[at] = np.inf
+        state.waiting[at] = 0
+    raise_to_slope(room.S, room.dm, cycles, law)
+    add_cycles(room.S, room.dm, cycles, 1.0, at, state)
+
+
+@compiled()
+def add_cycles(power: Singles, damage: Singles, n: int, count: float, at: tuple[int, int], state: _State) -> None:
+    """Add the first n cycles, counting ``count`` each, to the sums."""
+    power_sum, damage_sum, largest = add_up(power, damage, n)
+    state.cycles[at] += count * n
+    state.power_sum[at] += count * power_sum
+    state.damage[at] += count * damage_sum
+    state.largest[at] = max(state.largest[at], largest)
+
+
+@compiled()
+def count_chunk(stress: Singles, samples: int, stage: _Stage, law: _Law, state: _State, room: _Room) -> None:
+    """Count the steps between the first samples + 1 columns of the block, membrane rows above bending rows."""
+    points = stress.shape[0] // 2
+    for row in range(points):
+        m, b = stress[row], stress[points + row]
+        if stage.begins:
+            m[0], b[0] = m[1], b[1]
+            state.start[row, 0], state.start[row, 1] = m[1], b[1]
+        top, bottom = fourth_powers(m[1 : samples + 1], b[1 : samples + 1])
+        state.fourth[row, 0] += top
+        state.fourth[row, 1] += bottom
+        steps = samples
+        if stage.ends and stage.recurs:  # and the step from the last sample to the first one
+            steps += 1
+            m[steps], b[steps] = state.start[row, 0], state.start[row, 1]
+        m[steps + 1 : steps + PAD], b[steps + 1 : steps + PAD] = m[steps], b[steps]  # level, so nothing turns there
+        for surface in range(2):
+            count_side(m, b, (row, surface), steps, stage, law, state, room)
+        m[0], b[0] = m[samples], b[samples]
+
+
+# ------------------------------------------------------------------------------------------------ the block
+
+
+def record_of(q: NDArray[np.floating]) -> Record:
+    """Prepare modal coordinates (m, t) for `count_block_fast`, once for all points.
+
+    Raises
+    ------
+    NumericalError : a sample is not finite
+    """
+    finite = np.isfinite(q)
+    if not finite.all():
+        mode, sample = np.argwhere(~finite)[0]
+        raise not_finite(f"sample {sample} of modal coordinate {mode}")
+    mean = q.mean(axis=1, dtype=np.float64)
+    covariance = np.zeros((len(q), len(q)))
+    single = np.empty(q.shape, np.float32)
+    for first in range(0, q.shape[1], CHUNK):
+        piece = slice(first, first + CHUNK)
+        centred = q[:, piece] - mean[:, None]
+        covariance += centred @ centred.T
+        single[:, piece] = centred
+    return Record(q, single, mean, covariance / max(q.shape[1], 1))
+
+
+def is_fast(law: DamageLaw, record: Record) -> bool:
+    """Whether `count_block_fast` counts itself: a law of one slope, not too steep, and more than one sample."""
+    return law.is_straight and float(law.slopes[0]) <= STEEPEST and record.q.shape[1] > 1
+
+
+def count_block_fast(
+    S_m: Floats,
+    S_b: Floats,
+    record: Record,
+    size: Floats,
+    same_ratio: Floats,
+    law: DamageLaw,
+    *,
+    uses_bending_ratio: bool,
+    residue: Residue,
+    yield_MPa: float | None,
+    mean_stress: bool,
+) -> BlockCount:
+    """Count the stress S_m @ q + S_b @ q (top) and S_m @ q - S_b @ q (bottom) of a block as `count_block` does.
+
+    Parameters
+    ----------
+    S_m, S_b : (n, m) membrane stress, and bending stress of the top surface [MPa per unit modal coordinate]
+    record : the modal coordinates
+    size, same_ratio, law, uses_bending_ratio, residue, yield_MPa, mean_stress : as in `count_block`
+
+    Raises
+    ------
+    NumericalError : a stress is not finite; CaseError : ``mean_stress`` without a yield stress
+    """
+    choices = {"uses_bending_ratio": uses_bending_ratio, "residue": residue, "yield_MPa": yield_MPa, "mean_stress": mean_stress}
+
+    def exactly(rows: Any) -> BlockCount:
+        q = record.exact
+        return count_block(S_m[rows] @ q, S_b[rows] @ q, size[rows], same_ratio[rows], law, **choices)
+
+    if not is_fast(law, record):
+        return exactly(slice(None))
+    weights, scale, trusted = _normalised(S_m, S_b, record)
+    state = _count(weights, record, residue == "repeat", law, uses_bending_ratio)
+    count, doubtful = _evaluated(state, scale, S_m, S_b, record, size, same_ratio, law, uses_bending_ratio, yield_MPa)
+    again = np.flatnonzero(~trusted | doubtful)
+    if again.size:
+        exact = exactly(again)
+        for field in fields(BlockCount):
+            getattr(count, field.name)[again] = getattr(exact, field.name)
+    return count
+
+
+def _normalised(S_m: Floats, S_b: Floats, record: Record) -> tuple[Singles, Floats, NDArray[np.bool_]]:
+    """Divide the shapes of each point by a power of 2 [MPa] so that its modal stresses have an rms of about 1."""
+    variance = np.diagonal(record.covariance)
+    scale = np.sqrt((S_m**2 + S_b**2) @ variance)
+    weakest = np.min([np.sqrt(np.maximum(((S @ record.covariance) * S).sum(axis=1), 0.0)) for S in (S_m + S_b, S_m - S_b)], axis=0)
+    trusted = weakest * CANCELLATION >= scale
+    _, exponent = np.frexp(scale)
+    power_of_2 = np.ldexp(1.0, exponent)
+    return (np.concatenate([S_m, S_b]) / np.tile(power_of_2, 2)[:, None]).astype(np.float32), power_of_2, trusted
+
+
+def _count(weights: Singles, record: Record, recurs: bool, law: DamageLaw, uses_bending_ratio: bool) -> _State:
+    """Count a block of normalised stress chunk by chunk."""
+    points = len(weights) // 2
+    state = _fresh_state(points)
+    state.flat[:] = FLAT if uses_bending_ratio else -1.0
+    t = record.q.shape[1]
+    chunks = -(-t // CHUNK)
+    edges = np.linspace(0, t, chunks + 1).astype(int)
+    longest = int(np.diff(edges).max())
+    stress = np.empty((2 * points, longest + 1 + PAD), np.float32)
+    room = _Room(*(np.empty(longest + RESIDUE + 2 * PAD, np.float32) for _ in range(6)))
+    for first, end in pairwise(edges):
+        samples = end - first
+        np.matmul(weights, record.q[:, first:end], out=stress[:, 1 : samples + 1])
+        count_chunk(stress, samples, _Stage(first == 0, end == t, recurs), _law(law, uses_bending_ratio), state, room)
+    return state
+
+
+def _evaluated(state, scale, S_m, S_b, record, size, same_ratio, law, uses_bending_ratio, yield_MPa):
+    """Turn sums of normalised stress into those of `BlockCount`; tell which rows are doubtful."""
+    k = float(law.slopes[0])
+    log_scale, log_size = np.log(scale)[:, None], np.log(size)[:, None]
+    to_damage = np.exp(k * (log_scale + log_size) - law.log_constants[0])
+    S = np.stack([S_m + S_b, S_m - S_b], axis=1)
+    mean = S @ record.mean
+    variance = ((S @ record.covariance) * S).sum(axis=2) / scale[:, None] ** 2
+    samples = record.q.shape[1]
+    total_damage = to_damage * state.damage
+    span = state.maximum - state.minimum
+    top, bottom = mean + scale[:, None] * state.maximum, mean + scale[:, None] * state.minimum
+    I_same = damage.ratio_factor(same_ratio) if uses_bending_ratio else np.ones_like(same_ratio)
+    turning = state.first_up >= 0
+    doubt = 2.0 * k * 0.254 * state.doubt * span ** (k - 1.0) * 1.2214 ** -k
+    doubtful = doubt > DOUBT * state.damage
+    if yield_MPa is not None:
+        doubtful |= turning & (2.0 * top >= (1.0 - 1e-6) * yield_MPa)
+    count = BlockCount(
+        damage=total_damage,
+        damage_same_ratio=to_damage * I_same**-k * state.power_sum,
+        damage_mean_stress=np.full_like(mean, np.nan) if yield_MPa is None else total_damage.copy(),
+        cycles=state.cycles,
+        power_sum=np.exp(k * log_scale) * state.power_sum,
+        max_range=scale[:, None] * span,
+        r_largest=np.where(turning & (top != 0.0), bottom / top, np.nan),
+        max_equivalent_range=scale[:, None] * size[:, None] * state.largest ** (1.0 / k),
+        mean=mean,
+        kurtosis=np.where(turning, state.fourth / samples / variance**2, np.nan),
+        histogram=np.zeros((len(size), 2, 0, 2)),
+    )
+    return count, doubtful.any(axis=1)
+
+
+def _fresh_state(points: int) -> _State:
+    shape = (points, 2)
+    return _State(
+        start=np.zeros(shape, np.float32),
+        flat=np.zeros(points, np.float32),
+        first_m=np.zeros(shape, np.float32),
+        first_up=np.full(shape, -1),
+        up=np.full(shape, -1),
+        near=np.zeros(shape, np.int64),
+        waiting=np.zeros(shape, np.int64),
+        z=np.empty((*shape, RESIDUE), np.float32),
+        m=np.empty((*shape, RESIDUE), np.float32),
+        **{name: np.zeros(shape) for name in _State._fields[9:]},
+    )
+
+
+def _law(law: DamageLaw, uses_bending_ratio: bool) -> _Law:
+    k = law.slopes[0]
+    head = np.round(k * 2**8) / 2**8
+    if uses_bending_ratio:
+        ratio = _series(lambda x: damage.ratio_factor(x + 0.5) ** -k, -0.5, 0.5, RATIO_DEGREE)
+    else:
+        ratio = (*(_ZERO,) * RATIO_DEGREE, _ONE)
+    return _Law(np.float32(k), np.float32(head), np.float32(k - head), ratio)

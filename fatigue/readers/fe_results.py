@@ -13,6 +13,8 @@ TOTALS = "*TOTALS*"
 NOT_AN_ELEMENT = frozenset({"APP-LOAD", "F-OF-SPC", "F-OF-MPC", TOTALS})
 """Row names of a grid point force balance that are no elements."""
 
+_ABSURD = 1e30
+
 REQUEST = "Request GPFORCE(PLOT)=ALL or a set that covers the weld elements, SORT1, REAL, with PARAM,POST,-1 in SOL 103"
 
 
@@ -84,6 +86,11 @@ class Eigenvalue:
 
     frequency: float
     modal_mass: float
+
+
+def is_sound(values: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """Whether values are numbers of sensible size; NaN, infinity and 1e30 are signs of damage."""
+    return np.abs(values) < _ABSURD
 
 
 def assemble(
@@ -204,11 +211,11 @@ def _choose(source: str, blocks: list[ForceBlock], subcase: int | None) -> tuple
 def _row_problems(blocks: list[ForceBlock]) -> Iterator[Problem]:
     """Check the rows of every block; the node and element columns are compared with the first block elsewhere."""
     for block in blocks:
-        if (bad := np.flatnonzero(~np.isfinite(block.force).all(axis=1))).size:
+        if (bad := np.flatnonzero(~is_sound(block.force).all(axis=1))).size:
             yield Problem(
                 "not_a_number",
                 f"{block.where}, node {block.node[bad[0]]}, element {block.element[bad[0]]}",
-                f"{bad.size} force rows hold a value that is no number",
+                f"{bad.size} force rows hold a value that is no number of sensible size",
                 "Copy the file again, or repeat the run",
             )
     first = blocks[0]

@@ -6,9 +6,11 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
+from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 
@@ -17,12 +19,16 @@ DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises o
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Columns:
-    """An open file: names and types of its columns, number of rows, and how to read one column by its position."""
+    """An open file: names and types of its columns, number of rows, and how to read one column by its position.
+
+    ``numbers`` are the rows' own numbers in the file, from 0, where these are only a part of it.
+    """
 
     names: tuple[str, ...]
     kinds: tuple[pa.DataType, ...]
     rows: int
     read: Callable[[int], pa.ChunkedArray]
+    numbers: NDArray[np.int64] | None = None
 
 
 def open_columns(path: Path, texts: Collection[str]) -> Columns:

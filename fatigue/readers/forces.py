@@ -21,8 +21,13 @@ COMPONENTS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
 BLOCK = 1 << 20  # rows whose stations are looked up at a time, so that a large file needs little memory beside it
 
 
+def open_nodal_forces(path: Path) -> Table:
+    """Open a table of modal nodal forces."""
+    return open_table(path, texts=("weld",))
+
+
 def read_nodal_forces(
-    path: Path,
+    table: Table,
     lines: Sequence[WeldLine],
     modes: Modes,
     convention: Convention,
@@ -32,15 +37,15 @@ def read_nodal_forces(
 ) -> tuple[tuple[NDArray[Any], ...], list[Problem]]:
     """Read ``weld, node, mode, fx_N ... mz_Nmm``: the forces on the elements of each line, (n, m, 6) [N, N mm].
 
-    Nodes are in the order of the line, modes in that of ``modes``; float32 where the file has float32. Rows of ignored
-    modes and of nodes that are not on the weld's line are skipped.
+    ``table`` is a whole file, or the rows of the lines' welds in it. Nodes are in the order of the line, modes in that
+    of ``modes``; float32 where the file has float32. Rows of ignored modes and of nodes that are not on the weld's line
+    are skipped.
 
     Raises
     ------
     DataError
         a (weld, node, mode) missing or given twice, an unknown weld or mode, a value that is no finite number
     """
-    table = open_table(path, texts=("weld",))
     table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
     slot = _slots(table, lines, modes, ignore_modes)
     sizes = [line.node.size for line in lines]

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, assemble
+from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, assemble, is_sound
 from fatigue.readers.op2_records import Op2File, Op2Table, Span, read_records
 
 _FORCE_TABLES = ("OGPFB1",)
@@ -205,7 +205,7 @@ def _shape_block(op2: Op2File, table: Op2Table, head: _Identification, record: N
         raise _damaged(op2, table, f"rows of {head.words_per_row} words in a record of {record.size // w}, not 8")
     rows = record.view(dtype)
     rows = rows[rows["type"] == _GRID]
-    if not np.isfinite(rows["shape"]).all():
+    if not is_sound(rows["shape"]).all():
         raise _damaged(op2, table, f"mode {head.mode} holds a value that is no number")
     node = _nodes(op2, table, head, rows["key"])
     if np.unique(node).size < node.size:
@@ -223,7 +223,7 @@ def _eigenvalues(op2: Op2File, table: Op2Table, record: NDArray[np.uint8]) -> di
     found = {}
     for row in record.view(dtype):
         eigenvalue, _, _, mass, _ = (float(v) for v in row["value"])
-        if row["mode"] < 1 or not (np.isfinite(eigenvalue) and np.isfinite(mass)) or mass < 0:
+        if row["mode"] < 1 or not is_sound(row["value"]).all() or mass < 0:
             raise _damaged(
                 op2, table, f"mode {row['mode']} with eigenvalue {eigenvalue:g} and mass {mass:g} is impossible"
             )

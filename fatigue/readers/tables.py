@@ -60,7 +60,12 @@ class Table:
     def where(self, column: str, row: int | None = None) -> str:
         """Name a place in the file; ``row`` is an index from 0."""
         place = f"{self.path.name}: column {column}"
-        return place if row is None else f"{place}, row {row + 1}"
+        return place if row is None else f"{place}, {self.row_name(row)}"
+
+    def row_name(self, row: int) -> str:
+        """Name a row as counted in the file, from 1."""
+        number = row if self.columns.numbers is None else int(self.columns.numbers[row])
+        return f"row {number + 1}"
 
     def single_precision(self, names: Collection[str]) -> bool:
         """Whether every one of these columns is stored as float32."""
@@ -204,7 +209,10 @@ class Table:
         key = ", ".join(f"{name} {text[name][k[row]] if name in text else k[row]}" for name, k in keys.items())
         self.problems.append(
             Problem(
-                "duplicate", self.where(", ".join(keys), row), f"{key} repeats row {first + 1}", "Keep one of the rows"
+                "duplicate",
+                self.where(", ".join(keys), row),
+                f"{key} repeats {self.row_name(first)}",
+                "Keep one of the rows",
             )
         )
 

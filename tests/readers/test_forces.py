@@ -11,7 +11,13 @@ from hypothesis import strategies as st
 from fatigue.errors import DataError
 from fatigue.readers import forces
 from fatigue.readers.body import Modes, Weld, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.forces import COMPONENTS, read_element_forces, read_nodal_forces, read_weld_elements
+from fatigue.readers.forces import (
+    COMPONENTS,
+    open_nodal_forces,
+    read_element_forces,
+    read_nodal_forces,
+    read_weld_elements,
+)
 from fatigue.weld.element_forces import side_forces
 from fatigue.weld.line import WeldLine
 from tests.readers.neutral import MODES, WELD_NODES, WELDS, changed, nodal_forces, picked, without, write
@@ -24,6 +30,11 @@ ELEMENT_FORCES = {
     "node": [11, 12, 11, 12, 11, 12],
     "element": [5] * 6,
 } | {name: [float(10 * row + i) for row in range(6)] for i, name in enumerate(COMPONENTS)}
+
+
+def read_forces(path, *rest, strict):
+    """Open and read a table of nodal forces."""
+    return read_nodal_forces(open_nodal_forces(path), *rest, strict=strict)
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +64,7 @@ def refusal_of(path, body, ignore_modes=()) -> str:
     """Message of the refusal."""
     modes, lines = body
     with pytest.raises(DataError) as refusal:
-        read_nodal_forces(path, lines, modes, "on_element", ignore_modes, strict=False)
+        read_forces(path, lines, modes, "on_element", ignore_modes, strict=False)
     return str(refusal.value)
 
 
@@ -61,9 +72,7 @@ def refusal_of(path, body, ignore_modes=()) -> str:
 def test_nodal_forces(tmp_path, body, suffix):
     """Nodes in the order of the line, modes in ascending order, components as in the header."""
     modes, lines = body
-    read, warnings = read_nodal_forces(
-        write(tmp_path / f"f{suffix}", FORCES), lines, modes, "on_element", (), strict=True
-    )
+    read, warnings = read_forces(write(tmp_path / f"f{suffix}", FORCES), lines, modes, "on_element", (), strict=True)
     assert warnings == []
     assert [force.dtype for force in read] == [np.float64] * 2
     for force, wanted in zip(read, expected(lines, modes), strict=True):
@@ -73,7 +82,9 @@ def test_nodal_forces(tmp_path, body, suffix):
 def test_sign_and_scale(tmp_path):
     """on_node forces change sign; each mode has its own scale; nothing else changes."""
     modes, lines = small_body(tmp_path, scale=[2.0, -3.0, 1.0])
-    read, _ = read_nodal_forces(write(tmp_path / "f.csv", FORCES), lines, modes, "on_node", (), strict=True)
+    read, _ = read_forces(
+        open_nodal_forces(write(tmp_path / "f.csv", FORCES)), lines, modes, "on_node", (), strict=True
+    )
     factor = -np.array([-3.0, 2.0, 1.0])[:, None]  # modes 3, 7, 12
     for force, wanted in zip(read, expected(lines, modes), strict=True):
         np.testing.assert_array_equal(force, wanted * factor)
@@ -84,7 +95,9 @@ def test_precision_of_the_file_is_kept(tmp_path, body, double, dtype):
     """Single precision stays single unless one component is stored in double precision."""
     modes, lines = body
     types = {name: pa.float64() if name in double else pa.float32() for name in COMPONENTS}
-    read, _ = read_nodal_forces(write(tmp_path / "f.parquet", FORCES, types), lines, modes, "on_node", (), strict=True)
+    read, _ = read_forces(
+        open_nodal_forces(write(tmp_path / "f.parquet", FORCES, types)), lines, modes, "on_node", (), strict=True
+    )
     assert {force.dtype for force in read} == {np.dtype(dtype)}
     np.testing.assert_array_equal(read[0], -expected(lines, modes)[0])
 
@@ -100,7 +113,7 @@ def test_any_row_and_column_order(tmp_path_factory, body, rows, names, suffix):
     modes, lines = body
     shuffled = picked(FORCES, rows)
     path = write(tmp_path_factory.mktemp("f") / f"f{suffix}", {name: shuffled[name] for name in names})
-    read, _ = read_nodal_forces(path, lines, modes, "on_element", (), strict=True)
+    read, _ = read_forces(path, lines, modes, "on_element", (), strict=True)
     for force, wanted in zip(read, expected(lines, modes), strict=True):
         np.testing.assert_array_equal(force, wanted)
 
@@ -109,7 +122,9 @@ def test_lookup_in_blocks(tmp_path, body, monkeypatch):
     """Rows are looked up in blocks; where they are cut does not matter."""
     modes, lines = body
     monkeypatch.setattr(forces, "BLOCK", 4)
-    read, _ = read_nodal_forces(write(tmp_path / "f.csv", FORCES), lines, modes, "on_element", (), strict=True)
+    read, _ = read_forces(
+        open_nodal_forces(write(tmp_path / "f.csv", FORCES)), lines, modes, "on_element", (), strict=True
+    )
     for force, wanted in zip(read, expected(lines, modes), strict=True):
         np.testing.assert_array_equal(force, wanted)
 
@@ -120,7 +135,7 @@ def test_ignored_modes(tmp_path):
     of_seven = [row for row in range(1, ROWS + 1) if FORCES["mode"][row - 1] == 7]
     absent = picked(FORCES, [row for row in range(1, ROWS + 1) if row not in of_seven])
     for columns in (FORCES, absent, changed(FORCES, "mode", of_seven[0], 40)):
-        read, warnings = read_nodal_forces(
+        read, warnings = read_forces(
             write(tmp_path / "f.csv", columns), lines, modes, "on_element", (7, 40), strict=True
         )
         assert warnings == []
@@ -136,7 +151,9 @@ def test_a_node_may_belong_to_several_welds(tmp_path):
     lines, _ = read_weld_nodes(write(tmp_path / "n.csv", shared), welds, strict=True)
     columns = dict(FORCES)
     columns["node"] = [11 if node == 21 else node for node in FORCES["node"]]
-    read, _ = read_nodal_forces(write(tmp_path / "f.csv", columns), lines, modes, "on_element", (), strict=True)
+    read, _ = read_forces(
+        open_nodal_forces(write(tmp_path / "f.csv", columns)), lines, modes, "on_element", (), strict=True
+    )
     np.testing.assert_array_equal(read[0][0, :, 0], 11_000 + 10 * modes.mode)
     np.testing.assert_array_equal(read[1][0, :, 0], 21_000 + 10 * modes.mode)
 
@@ -146,7 +163,9 @@ def test_extra_nodes_are_a_warning(tmp_path, body):
     modes, lines = body
     columns = {name: values + [values[-1]] * 2 for name, values in FORCES.items()}
     columns = changed(changed(columns, "node", ROWS + 1, 99), "node", ROWS + 2, 11)  # 11 is on the other weld
-    read, warnings = read_nodal_forces(write(tmp_path / "f.csv", columns), lines, modes, "on_element", (), strict=True)
+    read, warnings = read_forces(
+        open_nodal_forces(write(tmp_path / "f.csv", columns)), lines, modes, "on_element", (), strict=True
+    )
     (warning,) = warnings
     assert warning.where == f"f.csv: column node, row {ROWS + 1}"
     assert warning.what == "node 99 is not on the line of weld ring; 2 rows of such nodes are not used"
@@ -313,7 +332,9 @@ def test_element_forces_of_the_car_body_sum_to_its_nodal_forces():
     modes, _ = read_modes(folder / "modes.csv", (), strict=True)
     welds, _ = read_welds(folder / "welds.csv", (), strict=True)
     lines, _ = read_weld_nodes(folder / "weld_nodes.csv", welds, strict=True)
-    summed, _ = read_nodal_forces(folder / "nodal_forces.parquet", lines, modes, "on_element", (), strict=True)
+    summed, _ = read_forces(
+        open_nodal_forces(folder / "nodal_forces.parquet"), lines, modes, "on_element", (), strict=True
+    )
     single, _ = read_element_forces(tests / "carbody_element_forces.parquet", modes, "on_element", (), strict=True)
     wanted = [weld for weld in welds if weld.name.startswith(("W1", "W2_hanger1"))]
     elements, _ = read_weld_elements(tests / "carbody_weld_elements.csv", wanted, strict=True)

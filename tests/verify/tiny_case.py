@@ -112,7 +112,12 @@ per_1000_km = 1.5
 
 def _history(rng: np.random.Generator, modes: np.ndarray, dead_load: float) -> pd.DataFrame:
     t = 3.0 + STEP * np.arange(SAMPLES)
-    q = np.stack([np.sin(2 * np.pi * f * t + p) for f, p in zip(3 + rng.random(len(modes)) * 9, rng.random(len(modes)), strict=True)])
+    q = np.stack(
+        [
+            np.sin(2 * np.pi * f * t + p)
+            for f, p in zip(3 + rng.random(len(modes)) * 9, rng.random(len(modes)), strict=True)
+        ]
+    )
     q = 0.5 * q + 0.2 * rng.standard_normal(q.shape) + dead_load
     return pd.DataFrame({"time_s": t} | {f"q_{m}": row for m, row in zip(modes, q, strict=True)})
 
@@ -126,7 +131,10 @@ def _lines(rng: np.random.Generator) -> dict[str, dict]:
     angle = np.concatenate([np.stack([leg, 0 * leg], 1), np.stack([0 * leg[1:] + 48.0, leg[1:]], 1)])
     side = np.arange(4) * 15.0
     square = np.concatenate(
-        [np.stack(xy, 1) for xy in ((side, 0 * side), (60 + 0 * side, side), (60 - side, 60 + 0 * side), (0 * side, 60 - side))]
+        [
+            np.stack(xy, 1)
+            for xy in ((side, 0 * side), (60 + 0 * side, side), (60 - side, 60 + 0 * side), (0 * side, 60 - side))
+        ]
     )
 
     def line(xy, outward, mid=False, closed=False, surface="both", end="") -> dict:

@@ -67,11 +67,14 @@ class Recount:
         """For people: the columns that differ with their place, else the largest difference of each table."""
         wrong = [column for column in self.columns if not column.passed]
         verdict = "agree with the recount" if not wrong else f"{len(wrong)} of {len(self.columns)} columns differ"
-        lines = [f"{self.folder}: {self.points} of {self.points_in_all} points recounted from the input files: {verdict}"]
+        lines = [
+            f"{self.folder}: {self.points} of {self.points_in_all} points recounted from the input files: {verdict}"
+        ]
         for column in wrong:
             lines.append(
                 f"  {column.table}.{column.column}: {_shown(column.found)} where the recount has {_shown(column.expected)} "
-                f"{column.unit.replace('-', '')}".rstrip() + f" (difference {column.difference:.2g}), {column.where}"
+                f"{column.unit.replace('-', '')}".rstrip()
+                + f" (difference {column.difference:.2g}), {column.where}"
             )
         for table in dict.fromkeys(column.table for column in self.columns):
             checked = [column for column in self.columns if column.table == table]
@@ -153,7 +156,6 @@ def _difference(name: str, row: Row) -> float:
 
 def _shown(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
-
 
 
 def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnCheck:

@@ -64,9 +64,7 @@ class Event:
 def point_of(components: Floats, surface: str, curve: Curve, thickness: float) -> Point:
     """Take one face of a station, whose five stress components are (m, 5)."""
     side = 1.0 if surface == "top" else -1.0
-    return Point(
-        components[:, 0], side * components[:, 1], components[:, 2], side * components[:, 3], curve, thickness
-    )
+    return Point(components[:, 0], side * components[:, 1], components[:, 2], side * components[:, 3], curve, thickness)
 
 
 def one_pass(point: Point, record: Record, rules: SpectrumRules, mean_stress: MeanStress) -> OnePass:

@@ -62,9 +62,7 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
     return Row(_place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
 
 
-def damage_row(
-    key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *, is_bound: bool
-) -> Row:
+def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
     """One row of the table of points and events."""
     values = {name: value for name, value in one.values.items() if name not in _NOT_COLUMNS}
     per_km = np.nan if event.length_km is None else 1.0 / event.length_km

@@ -1,0 +1,205 @@
+"""The two inner loops of `rainflow_fast` in vector instructions of x86-64 processors, 16 or 8 samples at a time.
+
+Both steps select: turning points among samples, closed ranges among turning points. A comparison of vectors gives one
+bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would decide one after the
+other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps`` with a table of lane
+numbers). The results are bit for bit those of the plain loops, which run instead where this file says so or is missing.
+"""
+
+from typing import Any
+
+import numpy as np
+from llvmlite import binding, ir
+from numba import types
+from numba.core import cgutils, config
+from numba.extending import intrinsic
+from numpy.typing import NDArray
+
+from fatigue.life.rainflow import compiled
+
+Singles = NDArray[np.float32]
+
+I1, I8, I32, I64, FLOAT = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64), ir.FloatType()
+
+
+def lanes() -> int:
+    """Return the single precision numbers to a vector: 16 with AVX-512, 8 with AVX2, 0 where neither is there.
+
+    Asked of the processor that numba compiles for.
+    """
+    if config.CPU_NAME or config.CPU_FEATURES is not None:
+        named = (config.CPU_FEATURES or "").split(",")
+        return 16 if "+avx512f" in named else 8 if "+avx2" in named else 0
+    has = binding.get_host_cpu_features()
+    return 16 if has.get("avx512f") else 8 if has.get("avx2") else 0
+
+
+LANES = lanes()
+
+
+class _Vector:
+    """Shorthand for building instructions on vectors of ``LANES`` single precision numbers."""
+
+    def __init__(self, context: Any, builder: Any) -> None:
+        self.context, self.builder = context, builder
+        self.type = ir.VectorType(FLOAT, LANES)
+        self.mask = ir.VectorType(I1, LANES)
+
+    def pointer(self, array_type: Any, array: Any, index: Any) -> Any:
+        data = self.context.make_array(array_type)(self.context, self.builder, array).data
+        return self.builder.bitcast(self.builder.gep(data, [index]), self.type.as_pointer())
+
+    def load(self, array_type: Any, array: Any, index: Any) -> Any:
+        return self.builder.load(self.pointer(array_type, array, index), align=4)
+
+    def everywhere(self, number: Any) -> Any:
+        one = self.builder.insert_element(ir.Constant(self.type, ir.Undefined), number, ir.Constant(I32, 0))
+        lane_0 = ir.Constant(ir.VectorType(I32, LANES), [0] * LANES)
+        return self.builder.shuffle_vector(one, ir.Constant(self.type, ir.Undefined), lane_0)
+
+    def bits(self, mask: Any) -> Any:
+        """One bit per lane, as an integer of 64 bits."""
+        return self.builder.zext(self.builder.bitcast(mask, ir.IntType(LANES)), I64)
+
+    def lanes(self, bits: Any) -> Any:
+        return self.builder.bitcast(self.builder.trunc(bits, ir.IntType(LANES)), self.mask)
+
+    def compare(self, how: str, a: Any, b: Any) -> Any:
+        return self.bits(self.builder.fcmp_ordered(how, a, b))
+
+    def store_selected(self, value: Any, bits: Any, array_type: Any, array: Any, index: Any) -> None:
+        """Store the selected lanes side by side; what is behind them is overwritten with anything."""
+        self.builder.store(self._together(value, bits), self.pointer(array_type, array, index), align=4)
+
+    def _together(self, value: Any, bits: Any) -> Any:
+        module = self.builder.module
+        if LANES == 16:
+            kind = ir.FunctionType(self.type, [self.type, self.type, self.mask])
+            compress = cgutils.get_or_insert_function(module, kind, "llvm.x86.avx512.mask.compress.v16f32")
+            return self.builder.call(compress, [value, ir.Constant(self.type, ir.Undefined), self.lanes(bits)])
+        numbers = ir.VectorType(I32, LANES)
+        kind = ir.FunctionType(self.type, [self.type, numbers])
+        permute = cgutils.get_or_insert_function(module, kind, "llvm.x86.avx2.permps")
+        row = self.builder.gep(self._table(module), [ir.Constant(I64, 0), bits])
+        row = self.builder.bitcast(row, ir.VectorType(I8, LANES).as_pointer())
+        return self.builder.call(permute, [value, self.builder.zext(self.builder.load(row, align=8), numbers)])
+
+    @staticmethod
+    def _table(module: Any) -> Any:
+        """Numbers of the selected lanes for each of the 256 selections of 8."""
+        name = ".rainflow.selected_lanes"
+        if name in module.globals:
+            return module.globals[name]
+        rows = [[lane for lane in range(8) if bits >> lane & 1] for bits in range(256)]
+        table = np.array([row + [0] * (8 - len(row)) for row in rows], dtype=np.uint8)
+        kind = ir.ArrayType(ir.ArrayType(I8, 8), 256)
+        variable = cgutils.add_global_variable(module, kind, name)
+        variable.initializer = ir.Constant(kind, [ir.Constant(kind.element, bytearray(row.tobytes())) for row in table])
+        variable.global_constant, variable.linkage, variable.align = True, "internal", 8
+        return variable
+
+
+@intrinsic
+def _reversals_of_lanes(
+    typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, near: Any, z: Any, zm: Any, n: Any
+) -> Any:
+    """Do what `rainflow_fast.write_reversals` does for the samples i to i + LANES - 1."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        m_, b_, side_, flat_, i_, up_, near_, z_, zm_, n_ = args
+        vector = _Vector(context, builder)
+        following = builder.add(i_, ir.Constant(I64, 1))
+        sign = vector.everywhere(side_)
+        membrane = vector.load(m, m_, i_)
+        s = builder.fadd(membrane, builder.fmul(sign, vector.load(b, b_, i_)))
+        s_next = builder.fadd(vector.load(m, m_, following), builder.fmul(sign, vector.load(b, b_, following)))
+        step = builder.fsub(s_next, s)
+        zero = ir.Constant(vector.type, [0.0] * LANES)
+        rises, level = vector.compare(">", step, zero), vector.compare("==", step, zero)
+        size = builder.select(builder.fcmp_ordered("<", step, zero), builder.fneg(step), step)
+        is_near = vector.compare("<=", size, vector.everywhere(flat_))
+
+        # The carry of the addition runs through level steps (0 + 1) and takes the direction before them along.
+        rises_or_level = builder.or_(rises, level)
+        total = builder.add(builder.add(rises_or_level, rises), up_)
+        up_before = builder.xor(total, builder.xor(rises_or_level, rises))
+        turns = builder.and_(builder.not_(level), builder.xor(rises, up_before))
+        turns = builder.and_(turns, ir.Constant(I64, 2**LANES - 1))
+        beside = builder.or_(is_near, builder.or_(builder.shl(is_near, ir.Constant(I64, 1)), near_))
+        doubtful = builder.and_(turns, beside)
+
+        peaks = vector.lanes(up_before)
+        vector.store_selected(builder.select(peaks, s, builder.fneg(s)), turns, z, z_, n_)
+        vector.store_selected(builder.select(peaks, membrane, builder.fneg(membrane)), turns, zm, zm_, n_)
+        n_ = builder.add(n_, builder.ctpop(turns))
+        up_ = builder.lshr(total, ir.Constant(I64, LANES))
+        near_ = builder.lshr(is_near, ir.Constant(I64, LANES - 1))
+        return context.make_tuple(builder, signature.return_type, [n_, up_, near_, doubtful])
+
+    integer = types.int64
+    arguments = (m, b, types.float32, types.float32, integer, integer, integer, z, zm, integer)
+    return types.UniTuple(integer, 4)(*arguments), generate
+
+
+@intrinsic
+def _cycles_of_lanes(
+    typing: Any, z: Any, zm: Any, S: Any, dm: Any, i: Any, n: Any, before: Any, taken: Any, kept: Any, cycles: Any
+) -> Any:
+    """Do what `rainflow_fast.close_pass` does for the reversals i to i + LANES - 1."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_ = args
+        vector = _Vector(context, builder)
+        one = ir.Constant(I64, 1)
+        next_, second = builder.add(i_, one), builder.add(i_, ir.Constant(I64, 2))
+        z0, m0 = vector.load(z, z_, i_), vector.load(zm, zm_, i_)
+        after = vector.compare(">=", vector.load(z, z_, second), z0)
+        left = builder.sub(n_, i_)
+        within = builder.icmp_signed("<", left, ir.Constant(I64, LANES))
+        there = builder.select(within, builder.sub(builder.shl(one, left), one), ir.Constant(I64, 2**LANES - 1))
+        take = builder.and_(after, builder.not_(builder.or_(builder.shl(after, one), before_)))
+        take = builder.and_(take, there)
+        drop = builder.or_(take, builder.or_(builder.shl(take, one), taken_))
+        keep = builder.and_(builder.not_(drop), there)
+
+        S_lanes = builder.fadd(z0, vector.load(z, z_, next_))
+        dm_lanes = builder.fadd(m0, vector.load(zm, zm_, next_))
+        vector.store_selected(S_lanes, take, S, S_, cycles_)
+        vector.store_selected(dm_lanes, take, dm, dm_, cycles_)
+        vector.store_selected(z0, keep, z, z_, kept_)
+        vector.store_selected(m0, keep, zm, zm_, kept_)
+        last = ir.Constant(I64, LANES - 1)
+        results = [
+            builder.add(kept_, builder.ctpop(keep)),
+            builder.add(cycles_, builder.ctpop(take)),
+            builder.lshr(after, last),
+            builder.lshr(take, last),
+        ]
+        return context.make_tuple(builder, signature.return_type, results)
+
+    integer = types.int64
+    return types.UniTuple(integer, 4)(z, zm, S, dm, *(integer,) * 6), generate
+
+
+@compiled()
+def write_reversals(
+    m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int, up: int, near: int, room: Any, n: int
+) -> tuple[int, int, int, int]:
+    """Do what `rainflow_fast.write_reversals` does."""
+    doubtful = 0
+    for i in range(0, samples, LANES):
+        n, up, near, unsure = _reversals_of_lanes(m, b, side, flat, i, up, near, room.z, room.m, n)
+        doubtful |= unsure
+    return n, up, near, min(doubtful, 1)
+
+
+@compiled()
+def close_pass(room: Any, n: int, cycles: int) -> tuple[int, int]:
+    """Do what `rainflow_fast.close_pass` does."""
+    z, zm, S, dm = room.z, room.m, room.S, room.dm
+    z[n : n + 32] = -np.inf
+    kept = 0
+    before, taken = 1, 0
+    for i in range(0, n, LANES):
+        kept, cycles, before, taken = _cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles)
+    return kept, cycles

@@ -1,0 +1,116 @@
+"""Time against frequency domain at all points."""
+
+import numpy as np
+import pandas as pd
+import plotly.graph_objects as go
+
+from fatigue.report.figures.style import (
+    ACCENT,
+    INK,
+    QUIET,
+    SEQUENTIAL,
+    axis,
+    colour_bar,
+    drawn_life,
+    figure,
+    log_axis,
+    single,
+    upright,
+)
+from fatigue.report.wording import in_figure
+
+NAMED_POINTS = 20_000  # beyond, names at every point would outweigh the page
+FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
+
+
+def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
+    """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
+
+    ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
+    colours the points: 3 for a Gaussian record. Points without an estimate are left out.
+    """
+    lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
+    shown = nodes[np.isfinite(lives).all(axis=1)]
+    x, y = drawn_life(shown["life_km_same_ratio"]), drawn_life(shown["life_km_dirlik"])
+    both = np.concatenate([x, y]) if len(shown) else np.array([1e6, 1e8])
+    low, high = np.floor(np.log10(both.min()) * 2 - 0.4) / 2, np.ceil(np.log10(both.max()) * 2 + 0.4) / 2
+    span = np.array([10.0**low, 10.0**high])
+    bands = [
+        {
+            "type": "scatter",
+            "x": span,
+            "y": span * side,
+            "mode": "lines",
+            "line": {"color": QUIET, "width": 1, "dash": dash},
+            "name": "equal" if factor == 1 else f"factor {factor}",
+            "legendgroup": str(factor),
+            "showlegend": side == factor,
+            "hoverinfo": "skip",
+        }
+        for factor, dash in FACTOR_BANDS
+        for side in sorted({1 / factor, float(factor)})
+    ]
+    few = len(shown) <= NAMED_POINTS
+    points = {
+        "type": "scattergl",
+        "x": single(x),
+        "y": single(y),
+        "mode": "markers",
+        "showlegend": False,
+        "marker": {
+            "size": 6,
+            "color": single(shown["kurtosis"].fillna(3.0)),
+            "cmin": 2.0,
+            "cmax": 6.0,
+            "colorscale": SEQUENTIAL,
+            "reversescale": True,
+            "line": {"width": 0.4, "color": INK},
+            "colorbar": colour_bar("kurtosis of the stress [-], Gaussian 3"),
+        },
+        "customdata": single(shown["dirlik_ratio"]),
+        "text": _names(shown) if few else None,
+        "hovertemplate": ("%{text}<br>" if few else "")
+        + "rainflow %{x:.4g} km<br>Dirlik %{y:.4g} km<br>damage ratio %{customdata:.4g}<extra></extra>",
+    }
+    return figure(
+        [*bands, points],
+        height=500,
+        margin={"l": 76, "r": 16, "t": 34, "b": 52},
+        xaxis=log_axis("life by rainflow, one bending ratio [km]", low, high),
+        yaxis=log_axis("life by Dirlik, one bending ratio [km]", low, high),
+    )
+
+
+def ratio_histogram(nodes: pd.DataFrame) -> go.Figure:
+    """How the damage ratio Dirlik / rainflow is spread over the points, on a logarithmic axis."""
+    ratio = nodes["dirlik_ratio"].to_numpy(dtype=np.float64)
+    ratio = ratio[np.isfinite(ratio) & (ratio > 0.0)]
+    limit = max(0.4, float(np.abs(np.log10(ratio)).max(initial=0.0)) * 1.05)
+    count, edges = np.histogram(np.log10(ratio), bins=np.linspace(-limit, limit, 42))
+    bars = {
+        "type": "bar",
+        "x": 10 ** (0.5 * (edges[1:] + edges[:-1])),
+        "y": count,
+        "width": np.diff(10**edges) * 0.94,
+        "marker": {"color": ACCENT},
+        "hovertemplate": "ratio %{x:.3g}<br>%{y} points<extra></extra>",
+    }
+    ticks = [t for t in (0.01, 0.03, 0.1, 0.2, 0.33, 0.5, 1, 2, 3, 5, 10, 30, 100) if abs(np.log10(t)) <= limit]
+    x = axis("damage by Dirlik / damage by rainflow [-]", type="log", range=[-limit, limit])
+    return figure(
+        [bars],
+        height=500,
+        showlegend=False,
+        margin={"l": 70, "r": 16, "t": 34, "b": 52},
+        xaxis={**x, "tickvals": ticks, "ticktext": [f"{t:g}" for t in ticks]},
+        yaxis=axis("points [-]"),
+        shapes=[upright(0.5, dash="dash"), upright(1.0, dash="solid"), upright(2.0, dash="dash")],
+    )
+
+
+def _names(points: pd.DataFrame) -> list[str]:
+    short = {weld: in_figure(weld) for weld in points["weld"].unique()}
+    return [
+        f"{short[weld]}, node {node}, {face}"
+        for weld, node, face in zip(points["weld"], points["node"], points["surface"], strict=True)
+    ]

@@ -1,0 +1,1 @@
+"""Cases with known answers: closed forms, and values published in standards and papers."""

@@ -1,0 +1,237 @@
+"""The audit of foreign forces: each trap raises its light, with a number."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fatigue.errors import DataError
+from fatigue.readers.audit import audit
+from fatigue.readers.fe_results import TOTALS, FeResults
+from fatigue.readers.nastran_bdf import read_bdf
+from fatigue.readers.nastran_op2 import read_op2
+from fatigue.readers.tension_patch import DECK, convention_of
+from tests.readers.tee_model import bulk, tee
+from tests.shell_fe import ShellModel
+
+NASTRAN = Path("data/nastran")
+
+
+@pytest.fixture
+def model(tmp_path):
+    """The T joint's geometry with its displacement frames."""
+    path = tmp_path / "tee.bdf"
+    path.write_text(bulk(tee()))
+    return read_bdf(path)
+
+
+def rows(results, model, **options):
+    """Audit rows by check."""
+    return {row.check: row for row in audit(results, model, **options).rows}
+
+
+def only(results, keep):
+    """Results with some of the rows."""
+    return replace(
+        results,
+        node=results.node[keep],
+        element=results.element[keep],
+        kind=results.kind[keep],
+        force=results.force[:, keep],
+    )
+
+
+def test_sound_forces_are_green(model):
+    """A whole modal run passes everything; work over omega^2 m is -1 for forces on nodes, +1 on elements."""
+    found = rows(tee().results, model, interface_modes=[5])
+    assert {row.light for row in found.values()} == {"green"}
+    assert found["sign"].value == pytest.approx(-1, abs=1e-6)
+    assert found["element balance"].value < 1e-9
+    turned = replace(tee().results, force=-tee().results.force)
+    assert audit(turned, model).convention == "on_element"
+    assert rows(turned, model)["sign"].value == pytest.approx(1, abs=1e-6)
+
+
+def test_wrong_sign_is_red(model):
+    """A stated convention that the work contradicts."""
+    assert rows(tee().results, model, stated="on_element")["sign"].light == "red"
+    assert rows(tee().results, model, stated="on_node")["sign"].light == "green"
+
+
+def test_ignored_frames_are_red(model):
+    """Forces in displacement frames taken for basic ones do not balance, and basic ones rotated once more do not."""
+    plain = replace(model, frame_node=np.empty(0, np.int64), frame=np.empty((0, 3, 3)))
+    assert rows(tee().results, plain)["element balance"].light == "red"
+    case = tee()
+    basic = case.results.force.copy()
+    on_node = -case.element_force.reshape(len(case.frequency), -1, 6)
+    basic[:, : on_node.shape[1]] = on_node
+    found = rows(replace(case.results, force=basic), model)
+    assert found["displacement frames"].light == "red"
+    assert found["displacement frames"].value == case.turned.size
+    assert "0 after" not in rows(case.results, model)["displacement frames"].finding
+
+
+def test_inertia_is_red(model):
+    """Elements that carry their inertia force are out of balance."""
+    case = tee()
+    force = case.results.force.copy()
+    omega = (2 * np.pi * case.frequency) ** 2
+    mass = 7.85e-9 * 8 * 100 / 4
+    count = case.model.quads.size
+    at = case.results.node[:count] - 1
+    force[:, :count, :3] += omega[:, None, None] * mass * case.results.shape[:, at, :3]
+    assert rows(replace(case.results, force=force), model)["element balance"].light == "red"
+
+
+def test_damaged_number_is_red(model):
+    """One force changed by a percent of the largest shows in balance and totals."""
+    results = tee().results
+    force = results.force.copy()
+    force[2, 40, 1] += 0.01 * np.abs(force[2, :, :3]).max()
+    found = rows(replace(results, force=force), model)
+    assert found["grid totals"].light == "red"
+    assert f"grid {results.node[40]} in mode 3" in found["grid totals"].finding
+    assert found["element balance"].light == "red"
+
+
+def test_missing_totals_are_amber(model):
+    """Without totals there is no checksum."""
+    assert rows(only(tee().results, tee().results.kind != TOTALS), model)["grid totals"].light == "amber"
+
+
+def test_part_of_the_model(model):
+    """Forces of a part prove the sign by less than all work; welds elsewhere are left out; half an element is told."""
+    results = tee().results
+    found = rows(only(results, results.element <= 50), model)
+    assert found["sign"].light == "green"
+    assert -1 < found["sign"].value < 0
+    assert (found["completeness"].light, found["completeness"].value) == ("amber", pytest.approx(50 / 120))
+    keep = results.element <= 50
+    keep[np.flatnonzero(results.element == 50)[0]] = False
+    assert "1 at some nodes only" in rows(only(results, keep), model)["completeness"].finding
+
+
+def test_foreign_mesh_is_red(model):
+    """Shells that the mesh lacks, or has at other nodes, and forces of no shell at all."""
+    results = tee().results
+    other = np.where(results.element == 3, 999, results.element)
+    assert rows(replace(results, element=other), model)["completeness"].light == "red"
+    shifted = np.where(results.element == 3, results.node + 30, results.node)
+    assert rows(replace(results, node=shifted), model)["completeness"].light == "red"
+    solid = replace(results, element=np.where(results.element > 0, results.element + 5000, 0))
+    assert rows(solid, model)["element balance"].light == "red"
+
+
+def test_too_much_work_is_red(model):
+    """Shapes scaled by 2 against their forces do twice the work."""
+    results = tee().results
+    assert rows(replace(results, shape=2 * results.shape), model)["sign"].light == "red"
+
+
+def test_sign_without_frequencies(model):
+    """Element works of one sign decide where no mode has a frequency; mixed ones do not."""
+    results = replace(tee().results, frequency=np.zeros(5))
+    assert rows(results, model)["sign"].value == pytest.approx(-1)
+    force = results.force.copy()
+    force[:, results.element % 2 == 0] *= -1
+    found = audit(replace(results, force=force), model)
+    assert found.convention is None
+    zero = audit(replace(results, shape=0 * results.shape), model)
+    assert zero.convention is None
+
+
+def test_sign_without_shapes(model):
+    """Neither shapes nor loads: amber, and the stated sign is kept."""
+    results = replace(tee().results, shape_node=np.empty(0, np.int64), shape=np.empty((5, 0, 6)))
+    found = audit(results, model, "on_node")
+    assert found.convention == "on_node"
+    assert {row.check: row.light for row in found.rows}["sign"] == "amber"
+
+
+def test_interface_modes_and_masses(model):
+    """No interface mode is amber; masses other than 1 are told."""
+    assert rows(tee().results, model)["interface modes"].light == "amber"
+    mass = np.array([1.0, 2.0, 1.0, 1.0, 1.0])
+    force = tee().results.force.copy()
+    force[1] *= 2
+    found = rows(replace(tee().results, modal_mass=mass, force=force), model)
+    assert (found["generalised mass"].light, found["generalised mass"].value) == ("amber", 2.0)
+    assert "generalised mass" not in rows(replace(tee().results, modal_mass=np.full(5, np.nan)), model)
+
+
+@pytest.mark.parametrize(("factor", "light"), [(1.005, "green"), (1.02, "red")])
+def test_frequency_match(model, factor, light):
+    """Frequencies within 1 % match."""
+    simulated = {2: tee().frequency[1] * factor}
+    assert rows(tee().results, model, simulated=simulated)["frequency match"].light == light
+
+
+def test_frequency_match_without_pairs(model):
+    """No common mode leaves the match open."""
+    assert rows(tee().results, model, simulated={77: 1.0})["frequency match"].light == "amber"
+
+
+def static_results(sign):
+    """The tension patch as a solver would deliver it."""
+    model = ShellModel(np.array([[0.0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]]), np.array([[0, 1, 2, 3]]), 1.0)
+    fixed = np.ones((4, 6), bool)
+    fixed[1, :2] = fixed[2, :2] = False
+    fixed[3, 1] = False
+    load = np.zeros((4, 6))
+    load[1:3, 0] = 50.0
+    force = model.element_forces(model.solve(load, fixed))[0]
+    reaction = np.where(fixed, force, 0.0)
+    return FeResults(
+        source="patch",
+        solver="",
+        analysis="static",
+        mode=np.array([1]),
+        frequency=np.array([np.nan]),
+        modal_mass=np.array([np.nan]),
+        node=np.tile(np.arange(1, 5), 3),
+        element=np.repeat([1, 0, 0], 4),
+        kind=np.repeat(["QUAD4", "APP-LOAD", "F-OF-SPC"], 4),
+        force=np.concatenate([sign * force, load, reaction])[None],
+        shape_node=np.empty(0, np.int64),
+        shape=np.empty((1, 0, 6)),
+    )
+
+
+@pytest.mark.parametrize(("sign", "convention"), [(1, "on_element"), (-1, "on_node")])
+def test_tension_patch(tmp_path, sign, convention):
+    """One element in tension tells the sign by its forces, and by its loads in the audit."""
+    path = tmp_path / "patch.bdf"
+    path.write_text(DECK)
+    results = static_results(sign)
+    assert convention_of(results) == convention
+    found = audit(results, read_bdf(path))
+    assert found.convention == convention
+    with pytest.raises(DataError, match=r"carries .* N at the pulled grids"):
+        convention_of(replace(results, force=0.9 * results.force))
+
+
+def test_static_sign_is_open_without_loads(tmp_path):
+    """No load rows, zero loads, or loads that do not fit decide nothing."""
+    path = tmp_path / "patch.bdf"
+    path.write_text(DECK)
+    model, results = read_bdf(path), static_results(1)
+    assert audit(only(results, results.element > 0), model).convention is None
+    assert audit(replace(results, force=results.force * (results.element > 0)[None, :, None]), model).convention is None
+    assert (
+        audit(
+            replace(results, force=results.force * np.where(results.element > 0, 3, 1)[None, :, None]), model
+        ).convention
+        is None
+    )
+
+
+def test_real_files():
+    """Real NASTRAN files: forces on nodes, balanced to single precision."""
+    for name in ("modes_elements", "wingbox_stitched_together-000"):
+        found = audit(read_op2(NASTRAN / f"{name}.op2"), read_bdf(NASTRAN / f"{name}.bdf"))
+        values = {row.check: row.value for row in found.rows}
+        assert found.convention == "on_node"
+        assert values["element balance"] < 1e-6
+        assert values["grid totals"] < 1e-6

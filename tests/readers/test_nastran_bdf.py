@@ -1,0 +1,243 @@
+"""Bulk data in all its spellings, coordinate systems, sections, sets and markers."""
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fatigue.errors import DataError
+from fatigue.readers.nastran_bdf import read_bdf
+from fatigue.readers.nastran_cards import case_sets, set_members
+
+NASTRAN = Path("data/nastran")
+PLATE = """\
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+PSHELL,1,1,2.,1,,1
+"""
+QUAD = PLATE + "CQUAD4,1,1,1,2,3,4\n"
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Read bulk data given as text."""
+
+    def reader(text):
+        path = tmp_path / "a.bdf"
+        path.write_text(text)
+        return read_bdf(path)
+
+    return reader
+
+
+def test_real_files():
+    """An element zoo with INCLUDE, tabs and layered sections; a wing box of 2464 shells in fixed fields."""
+    zoo = read_bdf(NASTRAN / "modes_elements.bdf")
+    assert zoo.mesh.element.size == 17
+    assert zoo.mesh.thickness[zoo.mesh.pid == 6].tolist() == [1.0] * 3
+    assert zoo.mesh.thickness[zoo.mesh.pid == 7].tolist() == [1.5] * 3
+    assert set(zoo.section_doubt) == {6, 7, 9}
+    assert zoo.marker_edges["PLOTEL"].tolist() == [[1, 23]]
+    quad8 = zoo.mesh.mid[zoo.mesh.element == 60][0]
+    assert zoo.mesh.node[quad8[1:]].tolist() == [63, 62, 65]
+    assert quad8[0] == -1
+    box = read_bdf(NASTRAN / "wingbox_stitched_together-000.bdf")
+    assert (box.mesh.node.size, box.mesh.element.size) == (2675, 2464)
+    assert box.other_cards == {"CBUSH": 193, "RBE2": 1}
+
+
+@pytest.mark.parametrize(
+    "card",
+    [
+        "GRID,9,,1.5+1,-2.5-1,3.D0",
+        "GRID           9           1.5+1  -2.5-1    3.D0",
+        "GRID*                  9                           1.5+1          -2.5-1*A\n*A                  3.D0",
+        "grid*,9,,15.,-0.25,*B\n*B,3.0",
+        "GRID    9               15.     -.25    +3.E0   $ comment",
+        "GRID\t9\t\t15.\t-.25\t3.",
+    ],
+)
+def test_spellings_of_a_card(read, card):
+    """Small, large and free fields, FORTRAN exponents, tabs, comments, continuations."""
+    mesh = read(QUAD + card + "\n").mesh
+    assert mesh.xyz[mesh.node == 9].tolist() == [[15.0, -0.25, 3.0]]
+
+
+def test_coordinate_systems(read):
+    """Positions and displacement frames in rectangular, cylindrical and spherical systems, nested and by grids."""
+    model = read(
+        PLATE
+        + "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        + "CORD2S,6,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        + "CORD2R,7,5,1.,90.,0.,1.,90.,1.\n,2.,90.,0.\n"
+        + "CORD1R,8,1,2,3\n"
+        + "GRID,11,5,2.,90.,3.,5\n"
+        + "GRID,12,6,2.,90.,90.,6\n"
+        + "GRID,13,7,1.,0.,0.,7\n"
+        + "GRID,14,8,0.,0.,1.,8\n"
+        + "CQUAD4,1,1,1,2,3,4\n"
+    )
+    at = dict(zip(model.mesh.node.tolist(), model.mesh.xyz, strict=True))
+    assert np.allclose([at[n] for n in (11, 12, 13, 14)], [[0, 2, 3], [0, 2, 0], [0, 2, 0], [1, 0, 0]], atol=1e-12)
+    axes = dict(zip(model.frame_node.tolist(), model.frame, strict=True))
+    assert np.allclose(axes[11], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], atol=1e-12)
+    assert np.allclose(axes[12], [[0, 1, 0], [0, 0, -1], [-1, 0, 0]], atol=1e-12)
+    assert np.allclose(axes[13], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], atol=1e-12)
+    assert np.allclose(axes[14][2], [1, 0, 0], atol=1e-12)
+
+
+def test_default_frames_of_grids(read):
+    """GRDSET supplies the systems that GRID leaves out."""
+    model = read("GRDSET,,5,,,,5\nCORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n" + QUAD.replace("GRID,1,,", "GRID,1,0,"))
+    assert model.frame_node.tolist() == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    ("section", "thickness", "offset", "doubt"),
+    [
+        ("PSHELL,1,1,2.,1,,1", 2.0, 0.0, ""),
+        ("PSHELL,1,1,2.,-1", 2.0, 0.0, ""),
+        ("PSHELL,1,1,2.", 2.0, 0.0, "materials of its own"),
+        ("PSHELL,1,1,2.,1,30.,1", 2.0, 0.0, "30 of another section"),
+        ("PCOMP,1\n,1,1.,0.,,1,,90.", 2.0, 0.0, "layered"),
+        ("PCOMP,1,0.,,,,,,SYM\n,1,1.,0.,,1,2.,90.", 6.0, 3.0, "layered"),
+        ("PCOMPG,1\n,1,1,.5\n,2,1,1.", 1.5, 0.0, "layered"),
+    ],
+)
+def test_sections(read, section, thickness, offset, doubt):
+    """Thickness and mid-surface of plain, sandwich and layered properties."""
+    model = read(QUAD.replace("PSHELL,1,1,2.,1,,1", section))
+    assert (model.mesh.thickness[0], model.mesh.offset[0]) == (thickness, offset)
+    assert doubt in model.section_doubt.get(1, "")
+    assert bool(doubt) == (1 in model.section_doubt)
+
+
+@pytest.mark.parametrize(
+    ("card", "thickness", "offset", "doubtful"),
+    [
+        ("CQUAD4,1,1,1,2,3,4,,0.5", 2.0, 0.5, False),
+        ("CQUAD4,1,1,1,2,3,4,,\n,,,3.,3.,3.,3.", 3.0, 0.0, False),
+        ("CQUAD4,1,1,1,2,3,4,,\n,,1,.5,.5,.5,.5", 1.0, 0.0, False),
+        ("CQUAD4,1,1,1,2,3,4,,\n,,,3.,5.,3.,5.", 4.0, 0.0, True),
+        ("CTRIA3,1,1,1,2,3,,-.25,\n,,,3.,3.,3.", 3.0, -0.25, False),
+        ("CTRIA6,1,1,1,2,3,,,\n,,0.1,4.,4.,4.", 4.0, 0.1, False),
+        ("CQUAD8,1,1,1,2,3,4,,\n,,,4.,4.,4.,4.,,.2", 4.0, 0.2, False),
+        ("CTRIAR,1,1,1,2,3", 2.0, 0.0, False),
+    ],
+)
+def test_shells_with_their_own_thickness_and_offset(read, card, thickness, offset, doubtful):
+    """Corner thicknesses, absolute or relative, and ZOFFS of every shell card."""
+    model = read(PLATE + card + "\n")
+    assert (model.mesh.thickness[0], model.mesh.offset[0]) == (pytest.approx(thickness), offset)
+    assert (1 in model.element_doubt) == doubtful
+
+
+def test_missing_property_is_a_doubt(read):
+    """A shell without PSHELL has no thickness, and says why."""
+    model = read(QUAD.replace("PSHELL,1,", "PSHELL,2,"))
+    assert np.isnan(model.mesh.thickness[0])
+    assert "not a PSHELL" in model.section_doubt[1]
+
+
+def test_sets_and_markers(read):
+    """SETs of case control with ranges and exceptions, SET1, PLOTEL and bars."""
+    model = read(
+        "SOL 103\nCEND\nSET 1 = 1 THRU 3, 9\nSET 2 = ALL\nSET 3 = 1 THRU 6 EXCEPT 4,\n 5, 8\nBEGIN BULK\n"
+        + QUAD
+        + "SET1,4,1,THRU,3\nPLOTEL,5,1,2,,6,2,3\nCBAR,7,9,3,4\nCBUSH,8,9,1,2\n"
+    )
+    assert {key: ids.tolist() for key, ids in model.node_sets.items()} == {
+        1: [1, 2, 3, 9],
+        3: [1, 2, 3, 6, 8],
+        4: [1, 2, 3],
+    }
+    assert {key: pairs.tolist() for key, pairs in model.marker_edges.items()} == {
+        "PLOTEL": [[1, 2], [2, 3]],
+        "CBAR": [[3, 4]],
+    }
+    assert model.other_cards == {"CBAR": 1, "CBUSH": 1}
+
+
+def test_set_expressions():
+    """Words that are no integer sets give none; a range without end, too."""
+    assert set_members(["1", "THRU", "X"]) is None
+    assert set_members(["THRU", "4"]) is None
+    assert set_members(["1", "THRU", "999999999"]) is None
+    assert set_members(["7", "EXCEPT", "7"]) == [7, 7]
+    assert case_sets([("a", "SET A = 1"), ("b", "SET 2 = 5")]) == {2: [5]}
+
+
+def test_includes(tmp_path):
+    """INCLUDE with quotes, over lines and nested; paths are relative to the including file."""
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "a.bdf").write_text("INCLUDE 'sub/\n  b.inc'\n" + PLATE)
+    (tmp_path / "sub" / "b.inc").write_text('include "c.inc"\n')
+    (tmp_path / "sub" / "c.inc").write_text("CQUAD4,1,1,1,2,3,4\n")
+    assert read_bdf(tmp_path / "a.bdf").mesh.element.tolist() == [1]
+    (tmp_path / "sub" / "c.inc").write_text("INCLUDE b.inc\n")
+    with pytest.raises(DataError, match="includes itself"):
+        read_bdf(tmp_path / "a.bdf")
+    (tmp_path / "sub" / "c.inc").write_text("INCLUDE 'open\n")
+    with pytest.raises(DataError, match="no end"):
+        read_bdf(tmp_path / "a.bdf")
+    (tmp_path / "sub" / "c.inc").write_text("INCLUDE 'none.inc'\n")
+    with pytest.raises(DataError, match=r"none\.inc"):
+        read_bdf(tmp_path / "a.bdf")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (PLATE, "no shell elements"),
+        (QUAD + "CQUAD4,1,1,1,2,3,4\n", "used twice"),
+        (PLATE + "CQUAD4,1,1,1,2,3,9\n", "grid 9 does not exist"),
+        (PLATE + "CQUAD4,1,1,1,2,3,3\n", "a grid is used twice"),
+        (QUAD + "GRID,1,,5.,0.,0.\n", "grid 1 is already defined"),
+        (QUAD + "GRID,9,,x,0.,0.\n", "field 4 is 'X', not a number"),
+        (QUAD + "GRID,9,,1_0.,0.,0.\n", "not a number of sensible size"),
+        (QUAD + "GRID,9,,1e999,0.,0.\n", "sensible size"),
+        (QUAD + "GRID,,,0.,0.,0.\n", "field 2 is empty"),
+        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist"),
+        (QUAD + "GRID,9,,0.,0.,0.,-1\n", "fluid point"),
+        (QUAD + "GRID,9,,0.,0.,0.,,,5\n", "superelement 5"),
+        ("SOL 103\nCEND\nBEGIN BULK\n" + QUAD + "BEGIN SUPER=1\n", "superelements"),
+        (QUAD + "PSHELL,1,1,3.,1,,1\n", "property 1 is defined twice"),
+        (QUAD + "PSHELL,2,1,-3.,1,,1\n", "thickness of property 2 is -3"),
+        (QUAD + "CORD2R,5,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,9,5\n", "refers to itself"),
+        (QUAD + "CORD2R,5,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,9,5\n", "lie on a line"),
+        (QUAD + "CORD2R,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD1R,5,1,2,3\n", "defined twice"),
+        (QUAD + "CORD1R,5,1,2,77\nGRID,9,5\n", "grid 77 of a coordinate system"),
+        ("+,1,2\n" + QUAD, "continuation without a card"),
+        (QUAD + "GRID    9" + " " * 63 + "+A\n+B      1\n", "follows a card that announces"),
+        (QUAD + "=,*1,=,*1.\n", "no card name"),
+        ("\0" + QUAD, "binary file"),
+    ],
+)
+def test_refusals(read, text, words):
+    """Every mistake is named with its place."""
+    with pytest.raises(DataError, match=words):
+        read(text)
+
+
+def test_missing_file(tmp_path):
+    """A missing file is named."""
+    with pytest.raises(DataError, match=r"no\.bdf"):
+        read_bdf(tmp_path / "no.bdf")
+
+
+def test_damaged_text_is_refused_or_read(read):
+    """Hundreds of damaged files give a model or a refusal, never a crash."""
+    rng = random.Random(3)
+    outcomes = set()
+    for _ in range(300):
+        text = list(QUAD)
+        for _ in range(rng.choice([1, 3, 10])):
+            text[rng.randrange(len(text))] = rng.choice("0123456789,.+-*$ \n\tEGRIDx'")
+        try:
+            outcomes.add(read("".join(text)).mesh.element.size)
+        except DataError as error:
+            outcomes.add(error.problems[0].code)
+    assert len(outcomes) > 3

@@ -1,0 +1,126 @@
+"""The result folder: data dictionary, tables, provenance, JSON, and what happens when one of them is damaged."""
+
+import json
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from fatigue.errors import DataError
+from fatigue.results import (
+    TABLES,
+    input_register,
+    json_ready,
+    read_provenance,
+    read_table,
+    schema,
+    sha256,
+    software_versions,
+    table_writer,
+    write_json,
+)
+
+
+def rows(table, n=3):
+    """Rows of a table with plausible values of every type."""
+    value = {"text": ["<script>"] * n, "int": list(range(n)), "flag": [True] * n, "float": [1.5, np.inf, np.nan][:n]}
+    return {c.name: value[c.type] for c in TABLES[table]}
+
+
+@pytest.mark.parametrize("table", sorted(TABLES))
+def test_every_column_has_unit_and_meaning(table):
+    """Units in the name and in the metadata agree."""
+    suffix = {"_mm": "mm", "_km": "km", "_MPa": "MPa", "_s": "s", "_years": "a"}
+    for column in TABLES[table]:
+        assert column.meaning
+        for end, unit in suffix.items():
+            if column.name.endswith(end) and not column.name.endswith(("_per_km", "_per_s")):
+                assert column.unit == unit, column.name
+    assert len({c.name for c in TABLES[table]}) == len(TABLES[table])
+
+
+@pytest.mark.parametrize("table", sorted(TABLES))
+def test_tables_round_trip_with_null_for_nan_and_infinity_kept(tmp_path, table):
+    """NaN is "not available": null in the file; infinite life stays infinite."""
+    with table_writer(tmp_path, table) as writer:
+        writer.write(rows(table))
+        writer.write(rows(table))
+    found = read_table(tmp_path, table)
+    assert found.num_rows == 6
+    assert found.schema.metadata[b"table"] == table.encode()
+    for column in TABLES[table]:
+        if column.type == "float":
+            assert found.column(column.name).to_pylist()[:3] == [1.5, np.inf, None]
+
+
+def test_the_same_rows_in_other_pieces_give_the_same_bytes(tmp_path):
+    """Row groups are cut by number of rows, not by how the rows arrive."""
+    for name, pieces in (("a", (3, 3)), ("b", (1, 2, 3))):
+        (tmp_path / name).mkdir()
+        with table_writer(tmp_path / name, "welds") as writer:
+            for n in pieces:
+                writer.write({k: (v * 2)[:n] if len(v) < n else v[:n] for k, v in rows("welds").items()})
+    a, b = (pq.read_table(tmp_path / name / "welds.parquet") for name in "ab")
+    assert a.num_rows == b.num_rows
+
+
+def test_a_missing_column_is_a_programming_error(tmp_path):
+    """Rows must be complete."""
+    incomplete = rows("welds")
+    del incomplete["life_km"]
+    with pytest.raises(KeyError, match="life_km"), table_writer(tmp_path, "welds") as writer:
+        writer.write(incomplete)
+
+
+def test_read_table_names_what_is_wrong(tmp_path):
+    """No table, and a truncated one."""
+    with pytest.raises(DataError, match=r"nodes\.parquet: no such result table\. Run `fatigue assess"):
+        read_table(tmp_path, "nodes")
+    with table_writer(tmp_path, "nodes") as writer:
+        writer.write(rows("nodes"))
+    path = tmp_path / "nodes.parquet"
+    path.write_bytes(path.read_bytes()[:-20])
+    with pytest.raises(DataError, match="the table cannot be read"):
+        read_table(tmp_path, "nodes")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("{", "cannot be read"), ("[]", "was not written by fatigue"), ('{"program": "other"}', "was not written by")],
+)
+def test_provenance_of_somebody_else(tmp_path, text, message):
+    """A provenance.json that is damaged or foreign is not taken for ours."""
+    (tmp_path / "provenance.json").write_text(text)
+    with pytest.raises(DataError, match=message):
+        read_provenance(tmp_path)
+
+
+def test_json_has_no_infinities(tmp_path):
+    """Infinite, NaN and numpy values become what JSON can say."""
+    record = {"a": np.float64(np.inf), "b": [np.nan, np.int64(3)], 4: np.array([1.0, -np.inf]), "c": np.bool_(True)}
+    assert json_ready(record) == {"a": None, "b": [None, 3], "4": [1.0, None], "c": True}
+    write_json(tmp_path / "x.json", record)
+    assert json.loads((tmp_path / "x.json").read_text())["a"] is None
+
+
+def test_inputs_are_named_relative_to_the_case_with_their_hash(tmp_path):
+    """Name, size, SHA-256; a file elsewhere keeps its path."""
+    (tmp_path / "case").mkdir()
+    inside, outside = tmp_path / "case" / "a.csv", tmp_path / "b.csv"
+    inside.write_text("x")
+    outside.write_text("xy")
+    found = input_register([inside, outside], tmp_path / "case")
+    assert found[0] == {"file": "a.csv", "bytes": 1, "sha256": sha256(inside)}
+    assert found[1]["file"] == outside.as_posix()
+    assert sha256(inside) == "2d711642b726b04401627ca9fbac32f5c8530fb1903cc4db02258717921a4881"
+
+
+def test_versions_of_what_the_numbers_rest_on():
+    """Program, Python, and the numerical packages."""
+    assert {"fatigue", "python", "numpy", "scipy", "numba", "pyarrow"} <= set(software_versions())
+
+
+def test_schema_types():
+    """Life is a float, the node an integer, the toe a flag, the weld a text."""
+    types = {f.name: str(f.type) for f in schema("nodes")}
+    assert (types["life_km"], types["node"], types["toe"], types["weld"]) == ("double", "int64", "bool", "string")
