@@ -16,6 +16,7 @@ from fatigue.life.attribution import Credit, DamageRule, credit
 from fatigue.life.history import Residue
 from fatigue.life.mission import Pass
 from fatigue.life.rainflow import rainflow
+from fatigue.points import Points
 from fatigue.readers.body import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
 

@@ -80,7 +80,7 @@ DIAGNOSIS = (
         "verdict",
         "text",
         "-",
-        "may the frequency domain be trusted in this event: not_assessed, valid, or the first reason why not (sampling, "
+        "may the frequency domain be trusted in this event: not_assessed, valid, or why not, first hit (sampling, "
         "quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth)",
     ),
     Column("reason", "text", "-", "the verdict in words, with its numbers"),

@@ -16,6 +16,7 @@ point is counted again in double precision by `count_block`, and so is every poi
 `rainflow_simd` has steps 1 and 2 in vector instructions; without that file the plain loops below do the same, bit for bit.
 """
 
+import importlib.util
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
@@ -121,6 +122,8 @@ class _Room(NamedTuple):
     dm: Singles
     half_S: Singles
     half_dm: Singles
+    step: NDArray[np.int8]
+    at: NDArray[np.int32]
 
 
 def _series(function: Callable[[Floats], Floats], low: float, high: float, degree: int) -> tuple[np.float32, ...]:
@@ -153,7 +156,7 @@ def number_of(context: Any, bits: Any) -> Any:
     return types.float32(types.int32), lambda _, builder, __, args: builder.bitcast(args[0], ir.FloatType())
 
 
-@compiled()
+@compiled("contract")
 def horner(c: tuple[np.float32, ...], x: np.float32) -> np.float32:
     y = c[0]
     for k in range(1, len(c)):
@@ -161,7 +164,7 @@ def horner(c: tuple[np.float32, ...], x: np.float32) -> np.float32:
     return y
 
 
-@compiled()
+@compiled("contract")
 def raise_to_slope(S: Singles, dm: Singles, n: int, law: _Law) -> None:
     """Replace S by S^k, and the membrane range dm by S^k I(r)^(-k/m) with r = db / (dm + db)."""
     for i in range(n):
@@ -211,21 +214,25 @@ def write_reversals(
     """Append the reversals among the first samples of the row, and return how many there are now, the direction behind
     them, whether the last step was flat, and whether any reversal has a flat step beside it.
     """
-    z, zm = room.z, room.m
-    doubtful = 0
-    s = m[0] + side * b[0]
+    z, zm, step, at = room.z, room.m, room.step, room.at
     for i in range(samples):
-        following = m[i + 1] + side * b[i + 1]
-        rises, level = int(following > s), int(following == s)
-        turns = (1 - level) & (rises ^ up)
-        z[n] = s if up else -s
-        zm[n] = m[i] if up else -m[i]
-        n += turns
-        was_near, near = near, int(abs(following - s) <= flat)
-        doubtful |= turns & (near | was_near)
-        up = up if level else rises
-        s = following
-    return n, up, near, doubtful
+        ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
+        step[i] = (int(ds > 0) - int(ds < 0)) * (2 - int(abs(ds) <= flat))  # flat steps are 1 high, others 2
+    reversals = 0
+    direction = 2 * up - 1
+    for i in range(samples):
+        at[reversals] = i
+        reversals += int(step[i] * direction < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
+        direction = step[i] if step[i] != 0 else direction
+    doubtful = 0
+    sign = np.float32(2 * up - 1)
+    for k in range(reversals):
+        i = at[k]
+        z[n + k] = sign * (m[i] + side * b[i])
+        zm[n + k] = sign * m[i]
+        doubtful |= int(abs(step[i]) < 2) | (int(abs(step[i - 1]) < 2) if i > 0 else near)
+        sign = -sign
+    return n + reversals, int(direction > 0), int(abs(step[samples - 1]) < 2), doubtful
 
 
 @compiled()
@@ -249,6 +256,13 @@ def close_pass(room: _Room, n: int, cycles: int) -> tuple[int, int]:
         kept += 1 - (taken | was_taken)
         before = after
     return kept, cycles
+
+
+write_reversals_in_lanes, close_pass_in_lanes = write_reversals, close_pass
+if importlib.util.find_spec("fatigue.life.rainflow_simd"):
+    from fatigue.life import rainflow_simd
+    if rainflow_simd.LANES:
+        write_reversals_in_lanes, close_pass_in_lanes = rainflow_simd.write_reversals, rainflow_simd.close_pass
 
 
 @compiled()
@@ -343,7 +357,7 @@ def count_side(
             z[0], zm[0] = (-first, -first_m) if first_up else (first, first_m)
             n = 1
     first_up = state.first_up[at]
-    n, up, near, doubtful = write_reversals(m, b, side, flat, samples, state.up[at], state.near[at], room, n)
+    n, up, near, doubtful = write_reversals_in_lanes(m, b, side, flat, samples, state.up[at], state.near[at], room, n)
     state.up[at], state.near[at] = up, near
     if doubtful:
         state.doubt[at] += material_difference(m, b, side, flat, samples)
@@ -356,7 +370,7 @@ def count_side(
     cycles, before = 0, 2 * n
     while n > FEW and before - n > before // 8:
         before = n
-        n, cycles = close_pass(room, n, cycles)
+        n, cycles = close_pass_in_lanes(room, n, cycles)
     if stage.ends:
         first_peak = 1 - first_up if stage.recurs else first_up
         state.maximum[at], state.minimum[at] = extremes(z, n, first_peak)
@@ -502,7 +516,8 @@ def _count(weights: Singles, record: Record, recurs: bool, law: DamageLaw, uses_
     edges = np.linspace(0, t, chunks + 1).astype(int)
     longest = int(np.diff(edges).max())
     stress = np.empty((2 * points, longest + 1 + PAD), np.float32)
-    room = _Room(*(np.empty(longest + RESIDUE + 2 * PAD, np.float32) for _ in range(6)))
+    kinds = (np.float32,) * 6 + (np.int8, np.int32)
+    room = _Room(*(np.empty(longest + RESIDUE + 2 * PAD, kind) for kind in kinds))
     for first, end in pairwise(edges):
         samples = end - first
         np.matmul(weights, record.q[:, first:end], out=stress[:, 1 : samples + 1])

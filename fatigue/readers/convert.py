@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.audit import SHELL_KINDS, Audit, audit
 from fatigue.readers.case_text import case_text
-from fatigue.readers.fe_model import FeModel, to_basic
+from fatigue.readers.fe_model import FeModel, in_mm, to_basic
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.forces import Convention
@@ -25,7 +25,7 @@ from fatigue.readers.units import Normalisation, UnitSystem, unit_system
 from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds
 from fatigue.readers.weld_register import RegisterRow, register_text
 from fatigue.weld.cuts import WeldCut
-from fatigue.weld.mesh import ShellMesh, normals
+from fatigue.weld.mesh import normals
 
 REGISTER = "welds_register.csv"
 CASE = "case.toml"
@@ -141,7 +141,7 @@ def convert(options: ConvertOptions) -> Conversion:
             Problem("no_convention", str(options.forces), "the files do not prove the sign of the forces", "State it")
         )
     results, remarks = _used_modes(results, histories, options)
-    metric = replace(model, mesh=_in_mm(model, units))
+    metric = in_mm(model, units.length)
     register = options.welds.register or (options.out / REGISTER if (options.out / REGISTER).exists() else None)
     found = find_welds(metric, replace(options.welds, register=register))
     found = _with_forces_only(found, results)
@@ -335,13 +335,6 @@ def _used_modes(
 
 def _short(modes: list[int]) -> str:
     return ", ".join(str(m) for m in modes[:10]) + (f" and {len(modes) - 10} more" if len(modes) > 10 else "")
-
-
-def _in_mm(model: FeModel, units: UnitSystem) -> ShellMesh:
-    mesh = model.mesh
-    return replace(
-        mesh, xyz=mesh.xyz * units.length, thickness=mesh.thickness * units.length, offset=mesh.offset * units.length
-    )
 
 
 def _with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:

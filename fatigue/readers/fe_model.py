@@ -1,7 +1,7 @@
 """Geometry of an FE model as weld lines need it, the same for every solver and file format."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -119,6 +119,13 @@ def _shell_problems(source: str, shells: list[Shell], index: Mapping[int, int]) 
         if len(problems) >= 10:
             break
     return problems
+
+
+def in_mm(model: FeModel, unit_length: float) -> FeModel:
+    """Turn a model whose unit of length is ``unit_length`` mm into one in mm."""
+    mesh = model.mesh
+    scaled = {name: getattr(mesh, name) * unit_length for name in ("xyz", "thickness", "offset")}
+    return replace(model, mesh=replace(mesh, **scaled))
 
 
 def to_basic(values: NDArray[np.floating], node: NDArray[np.int64], model: FeModel) -> NDArray[np.floating]:

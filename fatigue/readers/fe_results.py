@@ -90,7 +90,7 @@ class Eigenvalue:
 
 def is_sound(values: NDArray[np.floating]) -> NDArray[np.bool_]:
     """Whether values are numbers of sensible size; NaN, infinity and 1e30 are signs of damage."""
-    return np.abs(values) < _ABSURD
+    return np.asarray(np.abs(values) < _ABSURD)
 
 
 def assemble(

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.fe_model import FeModel
+from fatigue.readers.fe_model import FeModel, in_mm
+from fatigue.readers.formats import read_model
 from fatigue.readers.tables import open_table
-from fatigue.readers.weld_register import RegisterRow, merged, proposed, read_register
+from fatigue.readers.units import unit_system
+from fatigue.readers.weld_register import RegisterRow, merged, proposed, read_register, register_text
 from fatigue.weld.cuts import WeldCut, trace
 from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
@@ -95,6 +97,29 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
             )
         )
     return FoundWelds(by_name, tuple(final), tuple(remarks))
+
+
+def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, overwrite: bool) -> FoundWelds:
+    """Find the weld lines of a model file and write their register, to be edited and given back.
+
+    Parameters
+    ----------
+    units : unit system of the model
+    out : register to write; None: write nothing
+
+    Raises
+    ------
+    DataError : as ``find_welds``; ``out`` exists, is not the register that was read, and may not be overwritten
+    """
+    model = in_mm(read_model(mesh), unit_system(units, "units").length)
+    found = find_welds(model, sources)
+    if out is not None:
+        if out.exists() and out != sources.register and not overwrite:
+            raise DataError(
+                Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
+            )
+        out.write_text(register_text(found.rows), "utf-8")
+    return found
 
 
 _CANDIDATE_REASON = {

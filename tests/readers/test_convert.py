@@ -70,7 +70,7 @@ def test_neutral_forces_are_those_of_the_model(files):
 
 
 def test_lines_have_thickness_ends_and_sides_of_the_joint(files):
-    """Two sides of the base, 8 elements each with those beyond both ends, and the upright's 6; normals to the upright."""
+    """Two sides of the base, 6 + 2 elements each, and the upright's 6; normals point to the upright."""
     convert(files)
     _, lines, _, sides, _ = neutral(files.out)
     counts = sorted((line.thickness[0], sides[line.weld].size) for line in lines)
@@ -268,6 +268,62 @@ def test_simulation_modes_scale_and_compare(files, tmp_path):
     table.write_text("mode,frequency_hz\n" + "".join(f"{k + 1},{1.02 * f[k]:.9g}\n" for k in range(5)))
     with pytest.raises(DataError, match="frequency match"):
         convert(replace(files, simulation_modes=table))
+
+
+def test_columns_by_a_map_and_rigid_modes(files, tmp_path):
+    """Columns of any name are mapped by a table; a rigid mode without coordinates is left out and told."""
+    rigid = replace(tee().results, frequency=tee().frequency * [1, 1, 0, 1, 1])
+    files.forces.write_bytes(modal_op2(rigid, word=8))
+    text = files.coordinates[0].read_text().splitlines()
+    files.coordinates[0].write_text("\n".join(["time,a,b,c,d,e", *text[1:]]) + "\n")
+    columns = tmp_path / "columns.csv"
+    columns.write_text("column,mode\na,1\nb,2\nd,4\ne,5\n")
+    result = convert(replace(files, columns=columns))
+    assert result.modes == 4
+    assert "rigid modes 3 are left out" in " ".join(str(r) for r in result.remarks)
+
+
+def test_welds_without_forces_are_left_out(files):
+    """A side without forces, or touched by an element of another kind, is excluded with the reason; none left is told."""
+    results = tee().results
+    side = np.isin(results.element, [44, 45])
+    files.forces.write_bytes(modal_op2(_only(results, ~side), word=8))
+    first = convert(files)
+    reasons = [row.reason for row in first.welds if row.status == "excluded"]
+    assert reasons == ["2 of 8 elements have no grid point forces, element 44 the first"]
+    solid = results.node == tee().turned[0]
+    extra = replace(
+        results,
+        node=np.append(results.node, results.node[solid][0]),
+        element=np.append(results.element, 999),
+        kind=np.append(results.kind, "HEXA"),
+        force=np.concatenate([results.force, 0 * results.force[:, :1]], axis=1),
+    )
+    files.forces.write_bytes(modal_op2(extra, word=8))
+    with pytest.raises(DataError, match="an element of kind HEXA touches the line at node"):
+        convert(files)
+
+
+def _only(results, keep):
+    """Results with some of the rows."""
+    return replace(
+        results,
+        node=results.node[keep],
+        element=results.element[keep],
+        kind=results.kind[keep],
+        force=results.force[:, keep],
+    )
+
+
+def test_events_of_one_name_and_unwritable_folder(files, tmp_path):
+    """Two files of one name become two events; a folder that cannot be made is refused."""
+    (tmp_path / "other").mkdir()
+    second = tmp_path / "other" / "straight.csv"
+    second.write_text(files.coordinates[0].read_text())
+    result = convert(replace(files, coordinates=(*files.coordinates, second)))
+    assert {"q_straight.parquet", "q_straight_2.parquet"} <= set(result.files)
+    with pytest.raises(DataError, match="cannot be written"):
+        convert(replace(files, out=files.mesh / "sub"))
 
 
 def test_wing_box_from_inches(tmp_path):

@@ -82,9 +82,7 @@ def test_nodal_forces(tmp_path, body, suffix):
 def test_sign_and_scale(tmp_path):
     """on_node forces change sign; each mode has its own scale; nothing else changes."""
     modes, lines = small_body(tmp_path, scale=[2.0, -3.0, 1.0])
-    read, _ = read_forces(
-        open_nodal_forces(write(tmp_path / "f.csv", FORCES)), lines, modes, "on_node", (), strict=True
-    )
+    read, _ = read_forces(write(tmp_path / "f.csv", FORCES), lines, modes, "on_node", (), strict=True)
     factor = -np.array([-3.0, 2.0, 1.0])[:, None]  # modes 3, 7, 12
     for force, wanted in zip(read, expected(lines, modes), strict=True):
         np.testing.assert_array_equal(force, wanted * factor)
@@ -95,9 +93,7 @@ def test_precision_of_the_file_is_kept(tmp_path, body, double, dtype):
     """Single precision stays single unless one component is stored in double precision."""
     modes, lines = body
     types = {name: pa.float64() if name in double else pa.float32() for name in COMPONENTS}
-    read, _ = read_forces(
-        open_nodal_forces(write(tmp_path / "f.parquet", FORCES, types)), lines, modes, "on_node", (), strict=True
-    )
+    read, _ = read_forces(write(tmp_path / "f.parquet", FORCES, types), lines, modes, "on_node", (), strict=True)
     assert {force.dtype for force in read} == {np.dtype(dtype)}
     np.testing.assert_array_equal(read[0], -expected(lines, modes)[0])
 
@@ -122,9 +118,7 @@ def test_lookup_in_blocks(tmp_path, body, monkeypatch):
     """Rows are looked up in blocks; where they are cut does not matter."""
     modes, lines = body
     monkeypatch.setattr(forces, "BLOCK", 4)
-    read, _ = read_forces(
-        open_nodal_forces(write(tmp_path / "f.csv", FORCES)), lines, modes, "on_element", (), strict=True
-    )
+    read, _ = read_forces(write(tmp_path / "f.csv", FORCES), lines, modes, "on_element", (), strict=True)
     for force, wanted in zip(read, expected(lines, modes), strict=True):
         np.testing.assert_array_equal(force, wanted)
 
@@ -151,9 +145,7 @@ def test_a_node_may_belong_to_several_welds(tmp_path):
     lines, _ = read_weld_nodes(write(tmp_path / "n.csv", shared), welds, strict=True)
     columns = dict(FORCES)
     columns["node"] = [11 if node == 21 else node for node in FORCES["node"]]
-    read, _ = read_forces(
-        open_nodal_forces(write(tmp_path / "f.csv", columns)), lines, modes, "on_element", (), strict=True
-    )
+    read, _ = read_forces(write(tmp_path / "f.csv", columns), lines, modes, "on_element", (), strict=True)
     np.testing.assert_array_equal(read[0][0, :, 0], 11_000 + 10 * modes.mode)
     np.testing.assert_array_equal(read[1][0, :, 0], 21_000 + 10 * modes.mode)
 
@@ -163,9 +155,7 @@ def test_extra_nodes_are_a_warning(tmp_path, body):
     modes, lines = body
     columns = {name: values + [values[-1]] * 2 for name, values in FORCES.items()}
     columns = changed(changed(columns, "node", ROWS + 1, 99), "node", ROWS + 2, 11)  # 11 is on the other weld
-    read, warnings = read_forces(
-        open_nodal_forces(write(tmp_path / "f.csv", columns)), lines, modes, "on_element", (), strict=True
-    )
+    read, warnings = read_forces(write(tmp_path / "f.csv", columns), lines, modes, "on_element", (), strict=True)
     (warning,) = warnings
     assert warning.where == f"f.csv: column node, row {ROWS + 1}"
     assert warning.what == "node 99 is not on the line of weld ring; 2 rows of such nodes are not used"
@@ -332,9 +322,7 @@ def test_element_forces_of_the_car_body_sum_to_its_nodal_forces():
     modes, _ = read_modes(folder / "modes.csv", (), strict=True)
     welds, _ = read_welds(folder / "welds.csv", (), strict=True)
     lines, _ = read_weld_nodes(folder / "weld_nodes.csv", welds, strict=True)
-    summed, _ = read_forces(
-        open_nodal_forces(folder / "nodal_forces.parquet"), lines, modes, "on_element", (), strict=True
-    )
+    summed, _ = read_forces(folder / "nodal_forces.parquet", lines, modes, "on_element", (), strict=True)
     single, _ = read_element_forces(tests / "carbody_element_forces.parquet", modes, "on_element", (), strict=True)
     wanted = [weld for weld in welds if weld.name.startswith(("W1", "W2_hanger1"))]
     elements, _ = read_weld_elements(tests / "carbody_weld_elements.csv", wanted, strict=True)

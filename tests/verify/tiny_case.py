@@ -159,7 +159,7 @@ def _lines(rng: np.random.Generator) -> dict[str, dict]:
         "square": line(square, (square - 30.0), closed=True, end=0.0),
         "short": line([[0, 0], [7.0, 0]], (0, 1.0), surface="bottom"),
     }
-    for first, (name, one) in enumerate(lines.items()):
+    for first, one in enumerate(lines.values()):
         one["node"] = 100 * (first + 1) + rng.permutation(len(one["xyz"]))
     return lines
 
@@ -191,7 +191,7 @@ def _write_welds(folder: Path, lines: dict[str, dict], tiny: TinyCase) -> None:
 
 
 def _write_element_forces(folder: Path, lines: dict[str, dict], modes: np.ndarray, rng: np.random.Generator) -> None:
-    """Strips of quadrilaterals along every line, each in balance, and a triangle that touches every corner node alone."""
+    """Write strips of quadrilaterals along every line, each in balance, and triangles that touch one node only."""
     rows, owners = [], []
     element = 1000
     for name, line in lines.items():

@@ -1,6 +1,6 @@
 """Sequences whose rainflow cycles are published, and histories whose cycles are known."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,17 +15,21 @@ ISO = [4, 7, 2, 10, 5, 9, 3, 4, 2, 12, 5, 11, 1, 4, 3, 10, 6, 12, 4, 8, 1, 9, 4,
 WIKIPEDIA = [2, -14, 10, 0, 13, -9, 11, -8, 8, -9, 15, -4, 10, 0, 13, 0]
 LONG = [-1.5, 1, -3, 10, -1, 3, -8, 4, -2, 6, -1, -4, -8, 2, 1, -5, 0, 2.5, -4, 1, 0, 2, -0.5]
 
+PACKAGE, WIKI = "test suite of the rainflow package", "Wikipedia, Rainflow-counting algorithm"
+HALF, REPEAT = "ASTM E1049-85 5.4.4", "ASTM E1049-85 5.4.5"
+
 # name, sequence, residue rule, {range: count}, source
-SEQUENCES: tuple[tuple[str, list[float], Residue, dict[float, float], str], ...] = (
-    ("ASTM figure 6", ASTM, "half", {3: 0.5, 4: 1.5, 6: 0.5, 8: 1, 9: 0.5}, "ASTM E1049-85 5.4.4"),
-    ("ASTM figure 6", ASTM, "repeat", {3: 1, 4: 1, 7: 1, 9: 1}, "ASTM E1049-85 5.4.5"),
+SEQUENCES: tuple[tuple[str, Sequence[float], Residue, dict[float, float], str], ...] = (
+    ("ASTM figure 6", ASTM, "half", {3: 0.5, 4: 1.5, 6: 0.5, 8: 1, 9: 0.5}, HALF),
+    ("ASTM figure 6", ASTM, "repeat", {3: 1, 4: 1, 7: 1, 9: 1}, REPEAT),
     ("ISO example", ISO, "half", {1: 2, 2: 0.5, 3: 0.5, 4: 3, 5: 1, 6: 1, 8: 1.5, 10: 0.5, 11: 1.5}, "ISO 12110-2"),
     ("ISO example", ISO, "repeat", {1: 2, 2: 1, 3: 1, 4: 3, 6: 1, 7: 1, 8: 1, 11: 2}, "ISO 12110-2"),
-    ("23 reversals", LONG, "half", {1: 1, 2.5: 1, 4: 1.5, 6: 1.5, 6.5: 0.5, 7: 1, 10.5: 0.5, 13: 0.5, 14: 1, 18: 0.5}, "test suite of the rainflow package"),
-    ("16 reversals", WIKIPEDIA, "half", {10: 2, 13: 0.5, 16: 1.5, 17: 0.5, 19: 0.5, 20: 1, 22: 1, 29: 0.5}, "Wikipedia, Rainflow-counting algorithm"),
-    ("16 reversals", WIKIPEDIA, "repeat", {2: 1, 10: 2, 16: 1, 17: 1, 20: 1, 22: 1, 29: 1}, "Wikipedia, Rainflow-counting algorithm"),
-    ("2 5 3 7", [2, 5, 3, 7], "repeat", {2: 1, 5: 1}, "test suite of rfcnt"),
-    ("0 1", [0, 1], "half", {1: 0.5}, "ASTM E1049-85 5.4.4"),
+    ("23 reversals", LONG, "half",
+     {1: 1, 2.5: 1, 4: 1.5, 6: 1.5, 6.5: 0.5, 7: 1, 10.5: 0.5, 13: 0.5, 14: 1, 18: 0.5}, PACKAGE),
+    ("16 reversals", WIKIPEDIA, "half", {10: 2, 13: 0.5, 16: 1.5, 17: 0.5, 19: 0.5, 20: 1, 22: 1, 29: 0.5}, WIKI),
+    ("16 reversals", WIKIPEDIA, "repeat", {2: 1, 10: 2, 16: 1, 17: 1, 20: 1, 22: 1, 29: 1}, WIKI),
+    ("2 5 3 7", [2, 5, 3, 7], "repeat", {2: 1, 5: 1}, REPEAT),
+    ("0 1", [0, 1], "half", {1: 0.5}, HALF),
 )  # fmt: skip
 
 
@@ -36,8 +40,7 @@ def counting_checks() -> Iterator[Check]:
     i = np.arange(1001)
     two_tones = rainflow(0.8 * np.sin(0.01 * np.pi * i) + 0.2 * np.sin(0.032 * np.pi * i), "half")
     largest = float(two_tones.range.max())
-    package = "test suite of the rainflow package"
-    yield Check("rainflow", "two sines", "largest range", "-", 1.9942872896932382, largest, 1e-12, package)
+    yield Check("rainflow", "two sines", "largest range", "-", 1.9942872896932382, largest, 1e-12, PACKAGE)
     yield from _paired_ranges()
     yield _upsampling()
 
@@ -82,7 +85,7 @@ def _paired_ranges() -> Iterator[Check]:
 
 
 def _upsampling() -> Check:
-    """A sine with 5 samples per period, 4 times finer."""
+    """Make a sine of 5 samples per period 4 times finer."""
     sine = ModalHistory("sine", np.array([1]), np.sin(2 * np.pi * np.arange(50) / 5)[None], 0.2, 0.0)
     fine = upsampled(sine, 4, "repeat").q[0]
     worst = float(np.abs(fine - np.sin(2 * np.pi * np.arange(200) / 20)).max())

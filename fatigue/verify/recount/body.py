@@ -1,4 +1,4 @@
-"""The weld lines of a case with the forces on them: nodal forces as they are, element forces summed per straight part."""
+"""The weld lines of a case and the forces on them: nodal forces as they are, element forces summed per part."""
 
 from collections.abc import Iterator
 from dataclasses import replace

@@ -20,7 +20,7 @@ LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
 class ColumnCheck:
     """One column of a result table: how many values were recounted, and the one that differs most.
 
-    ``difference`` is relative; ``where``, ``found`` (in the table) and ``expected`` (recounted) are those of that value.
+    ``difference`` is relative; ``where``, ``found`` (in the table) and ``expected`` (recounted) belong to that value.
     """
 
     table: str
@@ -71,11 +71,10 @@ class Recount:
             f"{self.folder}: {self.points} of {self.points_in_all} points recounted from the input files: {verdict}"
         ]
         for column in wrong:
-            lines.append(
-                f"  {column.table}.{column.column}: {_shown(column.found)} where the recount has {_shown(column.expected)} "
-                f"{column.unit.replace('-', '')}".rstrip()
-                + f" (difference {column.difference:.2g}), {column.where}"
-            )
+            unit = "" if column.unit == "-" else f" {column.unit}"
+            values = f"{_shown(column.found)} where the recount has {_shown(column.expected)}{unit}"
+            difference = f"difference {column.difference:.2g}, {column.where}"
+            lines.append(f"  {column.table}.{column.column}: {values} ({difference})")
         for table in dict.fromkeys(column.table for column in self.columns):
             checked = [column for column in self.columns if column.table == table]
             worst = max(checked, key=lambda column: column.difference / column.tolerance)

@@ -10,26 +10,40 @@ from scipy.special import gamma, gammainc, gammaincc
 
 Floats = NDArray[np.float64]
 
-# ASME VIII-2 Annex 3-F, Table 3-F.11M: h and C of the master curve, C at the mean and one, two, three sigma below it
+# ASME VIII-2 Annex 3-F, Table 3-F.11M: h, and C at the mean and at one, two and three sigma below it
+LEVELS = ("mean", "mean-1sigma", "mean-2sigma", "mean-3sigma")
 MASTER = {
-    "master-steel": (0.31950, {"mean": 19930.2, "mean-1sigma": 16629.7, "mean-2sigma": 13875.7, "mean-3sigma": 11577.9}),
-    "master-aluminium": (0.27712, {"mean": 3495.13, "mean-1sigma": 2845.42, "mean-2sigma": 2316.48, "mean-3sigma": 1885.87}),
-}  # fmt: skip
+    "master-steel": (0.31950, (19930.2, 16629.7, 13875.7, 11577.9)),
+    "master-aluminium": (0.27712, (3495.13, 2845.42, 2316.48, 1885.87)),
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Given:
+    """A curve as its source gives it: ranges at ``reference_cycles`` for each survival level, or for the only one."""
+
+    slopes: tuple[float, ...]
+    knees_cycles: tuple[float, ...]
+    reference_cycles: float
+    ranges: Mapping[str, float]
+    applies: str
+    thickness_reference: float | None
+    thickness_exponent: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Curve:
     """A curve in log-log axes: slope of each segment and one point (ln cycles, ln range) on it, ranges at the knees.
 
-    Ranges below ``cutoff`` do no damage. ``is_dS`` tells the master curve from curves in structural stress; their
-    thickness rule is ``(t / reference)^exponent`` for t above the reference, the master curve's has the exponent 2/9.
+    Ranges below ``cutoff`` do no damage. ``on_equivalent`` tells curves in dS from those in structural stress, whose
+    thickness rule is ``(t / reference)^exponent`` for t above the reference, that of dS has the exponent 2/9.
     """
 
     slopes: tuple[float, ...]
     points: tuple[tuple[float, float], ...]
     knees: tuple[float, ...]
     cutoff: float
-    is_dS: bool
+    on_equivalent: bool
     thickness_reference: float | None
     thickness_exponent: float
     thickness_limits: tuple[float, float]
@@ -48,7 +62,7 @@ class Curve:
             above = x >= (self.knees[j] if j < len(self.knees) else 0.0)
             here = above & (x >= self.cutoff) & np.isinf(log_cycles)
             log_cycles[here] = log_n + k * (log_s - log_x[here])
-        return np.exp(-log_cycles)
+        return np.asarray(np.exp(-log_cycles))
 
     def mean_damage(self, scale: float, shape: float) -> float:
         """Mean damage of cycles whose ranges exceed x with probability ``exp(-(x / scale)^shape)``."""
@@ -62,13 +76,13 @@ class Curve:
             from_u, to_u = (lower / scale) ** shape, (upper / scale) ** shape
             below, above = gammainc(a, to_u) - gammainc(a, from_u), gammaincc(a, from_u) - gammaincc(a, to_u)
             share = above if from_u > a else below  # the one that does not cancel
-            total += np.exp(k * (np.log(scale) - log_s) - log_n) * gamma(a) * share
+            total += float(np.exp(k * (np.log(scale) - log_s) - log_n) * gamma(a) * share)
             upper = lower
-        return float(total)
+        return total
 
     def size_factor(self, thickness: float) -> float:
         """Factor of the plate thickness [mm] on the range."""
-        if self.is_dS:
+        if self.on_equivalent:
             return float(np.clip(thickness, *self.thickness_limits)) ** (2.0 / 9.0)
         if self.thickness_reference is None or thickness <= self.thickness_reference:
             return 1.0
@@ -78,65 +92,73 @@ class Curve:
 def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> Curve:
     """Make a curve as the case asks for it.
 
-    Master curves are those of this module and curves of the case those of its text; what else the catalogue holds is taken from
-    the provenance, which lists slopes, knees and ranges.
+    Master curves are those of this module, curves of the case those of its text; what else the catalogue holds is taken
+    from the provenance, which lists slopes, knees and ranges.
     """
     asked = case["curve"]
     own = case.get("curves", {}).get(name)
     if name in MASTER:
         h, ranges = MASTER[name]
-        slopes, knees_cycles, reference, is_dS = (1.0 / h,), [], 1.0, True
-        thickness = None, 0.0
+        given = Given((1.0 / h,), (), 1.0, dict(zip(LEVELS, ranges, strict=True)), "dS", None, 0.0)
     elif own is not None:
-        slopes, knees_cycles, reference = tuple(own["slopes"]), list(own.get("knees_cycles", [])), 2e6
-        ranges, is_dS = _levels(own), own["applies"] == "dS"
-        thickness = own.get("thickness_reference_mm"), own.get("thickness_exponent", 0.0)
+        given = _own(own)
     else:
-        listed = record["curves"][name]
-        slopes, knees_cycles = tuple(listed["slopes"]), list(listed["knees_cycles"])
-        reference, ranges, is_dS = listed["reference_cycles"], listed["reference_range"], listed["applies"] == "dS"
-        thickness = listed["thickness_reference_mm"], listed["thickness_exponent"]
-
-    level = asked.get("survival", "mean-2sigma") if len(ranges) > 1 else next(iter(ranges))
+        given = _listed(record["curves"][name])
+    slopes, knees_cycles = given.slopes, given.knees_cycles
+    level = asked.get("survival", "mean-2sigma") if len(given.ranges) > 1 else next(iter(given.ranges))
     extension = asked.get("extension", "none")
     if extension != "none":
-        knees_cycles = [asked.get("knee_cycles", 1e7)]
+        knees_cycles = (asked.get("knee_cycles", 1e7),)
         slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
-    points, knees = _through(float(ranges[level]), reference, slopes, knees_cycles)
+    points, knees = _through(given.ranges[level], given.reference_cycles, slopes, knees_cycles)
     return Curve(
         slopes=slopes,
         points=points,
         knees=knees[: len(slopes) - 1],
         cutoff=knees[-1] if len(knees) == len(slopes) else 0.0,
-        is_dS=is_dS,
-        thickness_reference=thickness[0],
-        thickness_exponent=thickness[1],
+        on_equivalent=given.applies == "dS",
+        thickness_reference=given.thickness_reference,
+        thickness_exponent=given.thickness_exponent,
         thickness_limits=(16.0, 150.0) if asked.get("thickness_rule", "actual") == "asme" else (0.0, np.inf),
     )
 
 
 def ratio_factor(r: Floats) -> Floats:
     """``I(r)^(1/m)`` of ASME VIII-2 5.5.5.2, load controlled."""
-    return np.polyval([-0.17, -0.364, 1.23], r) / np.polyval([-0.178, -0.306, 1.007], r)
+    return np.asarray(np.polyval([-0.17, -0.364, 1.23], r) / np.polyval([-0.178, -0.306, 1.007], r))
 
 
-def _levels(own: Mapping[str, Any]) -> dict[str, float]:
-    """Ranges of a curve of the case at 2e6 cycles for each survival level."""
-    at_2e6 = own["range_at_2e6_MPa"]
-    if "log10_scatter" not in own:
-        return {"as tabulated": at_2e6}
-    knees = list(own.get("knees_cycles", []))
-    k = own["slopes"][_segment_at(2e6, own["slopes"], knees)]
-    names = ("mean", "mean-1sigma", "mean-2sigma", "mean-3sigma")
-    return {name: at_2e6 / 10.0 ** (own["log10_scatter"] * sigmas / k) for sigmas, name in enumerate(names)}
+def _own(own: Mapping[str, Any]) -> Given:
+    """Take a curve of the case, described by its range at 2e6 cycles."""
+    slopes, knees = tuple(own["slopes"]), tuple(own.get("knees_cycles", ()))
+    k = slopes[_segment_at(2e6, slopes, knees)]
+    ranges = {"as tabulated": own["range_at_2e6_MPa"]}
+    if "log10_scatter" in own:
+        per_sigma = 10.0 ** (own["log10_scatter"] / k)
+        ranges = {level: own["range_at_2e6_MPa"] / per_sigma**sigmas for sigmas, level in enumerate(LEVELS)}
+    thickness = own.get("thickness_reference_mm"), own.get("thickness_exponent", 0.0)
+    return Given(slopes, knees, 2e6, ranges, own["applies"], *thickness)
 
 
-def _segment_at(cycles: float, slopes: tuple[float, ...], knees_cycles: list[float]) -> int:
+def _listed(listed: Mapping[str, Any]) -> Given:
+    """Take a curve as the provenance lists it."""
+    return Given(
+        slopes=tuple(listed["slopes"]),
+        knees_cycles=tuple(listed["knees_cycles"]),
+        reference_cycles=listed["reference_cycles"],
+        ranges=listed["reference_range"],
+        applies=listed["applies"],
+        thickness_reference=listed["thickness_reference_mm"],
+        thickness_exponent=listed["thickness_exponent"],
+    )
+
+
+def _segment_at(cycles: float, slopes: tuple[float, ...], knees_cycles: tuple[float, ...]) -> int:
     return min(sum(knee < cycles for knee in knees_cycles), len(slopes) - 1)
 
 
 def _through(
-    range_: float, cycles: float, slopes: tuple[float, ...], knees_cycles: list[float]
+    range_: float, cycles: float, slopes: tuple[float, ...], knees_cycles: tuple[float, ...]
 ) -> tuple[tuple[tuple[float, float], ...], tuple[float, ...]]:
     """Walk along the curve from one point of it: a point on every segment, and the range at every knee."""
     start = _segment_at(cycles, slopes, knees_cycles)

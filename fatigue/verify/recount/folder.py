@@ -109,8 +109,8 @@ def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any]) -> dict[str,
     lines = solved_lines(inputs, modes)
     columns = (frame["weld"], flags(frame, "closed"), texts(frame, "surface"), texts(frame, "curve"))
     welds = {}
-    for name, closed, surface, curve in zip(*columns, strict=True):
-        surface, curve = surface or "both", curve or inputs.case["curve"]["name"]
+    for name, closed, given_surface, given_curve in zip(*columns, strict=True):
+        surface, curve = given_surface or "both", given_curve or inputs.case["curve"]["name"]
         welds[name] = Weld(
             given={"closed": closed, "surface": surface},
             parts=tuple(solved for solved in lines if solved.line.weld == name),
@@ -158,7 +158,7 @@ def _count(
             if not np.array_equal(solved.raw[at], solved.treated[at]):
                 raw = one_pass(point_of(solved.raw[at], key[3], curve, thickness), record, rules, mean_stress)
             counted[key].treated.append(one)
-            counted[key].raw_damage.append(raw.values["damage_per_pass"])
+            counted[key].raw_damage.append(raw.quantities["damage_per_pass"])
         events.append(Event(record.name, record.length_km, record.passes_per_km))
     return counted, events
 
@@ -179,7 +179,10 @@ def _compared(
         key: point_values(passes.treated, passes.raw_damage, events, mission, stations[key[:3]].weld.curve)
         for key, passes in counted.items()
     }
-    nodes, damage, cycles, stress = [], [], [], []
+    nodes: list[Row] = []
+    damage: list[Row] = []
+    cycles: list[Row] = []
+    stress: list[Row] = []
     for key, passes in counted.items():
         found = stored.nodes.loc[key].to_dict()
         nodes.append(node_row(key, stations[key[:3]], values[key], found))

@@ -86,7 +86,7 @@ def read_frame(path: Path) -> pd.DataFrame:
         frame = pd.read_parquet(path)
     else:
         texts = dict.fromkeys(("weld", "surface", "curve", "kind", "description"), str)
-        frame = pd.read_csv(path, dtype=texts, float_precision="round_trip", keep_default_na=False, na_values=[""])  # type: ignore[call-overload]
+        frame = pd.read_csv(path, dtype=texts, float_precision="round_trip", keep_default_na=False, na_values=[""])
     frame.columns = frame.columns.str.strip()
     if "weld" in frame:
         frame["weld"] = frame["weld"].astype(str).str.strip()
@@ -97,14 +97,14 @@ def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[n
     """Numbers of a column, (r,); the default where the cell is empty or the column absent."""
     if name not in frame:
         return np.full(len(frame), default)
-    return pd.to_numeric(frame[name]).astype(float).fillna(default).to_numpy()
+    return np.asarray(pd.to_numeric(frame[name]).astype(float).fillna(default))
 
 
 def flags(frame: pd.DataFrame, name: str) -> NDArray[np.bool_]:
-    """Flags of a column, (r,), false where absent or empty."""
+    """Tell which cells of a column are true, (r,); none where it is absent."""
     if name not in frame:
         return np.zeros(len(frame), dtype=bool)
-    return frame[name].astype(str).str.strip().str.lower().isin(["true", "1", "1.0"]).to_numpy()
+    return np.asarray(frame[name].astype(str).str.strip().str.lower().isin(["true", "1", "1.0"]))
 
 
 def texts(frame: pd.DataFrame, name: str) -> list[str]:

@@ -5,6 +5,7 @@ axes, then ``sigma_m = f_y'/t``, ``sigma_b = -6 m_x'/t^2`` in the local axes of 
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ CORNER_DEG = 30.0 + 1e-6  # a 12-gon, which turns by 30 degrees, is a smooth rin
 class Line:
     """A weld line, or a part of one between kinks; the meaning of the fields is that of ``weld_nodes``.
 
-    ``end_length`` is None where the plate thickness decides; ``corner_ends`` tells of start and end whether it is a kink.
+    ``end_length`` is None where the plate thickness decides; ``corner_ends`` tells whether start and end are kinks.
     """
 
     weld: str
@@ -55,7 +56,7 @@ class LineStress:
 def line_stress(line: Line, forces: Floats) -> LineStress:
     """Solve a line for all modes; ``forces`` is (n, m, 6) [N, N mm] on the assessed elements, global axes."""
     n = len(line.node)
-    load = np.linalg.solve(mass_matrix(line), forces.reshape(n, -1)).reshape(forces.shape)
+    load: Floats = np.asarray(np.linalg.solve(mass_matrix(line), forces.reshape(n, -1))).reshape(forces.shape)
     treated, at_end = treat_ends(line, load)
     at_corner = kinks(line) > CORNER_DEG
     at_corner[[0, -1]] |= line.corner_ends
@@ -66,7 +67,7 @@ def edges(line: Line) -> list[list[int]]:
     """Positions of the nodes of each edge, two of a linear and three of a parabolic one."""
     n = len(line.node)
     corner = [i for i in range(n) if not line.edge_mid[i]]
-    found = [list(range(a, b + 1)) for a, b in zip(corner[:-1], corner[1:], strict=True)]
+    found = [list(range(a, b + 1)) for a, b in pairwise(corner)]
     if line.closed:
         found.append([i % n for i in range(corner[-1], corner[0] + n + 1)])
     return found
@@ -110,7 +111,7 @@ def arc_length(line: Line) -> Floats:
 
 
 def edge_directions(line: Line) -> list[list[Floats]]:
-    """Unit tangents at each node of the edges that meet there, one or two."""
+    """Find the unit tangents at each node of the one or two edges that meet there."""
     meeting: list[list[Floats]] = [[] for _ in line.node]
     for edge in edges(line):
         xyz = line.xyz[edge]
@@ -162,7 +163,7 @@ def _mean_over(line: Line, load: Floats, a: float, *, from_start: bool) -> Float
         left -= length
         if left <= 0:
             break
-    return total / a
+    return np.asarray(total / a)
 
 
 def _stress(line: Line, load: Floats) -> Floats:

@@ -35,18 +35,18 @@ class Point:
 class MeanStress:
     """Yield stress [MPa], None where none is given, and whether the mean stress counts."""
 
-    yield_MPa: float | None
+    yield_MPa: float | None  # noqa: N815 - the unit keeps its spelling
     counts: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OnePass:
-    """One pass of an event at a point: quantities by the name of their column, and its cycles.
+    """One pass of an event at a point: its quantities by the name of their column, and its cycles.
 
-    ``ranges`` and ``counts`` are the equivalent range and the count of every cycle, ``rows`` the columns of the table of cycles.
+    ``ranges`` and ``counts`` are the equivalent range and the count of every cycle, ``rows`` the table of cycles.
     """
 
-    values: Values
+    quantities: Values
     ranges: Floats
     counts: Floats
     rows: dict[str, Floats]
@@ -129,7 +129,7 @@ def point_values(
     """
     weights = np.array([event.passes_per_km for event in events])
     limit, target = mission.get("damage_limit", 1.0), mission["target_km"]
-    per_pass = {key: np.array([p.values[key] for p in passes], dtype=float) for key in passes[0].values}
+    per_pass = {key: np.array([p.quantities[key] for p in passes], dtype=float) for key in passes[0].quantities}
 
     share = weights * per_pass["damage_per_pass"]
     damage = float(share.sum())
@@ -225,7 +225,7 @@ def _mean_stress_factor(a: Floats, b: Floats, yield_MPa: float | None) -> Floats
 
 
 def _factor(r: Floats, curve: Curve) -> Floats:
-    return ratio_factor(r) if curve.is_dS else np.ones_like(r)
+    return ratio_factor(r) if curve.on_equivalent else np.ones_like(r)
 
 
 def _kurtosis(s: Floats) -> float:

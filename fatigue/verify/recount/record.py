@@ -44,7 +44,7 @@ class Record:
     @property
     def duration(self) -> float:
         """Duration of one pass [s]."""
-        return self.kept.shape[1] * self.step
+        return float(self.kept.shape[1] * self.step)
 
 
 @dataclass(frozen=True, slots=True)

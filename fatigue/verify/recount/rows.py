@@ -64,14 +64,14 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
 
 def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
     """One row of the table of points and events."""
-    values = {name: value for name, value in one.values.items() if name not in _NOT_COLUMNS}
+    values = {name: value for name, value in one.quantities.items() if name not in _NOT_COLUMNS}
     per_km = np.nan if event.length_km is None else 1.0 / event.length_km
     values |= {
         name.replace("_per_pass", "_per_km"): value * per_km
         for name, value in values.items()
         if name.endswith("_per_pass")
     }
-    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": one.values["max_range_MPa"]}
+    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": one.quantities["max_range_MPa"]}
     return Row(f"{_place(key)}, event '{event.name}'", found, values, scale, is_bound)
 
 

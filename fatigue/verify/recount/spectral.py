@@ -9,7 +9,7 @@ NARROW = 1e-7  # of 1 - alpha2: below, both are the narrow-band formula to round
 
 
 def dirlik(moments: NDArray[np.float64], curve: Curve) -> float:
-    """Damage per second from moments 0, 1, 2, 4 of the equivalent range's half, whose cycles have twice its amplitude."""
+    """Damage per second from moments 0, 1, 2, 4 of the stress times its factor to the equivalent range."""
     m0, m1, m2, m4 = moments
     if m0 <= 0 or m2 <= 0 or m4 <= 0:
         return 0.0
