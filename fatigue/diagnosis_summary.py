@@ -1,5 +1,6 @@
 """What a diagnosis says in words: at each weld's worst point event, band, modes, place and lever."""
 
+import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -16,7 +17,9 @@ from fatigue.tables import FACES
 from fatigue.verdicts import EventVerdicts
 
 LONGEST_LIFE_KM = 1e12
-NAMED = 3  # modes and bands
+WIDTH = 110
+NAMED = 3  # modes and bands, the second and third only if they have
+WORTH_NAMING = 0.01  # of the damage
 FAR_ABOVE = 3.0  # a mode at three times the frequency answers by 1 / (1 - 1/9), 12 % more than at 0 Hz
 HALF = 0.5
 
@@ -90,19 +93,19 @@ class Finding:
         place = f"km {self.place_km:.1f} of the record" if self.place_km is not None else f"{self.place_s:.1f} s"
         best = self.levers[0]
         gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
-        lines = [
-            f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}",
-            f"  event   {self.event} {_percent(self.event_share)}",
-            f"  bands   {bands or 'not available: no record is long enough for a spectrum'}",
-            f"  modes   {modes}; relieving modes {_percent(self.relieving_share)}",
-            f"  place   half of {self.event} on {_percent(self.half_damage_part)} of its length",
-            f"          most at {place}, {self.place_intensity:.1f} times the average",
-            f"  lever   mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
-            f"  Dirlik  {self.verdict}: {self.reason}",
-        ]
+        lines = {
+            "event": f"{self.event} {_percent(self.event_share)}",
+            "bands": bands or "not available: no record is long enough for a spectrum",
+            "modes": f"{modes}; relieving modes {_percent(self.relieving_share)}",
+            "place": f"half of {self.event} on {_percent(self.half_damage_part)} of its length, most at {place}, "
+            f"{self.place_intensity:.1f} times the average",
+            "lever": f"mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
+            "Dirlik": f"{self.verdict}: {self.reason}",
+        }
         if self.formula_error is not None and self.process_error is not None:
-            lines.append(f"          ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)")
-        return "\n".join(lines)
+            lines["Dirlik"] += f" Ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)."
+        heading = f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}"
+        return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
 
     def _mode(self, mode: ModeFinding) -> str:
         """Name a mode; one far above the band it damages in follows its load and does not swing."""
@@ -126,11 +129,12 @@ class Diagnosis:
 
     def as_text(self) -> str:
         """For people."""
+        notes = [_wrapped("  ", note) for note in self.notes]
         return "\n\n".join(
             [
                 f"{self.title}: what makes the damage, of {self.points}",
                 *(finding.as_text() for finding in self.findings),
-                "\n".join(["Not available, or to be read with care:", *(f"  {note}" for note in self.notes)]),
+                *(["\n".join(["Not available, or to be read with care:", *notes])] if notes else []),
             ]
         )
 
@@ -176,7 +180,7 @@ def _finding(
                 resonant_share=_or_none(resonant[k]),
                 life_exponent=float(attribution.mode_exponent[point, k]),
             )
-            for k in np.argsort(-share, kind="stable")[:NAMED]
+            for k in _largest(share)
         ),
         relieving_share=float(share[share < 0.0].sum()),
         bands=_largest_bands(attribution, point),
@@ -203,10 +207,13 @@ def _largest_bands(attribution: Attribution, point: int) -> tuple[BandFinding, .
     if edges is None:
         return ()
     share = attribution.band_share[point, :-1]
-    return tuple(
-        BandFinding(float(edges[b]), _or_none(edges[b + 1]), float(share[b]))
-        for b in np.argsort(-share, kind="stable")[:NAMED]
-    )
+    return tuple(BandFinding(float(edges[b]), _or_none(edges[b + 1]), float(share[b])) for b in _largest(share))
+
+
+def _largest(share: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Index of the largest shares, first the largest, leaving out what is not worth naming."""
+    order = np.argsort(-share, kind="stable")[:NAMED]
+    return np.asarray(order[(share[order] >= WORTH_NAMING) | (order == order[0])])
 
 
 def _part_that_holds(share: float, intensity: NDArray[np.float64], length: NDArray[np.float64]) -> float:
@@ -245,6 +252,10 @@ def _band(band: BandFinding) -> str:
 def _or_none(value: float) -> float | None:
     """Turn what is infinite or not a number into None."""
     return float(value) if np.isfinite(value) else None
+
+
+def _wrapped(first: str, text: str) -> str:
+    return textwrap.fill(text, WIDTH, initial_indent=first, subsequent_indent=" " * len(first))
 
 
 def _percent(share: float) -> str:

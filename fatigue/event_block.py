@@ -1,16 +1,18 @@
 """One event on one block of stations: superpose, count, sum, and the frequency-domain estimate beside it."""
 
 from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
-from fatigue.life.damage import ratio_factor, shear_factor
+from fatigue.life.damage import cycle_damage, ratio_factor, shear_factor
 from fatigue.life.history import ModalHistory, Residue, upsampled
 from fatigue.life.rainflow import BlockCount, count_block
+from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnose, diagnosis_matrices
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
-from fatigue.spectrum.moments import MomentMatrices, point_moments
+from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, point_moments
 
 _SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before they are counted: 32 MB
 
@@ -45,7 +47,8 @@ class EventLoad:
     duration : duration of one pass [s]
     mean : (m,) time mean of q over the kept samples
     covariance : (m, m) covariance of q over the kept samples
-    moments : moment matrices of q, None for a record shorter than one spectral segment
+    moments, diagnosis : moment matrices of q and what the diagnosis needs, None for a record shorter than one segment
+    top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
     """
 
     counted: ModalHistory
@@ -55,6 +58,8 @@ class EventLoad:
     mean: NDArray[np.float64]
     covariance: NDArray[np.float64]
     moments: MomentMatrices | None
+    diagnosis: DiagnosisMatrices | None
+    top_mode_hz: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,7 +67,8 @@ class EventBlock:
     """One pass of one event at a block of stations; every array is (n, 2): top and bottom face.
 
     Damages are Miner sums of one pass; so are ``cycles`` (sum n) and ``power_sum`` (sum n S^k). ``histogram`` is
-    (n, 2, b, 2), see ``BlockCount``. What needs a spectrum is NaN for a record that has none.
+    (n, 2, b, 2), see ``BlockCount``; ``verdict`` is an index into ``VERDICTS``. What needs a spectrum is NaN without
+    one.
     """
 
     damage: NDArray[np.float64]
@@ -83,11 +89,17 @@ class EventBlock:
     irregularity: NDArray[np.float64]
     peaks_per_s: NDArray[np.float64]
     samples_per_peak: NDArray[np.float64]
+    verdict: NDArray[np.int8]
     histogram: NDArray[np.float64]
 
 
 def prepare_event(
-    history: ModalHistory, residue: Residue, stress_factor: float, upsample: int, moments: MomentMatrices | None
+    history: ModalHistory,
+    residue: Residue,
+    stress_factor: float,
+    upsample: int,
+    spectra: Spectra | None,
+    top_mode_hz: float | None,
 ) -> EventLoad:
     """Compute once per event what all stations share, from its kept record."""
     q = history.q.astype(np.float64)
@@ -100,7 +112,9 @@ def prepare_event(
         duration=history.duration,
         mean=mean,
         covariance=centred @ centred.T / q.shape[1],
-        moments=moments,
+        moments=None if spectra is None else moment_matrices(spectra),
+        diagnosis=None if spectra is None else diagnosis_matrices(history, spectra),
+        top_mode_hz=top_mode_hz,
     )
 
 
@@ -123,7 +137,7 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
     shear_ratio = _shear_bending_ratio(shapes, C)
     I_s, I_t = (ratio_factor(r) if shapes.uses_bending_ratio else np.ones_like(r) for r in (one_ratio, shear_ratio))
     to_equivalent = shapes.size[:, None] / I_s
-    dirlik, tb, irregularity, peaks_per_s = _frequency_domain(stress, to_equivalent, shapes.law, load)
+    spectral = _frequency_domain(stress, to_equivalent, counted, shapes.law, load)
 
     var, shear_var, covar = _quadratic(stress, C, stress), _quadratic(shear, C, shear), _quadratic(stress, C, shear)
     with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** shapes.law.slopes[0]
@@ -132,8 +146,8 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
         damage_same_ratio=counted.damage_same_ratio,
         damage_mean_stress=counted.damage_mean_stress,
         damage_shear=np.where(counted.damage > 0.0, counted.damage * with_shear, 0.0),
-        damage_dirlik=dirlik,
-        damage_tb=tb,
+        damage_dirlik=spectral.dirlik,
+        damage_tb=spectral.tb,
         cycles=counted.cycles,
         power_sum=counted.power_sum,
         max_range=counted.max_range,
@@ -143,9 +157,10 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
         kurtosis=counted.kurtosis,
         bending_ratio=bending_ratio,
         shear_ratio=_quotient(np.sqrt(shear_var), np.sqrt(var)),
-        irregularity=irregularity,
-        peaks_per_s=peaks_per_s,
-        samples_per_peak=_quotient(np.full_like(peaks_per_s, 1.0 / load.counted.step), peaks_per_s),
+        irregularity=spectral.irregularity,
+        peaks_per_s=spectral.peaks_per_s,
+        samples_per_peak=spectral.samples_per_peak,
+        verdict=spectral.verdict,
         histogram=counted.histogram,
     )
 
@@ -180,19 +195,59 @@ def _superpose_and_count(
     return BlockCount(*(np.concatenate([getattr(p, f.name) for p in pieces]) for f in fields(BlockCount)))
 
 
+class _FrequencyDomain(NamedTuple):
+    """Dirlik and Tovo-Benasciutti damage of one pass, shape of the spectrum and verdict, each (n, 2)."""
+
+    dirlik: NDArray[np.float64]
+    tb: NDArray[np.float64]
+    irregularity: NDArray[np.float64]
+    peaks_per_s: NDArray[np.float64]
+    samples_per_peak: NDArray[np.float64]
+    verdict: NDArray[np.int8]
+
+
 def _frequency_domain(
-    stress: NDArray[np.float64], to_equivalent: NDArray[np.float64], law: DamageLaw, load: EventLoad
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Dirlik and Tovo-Benasciutti damage of one pass, alpha_2 and nu_p, each (n, 2)."""
+    stress: NDArray[np.float64],
+    to_equivalent: NDArray[np.float64],
+    counted: BlockCount,
+    law: DamageLaw,
+    load: EventLoad,
+) -> _FrequencyDomain:
+    """Estimate the damage from the spectrum, and judge whether that may be done."""
     shape = stress.shape[:2]
-    if load.moments is None:
+    if load.moments is None or load.diagnosis is None:
         nothing = np.full(shape, np.nan)
-        return nothing, nothing, nothing, nothing
-    m0, m1, m2, m4 = (m.reshape(shape) for m in point_moments(stress.reshape(-1, stress.shape[-1]), load.moments))
-    equivalent = np.stack([m0, m1, m2, m4]).reshape(4, -1) * to_equivalent.reshape(-1) ** 2
-    dirlik = load.duration * dirlik_damage_rate(equivalent, law).reshape(shape)
-    tb = load.duration * tovo_benasciutti_damage_rate(equivalent, law).reshape(shape)
-    return dirlik, tb, _quotient(m2, np.sqrt(m0 * m4)), np.sqrt(_quotient(m4, m2))
+        return _FrequencyDomain(nothing, nothing, nothing, nothing, nothing, np.zeros(shape, dtype=np.int8))
+    points = stress.reshape(-1, stress.shape[-1])
+    moments = point_moments(points, load.moments)
+    equivalent = moments * to_equivalent.reshape(-1) ** 2
+    dirlik = load.duration * dirlik_damage_rate(equivalent, law)
+    tb = load.duration * tovo_benasciutti_damage_rate(equivalent, law)
+    m0, _, m2, m4 = moments
+    peaks_per_s = np.sqrt(_quotient(m4, m2))
+    samples_per_peak = _quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s)
+
+    same_ratio, damage = counted.damage_same_ratio.reshape(-1), counted.damage.reshape(-1)
+    judged = diagnose(
+        points,
+        moments,
+        load.diagnosis,
+        slope=float(law.slopes[0]),
+        dirlik_ratio=_quotient(dirlik, same_ratio),
+        tb_ratio=_quotient(tb, same_ratio),
+        kurtosis=counted.kurtosis.reshape(-1),
+        top_cycle_share=_quotient(cycle_damage(counted.max_equivalent_range.reshape(-1), law), damage),
+        samples_per_peak=samples_per_peak,
+        top_mode_hz=load.top_mode_hz,
+    )
+    return _FrequencyDomain(
+        dirlik=dirlik.reshape(shape),
+        tb=tb.reshape(shape),
+        irregularity=_quotient(m2, np.sqrt(m0 * m4)).reshape(shape),
+        peaks_per_s=peaks_per_s.reshape(shape),
+        samples_per_peak=samples_per_peak.reshape(shape),
+        verdict=judged.verdict.reshape(shape),
+    )
 
 
 def _faces(mean: NDArray[np.float64], gradient: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,7 +2,6 @@
 
 import logging
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +13,15 @@ from fatigue.life.history import ModalHistory, kept
 from fatigue.life.mission import Pass, Plan
 from fatigue.model import WeldGroups, solve_group
 from fatigue.readers.history import read_history
-from fatigue.spectrum.moments import MomentMatrices, has_spectrum, moment_matrices, point_moments, segment_spectra
+from fatigue.spectrum.moments import (
+    Spectra,
+    has_spectrum,
+    moment_matrices,
+    point_moments,
+    samples_per_segment,
+    segment_spectra,
+    segment_starts,
+)
 
 log = logging.getLogger(__name__)
 
@@ -63,23 +70,31 @@ def event_load(body: Body, event: Event, upsample: int) -> EventLoad:
     if upsample > 1:
         log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     residue = body.case.residue(event)
-    return prepare_event(history, residue, event.stress_factor, upsample, event_moments(body, history))
+    return prepare_event(
+        history, residue, event.stress_factor, upsample, event_spectra(body, history), top_mode_hz(body)
+    )
 
 
-def event_moments(body: Body, history: ModalHistory) -> MomentMatrices | None:
-    """Moment matrices of a record; None where it is shorter than one segment."""
+def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
+    """Segment spectra of a record; None where it is shorter than one segment."""
     segment_s = body.case.spectrum.segment_s
     if not has_spectrum(history, segment_s):
         return None
-    return moment_matrices(segment_spectra(history, segment_s, upper_hz(body, history)))
+    return segment_spectra(history, segment_s, upper_hz(body, history))
+
+
+def top_mode_hz(body: Body) -> float | None:
+    """Highest frequency of a normal mode [Hz]; None where there is none."""
+    frequencies = zip(body.modes.frequency, body.modes.kind, strict=True)
+    return max((float(f) for f, kind in frequencies if kind == "normal"), default=None)
 
 
 def upper_hz(body: Body, history: ModalHistory) -> float:
     """Upper frequency of the spectra [Hz]: as given, else the lower of 0.4 f_s and 1.5 x the highest normal mode."""
     if body.case.spectrum.upper_hz is not None:
         return body.case.spectrum.upper_hz
-    normal = [f for f, kind in zip(body.modes.frequency, body.modes.kind, strict=True) if kind == "normal"]
-    return float(min(0.4 / history.step, 1.5 * max(normal, default=np.inf)))
+    top = top_mode_hz(body)
+    return 0.4 / history.step if top is None else min(0.4 / history.step, 1.5 * top)
 
 
 def _record(body: Body, event: Event) -> tuple[ModalHistory, list[Problem]]:
@@ -115,13 +130,13 @@ def _record_warnings(body: Body, event: Event, history: ModalHistory) -> list[Pr
                 "Record longer or shorten segment_s if you need one",
             )
         ]
-    moments = segment_spectra(replace(history, q=history.q[:1]), segment_s, upper_hz(body, history))
-    if len(moments.amplitude) < FEW_SEGMENTS:
+    segments = len(segment_starts(history.q.shape[1], samples_per_segment(history.step, segment_s)))
+    if segments < FEW_SEGMENTS:
         return [
             Problem(
                 "few_segments",
                 where,
-                f"the spectrum is an average of {len(moments.amplitude)} segments of {segment_s:g} s",
+                f"the spectrum is an average of {segments} segments of {segment_s:g} s",
                 f"Record longer, or shorten segment_s to get {FEW_SEGMENTS} segments or more",
             )
         ]
@@ -132,7 +147,8 @@ def _automatic_factors(groups: WeldGroups) -> list[int]:
     """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak."""
     body = groups.body
     records = [_record(body, event)[0] for event in body.case.mission.event]
-    moments = [event_moments(body, history) for history in records]
+    spectra = [event_spectra(body, history) for history in records]
+    moments = [None if s is None else moment_matrices(s) for s in spectra]
     peaks_per_s = np.zeros(len(records))
     for number in range(len(groups)):
         stress = solve_group(groups, number).stations.treated

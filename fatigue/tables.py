@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fatigue.event_block import EventBlock
 from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import Plan, equivalent_range, life_km, load_factor, mission_sum, straight_load_factor
+from fatigue.spectrum.diagnosis import VERDICTS
 from fatigue.stations import Stations
 
 FACES = ("top", "bottom")
@@ -19,7 +20,8 @@ FACES = ("top", "bottom")
 class MissionBlock:
     """Results of the whole mission at a block of stations; every array is (n, 2): top and bottom face.
 
-    ``governing`` is the index of the event with the largest share of the damage, -1 where nothing damages.
+    ``governing`` is the index of the event with the largest share of the damage, -1 where nothing damages; ``verdict``
+    that of the event with the largest share of the damage among those that have a spectrum.
     """
 
     damage_per_km: NDArray[np.float64]
@@ -39,6 +41,7 @@ class MissionBlock:
     factor_if_shear: NDArray[np.float64]
     governing: NDArray[np.int64]
     bending_ratio: NDArray[np.float64]
+    verdict: NDArray[np.int8]
 
 
 def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> MissionBlock:
@@ -76,6 +79,7 @@ def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> Mi
         factor_if_shear=_quotient(_sum_over("damage_shear", parts, plan), damage),
         governing=governing,
         bending_ratio=_of_event("bending_ratio", parts, governing),
+        verdict=_verdict(parts, weights),
     )
 
 
@@ -121,7 +125,7 @@ def node_rows(
         "life_km_tb": block.life_km_tb.ravel(),
         "life_km_same_ratio": block.life_km_same_ratio.ravel(),
         "dirlik_ratio": block.dirlik_ratio.ravel(),
-        "dirlik_verdict": np.full(len(station), "not_assessed", dtype=object),
+        "dirlik_verdict": np.array(VERDICTS, dtype=object)[block.verdict.ravel()],
         "max_range_MPa": block.max_range.ravel(),
         "equivalent_range_2e6_MPa": block.equivalent_range.ravel(),
         "mean_stress_MPa": block.mean_stress.ravel(),
@@ -172,7 +176,7 @@ def damage_rows(
         "irregularity": per_pass("irregularity"),
         "peaks_per_s": per_pass("peaks_per_s"),
         "samples_per_peak": per_pass("samples_per_peak"),
-        "verdict": np.full(points * len(parts), "not_assessed", dtype=object),
+        "verdict": np.array(VERDICTS, dtype=object)[np.stack([p.verdict for p in parts], axis=-1).ravel()],
     }
 
 
@@ -192,6 +196,13 @@ def stress_rows(
         columns[f"{component}_MPa"] = getattr(stations.treated, component)[rows].ravel()
         columns[f"{component}_raw_MPa"] = getattr(stations.raw, component)[rows].ravel()
     return columns
+
+
+def _verdict(parts: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDArray[np.int8]:
+    """Pick the verdict of the event that does most of the damage and was assessed in the frequency domain."""
+    verdicts = np.stack([p.verdict for p in parts])
+    share = np.where(verdicts > 0, weights * np.stack([p.damage_same_ratio for p in parts]), -1.0)
+    return np.asarray(np.take_along_axis(verdicts, share.argmax(axis=0)[None], axis=0)[0])
 
 
 def _load_factor(

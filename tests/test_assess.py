@@ -207,6 +207,94 @@ def test_order_of_rows_and_columns_does_not_matter(tmp_path, small_result):
         pd.testing.assert_frame_equal(shuffled, straight, rtol=1e-12)
 
 
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_groups_of_welds_do_not_change_a_number(tmp_path, small_result, monkeypatch, suffix):
+    """Welds solved one after the other, their forces cut from a shuffled table, give the same rows."""
+    monkeypatch.setattr("fatigue.model.GROUP", 7)
+    case = small_case()
+    case.nodal_forces = case.nodal_forces.sample(frac=1.0, random_state=1)
+    assess(load_case(case.write(tmp_path / "case", suffix)), tmp_path / "result", threads=2)
+    for name in TABLES:
+        cut, whole = (pd.read_parquet(f / f"{name}.parquet") for f in (tmp_path / "result", small_result))
+        key = [c for c in ("weld", "part", "order", "surface", "event", "mode", "start_s", "end_s") if c in whole]
+        cut, whole = (t.sort_values(key, kind="stable").reset_index(drop=True) for t in (cut, whole))
+        pd.testing.assert_frame_equal(cut, whole, rtol=1e-12)
+
+
+def test_a_mistake_in_the_forces_of_the_last_group_is_refused_at_once(tmp_path, monkeypatch):
+    """Nothing is counted and nothing is left when a later group is wrong; the row is that of the file."""
+    monkeypatch.setattr("fatigue.model.GROUP", 7)
+    case = small_case()
+    row = int(np.flatnonzero(case.nodal_forces.weld == "B")[5])
+    case.nodal_forces.loc[row, "mx_Nmm"] = np.inf
+    with pytest.raises(DataError, match=rf"nodal_forces\.csv: column mx_Nmm, row {row + 1}: inf is not finite"):
+        assess(load_case(case.write(tmp_path / "case")), tmp_path / "result")
+    assert not (tmp_path / "result").exists()
+
+
+def element_form(case):
+    """The small case in element forces: the elements beside each line, balanced by their far side."""
+    rows, sides, mesh = [], [], {}
+    for weld, nodes in case.weld_nodes.groupby("weld"):
+        ids = nodes.node.to_numpy()
+        line = case.nodal_forces[case.nodal_forces.weld == weld].set_index(["node", "mode"])
+        for i in range(len(ids) - 1):
+            element, far = 1000 * int(ids[0]) + i, [int(ids[i]) + 5000, int(ids[i + 1]) + 5000]
+            sides.append({"weld": weld, "element": element})
+            for near, other in zip(ids[i : i + 2], far, strict=True):
+                at = nodes[nodes.node == near].iloc[0]
+                mesh[int(near)] = (at.x_mm, at.y_mm, at.z_mm)
+                mesh[other] = (at.x_mm, at.y_mm - 10.0, at.z_mm)
+                half = 1.0 if near in (ids[0], ids[-1]) else 0.5
+                for mode in (1, 2, 7):
+                    f = half * line.loc[(near, mode), list(COMPONENTS)].to_numpy(dtype=float)
+                    arm = np.array(mesh[int(near)]) - np.array(mesh[other])
+                    g = -np.concatenate([f[:3], f[3:] + np.cross(arm, f[:3])])
+                    rows += [
+                        dict(zip(COMPONENTS, v, strict=True)) | {"mode": mode, "node": n, "element": element}
+                        for n, v in ((int(near), f), (other, g))
+                    ]
+    return (
+        pd.DataFrame(rows),
+        pd.DataFrame(sides),
+        pd.DataFrame([{"node": n, "x_mm": x, "y_mm": y, "z_mm": z} for n, (x, y, z) in mesh.items()]),
+    )
+
+
+COMPONENTS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
+
+
+def write_element_form(case, folder, forces, sides, mesh):
+    """Write the case with element forces in place of nodal forces."""
+    path = case.write(folder)
+    for name, table in (("element_forces", forces), ("weld_elements", sides), ("nodes", mesh)):
+        table.to_csv(folder / f"{name}.csv", index=False)
+    text = path.read_text().replace(
+        'nodal_forces = "nodal_forces.csv"',
+        'element_forces = "element_forces.csv"\nweld_elements = "weld_elements.csv"\nnodes = "nodes.csv"',
+    )
+    path.write_text(text)
+    return path
+
+
+def test_element_forces_give_what_their_sums_give(tmp_path, small_result):
+    """The raw form: the program sums the assessed side itself, after checking every element's balance."""
+    path = write_element_form(small_case(), tmp_path / "case", *element_form(small_case()))
+    assess(load_case(path), tmp_path / "result")
+    summed, raw = (pd.read_parquet(f / "nodes.parquet") for f in (small_result, tmp_path / "result"))
+    pd.testing.assert_frame_equal(raw, summed, rtol=1e-9)
+
+
+def test_an_element_out_of_balance_is_refused(tmp_path):
+    """A force that misses its counterpart: element, mode and how far off."""
+    forces, sides, mesh = element_form(small_case())
+    forces.loc[10, "fy_N"] += 20.0
+    path = write_element_form(small_case(), tmp_path / "case", forces, sides, mesh)
+    place = rf"element {forces.element[10]}, mode {forces['mode'][10]}"
+    with pytest.raises(DataError, match=rf"element_forces\.csv: {place}: forces and moments are out of balance by"):
+        assess(load_case(path), tmp_path / "result")
+
+
 class Stop(Exception):
     """Stands for whatever ends a run in the middle."""
 

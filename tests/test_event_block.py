@@ -11,7 +11,7 @@ from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.damage import ratio_factor
 from fatigue.life.history import ModalHistory
 from fatigue.spectrum.methods import dirlik_damage_rate
-from fatigue.spectrum.moments import moment_matrices, segment_spectra
+from fatigue.spectrum.moments import segment_spectra
 
 LAW = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7)
 STEP = 0.004
@@ -34,9 +34,7 @@ def shapes(seed=1, stations=3, modes=4, law=LAW, uses_bending_ratio=True):
 
 def load(history, residue="repeat", stress_factor=1.0, segment_s=1.0):
     """Prepare an event with its spectrum."""
-    return prepare_event(
-        history, residue, stress_factor, 1, moment_matrices(segment_spectra(history, segment_s, 100.0))
-    )
+    return prepare_event(history, residue, stress_factor, 1, segment_spectra(history, segment_s, 100.0), 40.0)
 
 
 def test_statistics_are_those_of_the_recovered_stress():
@@ -129,7 +127,7 @@ def test_a_constant_record_does_nothing():
 def test_a_record_without_spectrum_has_no_estimate():
     """Shorter than a segment: NaN, not zero."""
     history = record(samples=50)
-    found = assess_event_block(shapes(), prepare_event(history, "half", 1.0, 1, None), None, mean_stress=False)
+    found = assess_event_block(shapes(), prepare_event(history, "half", 1.0, 1, None, None), None, mean_stress=False)
     assert np.isnan(found.damage_dirlik).all()
     assert np.isnan(found.peaks_per_s).all()
     assert (found.damage > 0.0).all()

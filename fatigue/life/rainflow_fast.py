@@ -19,7 +19,8 @@ point is counted again in double precision by `count_block`, and so is every poi
 import importlib.util
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from functools import cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -103,6 +104,20 @@ class _State(NamedTuple):
     doubt: Floats
     maximum: Floats
     minimum: Floats
+
+
+class _Block(NamedTuple):
+    """Shapes of a block over ``scale`` [MPa] in single precision, mean [MPa] and normalised variance of its stress.
+
+    ``weights`` (2 n, m) are membrane rows above bending rows; ``scale`` (n, 1); ``mean`` and ``variance`` (n, 2);
+    ``trusted`` (n,): single precision is enough.
+    """
+
+    weights: Singles
+    scale: Floats
+    mean: Floats
+    variance: Floats
+    trusted: NDArray[np.bool_]
 
 
 class _Stage(NamedTuple):
@@ -484,10 +499,15 @@ def count_block_fast(
 
     if not is_fast(law, record):
         return exactly(slice(None))
-    weights, scale, trusted = _normalised(S_m, S_b, record)
-    state = _count(weights, record, residue == "repeat", law, uses_bending_ratio)
-    count, doubtful = _evaluated(state, scale, S_m, S_b, record, size, same_ratio, law, uses_bending_ratio, yield_MPa)
-    again = np.flatnonzero(~trusted | doubtful)
+    block = _normalised(S_m, S_b, record)
+    state = _count(block, record, residue == "repeat", law, uses_bending_ratio)
+    count = _evaluated(state, block, record, size, same_ratio, law, uses_bending_ratio)
+    top = block.mean + block.scale * state.maximum
+    doubtful = ~block.trusted[:, None] | _in_doubt(state, law)
+    if yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
+        doubtful |= 2.0 * top >= (1.0 - 1e-6) * yield_MPa
+        count = replace(count, damage_mean_stress=count.damage.copy())
+    again = np.flatnonzero(doubtful.any(axis=1))
     if again.size:
         exact = exactly(again)
         for field in fields(BlockCount):
@@ -495,68 +515,77 @@ def count_block_fast(
     return count
 
 
-def _normalised(S_m: Floats, S_b: Floats, record: Record) -> tuple[Singles, Floats, NDArray[np.bool_]]:
-    """Divide the shapes of each point by a power of 2 [MPa] so that its modal stresses have an rms of about 1."""
-    variance = np.diagonal(record.covariance)
-    scale = np.sqrt((S_m**2 + S_b**2) @ variance)
-    weakest = np.min([np.sqrt(np.maximum(((S @ record.covariance) * S).sum(axis=1), 0.0)) for S in (S_m + S_b, S_m - S_b)], axis=0)
-    trusted = weakest * CANCELLATION >= scale
-    _, exponent = np.frexp(scale)
-    power_of_2 = np.ldexp(1.0, exponent)
-    return (np.concatenate([S_m, S_b]) / np.tile(power_of_2, 2)[:, None]).astype(np.float32), power_of_2, trusted
+def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
+    """Divide the shapes of each point by a power of 2 so that its modal stresses have an rms of about 1."""
+    points = len(S_m)
+    S = np.concatenate([S_m, S_b])
+    mean_m, mean_b = np.split(S @ record.mean, 2)
+    CS = S @ record.covariance
+    membrane, bending = np.split((CS * S).sum(axis=1), 2)
+    both = 2.0 * (CS[:points] * S_b).sum(axis=1)
+    variance = np.maximum((membrane + bending)[:, None] + np.stack([both, -both], axis=1), 0.0)
+    modal = np.sum(np.split(S**2 @ np.diagonal(record.covariance), 2), axis=0)
+    scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])
+    return _Block(
+        weights=(S / np.tile(scale, 2)[:, None]).astype(np.float32),
+        scale=scale[:, None],
+        mean=np.stack([mean_m + mean_b, mean_m - mean_b], axis=1),
+        variance=variance / scale[:, None] ** 2,
+        trusted=(variance.min(axis=1) * CANCELLATION**2 >= modal),
+    )
 
 
-def _count(weights: Singles, record: Record, recurs: bool, law: DamageLaw, uses_bending_ratio: bool) -> _State:
+def _count(block: _Block, record: Record, recurs: bool, law: DamageLaw, uses_bending_ratio: bool) -> _State:
     """Count a block of normalised stress chunk by chunk."""
-    points = len(weights) // 2
+    points, t = len(block.scale), record.q.shape[1]
     state = _fresh_state(points)
     state.flat[:] = FLAT if uses_bending_ratio else -1.0
-    t = record.q.shape[1]
-    chunks = -(-t // CHUNK)
-    edges = np.linspace(0, t, chunks + 1).astype(int)
+    edges = np.linspace(0, t, -(-t // CHUNK) + 1).astype(int)
     longest = int(np.diff(edges).max())
     stress = np.empty((2 * points, longest + 1 + PAD), np.float32)
     kinds = (np.float32,) * 6 + (np.int8, np.int32)
     room = _Room(*(np.empty(longest + RESIDUE + 2 * PAD, kind) for kind in kinds))
-    for first, end in pairwise(edges):
+    rules = _law(float(law.slopes[0]), uses_bending_ratio)
+    for first, end in pairwise(edges.tolist()):
         samples = end - first
-        np.matmul(weights, record.q[:, first:end], out=stress[:, 1 : samples + 1])
-        count_chunk(stress, samples, _Stage(first == 0, end == t, recurs), _law(law, uses_bending_ratio), state, room)
+        np.matmul(block.weights, record.q[:, first:end], out=stress[:, 1 : samples + 1])
+        count_chunk(stress, samples, _Stage(first == 0, end == t, recurs), rules, state, room)
     return state
 
 
-def _evaluated(state, scale, S_m, S_b, record, size, same_ratio, law, uses_bending_ratio, yield_MPa):
-    """Turn sums of normalised stress into those of `BlockCount`; tell which rows are doubtful."""
+def _evaluated(
+    state: _State, block: _Block, record: Record, size: Floats, same_ratio: Floats, law: DamageLaw, uses_bending_ratio: bool
+) -> BlockCount:
+    """Turn the sums of normalised stress into those of `BlockCount`."""
     k = float(law.slopes[0])
-    log_scale, log_size = np.log(scale)[:, None], np.log(size)[:, None]
-    to_damage = np.exp(k * (log_scale + log_size) - law.log_constants[0])
-    S = np.stack([S_m + S_b, S_m - S_b], axis=1)
-    mean = S @ record.mean
-    variance = ((S @ record.covariance) * S).sum(axis=2) / scale[:, None] ** 2
-    samples = record.q.shape[1]
-    total_damage = to_damage * state.damage
-    span = state.maximum - state.minimum
-    top, bottom = mean + scale[:, None] * state.maximum, mean + scale[:, None] * state.minimum
-    I_same = damage.ratio_factor(same_ratio) if uses_bending_ratio else np.ones_like(same_ratio)
+    to_damage = np.exp(k * np.log(block.scale * size[:, None]) - law.log_constants[0])
+    I_same = damage.ratio_factor(same_ratio) if uses_bending_ratio else 1.0
     turning = state.first_up >= 0
-    doubt = 2.0 * k * 0.254 * state.doubt * span ** (k - 1.0) * 1.2214 ** -k
-    doubtful = doubt > DOUBT * state.damage
-    if yield_MPa is not None:
-        doubtful |= turning & (2.0 * top >= (1.0 - 1e-6) * yield_MPa)
-    count = BlockCount(
-        damage=total_damage,
+    minimum, maximum = block.mean + block.scale * state.minimum, block.mean + block.scale * state.maximum
+    return BlockCount(
+        damage=to_damage * state.damage,
         damage_same_ratio=to_damage * I_same**-k * state.power_sum,
-        damage_mean_stress=np.full_like(mean, np.nan) if yield_MPa is None else total_damage.copy(),
+        damage_mean_stress=np.full_like(minimum, np.nan),
         cycles=state.cycles,
-        power_sum=np.exp(k * log_scale) * state.power_sum,
-        max_range=scale[:, None] * span,
-        r_largest=np.where(turning & (top != 0.0), bottom / top, np.nan),
-        max_equivalent_range=scale[:, None] * size[:, None] * state.largest ** (1.0 / k),
-        mean=mean,
-        kurtosis=np.where(turning, state.fourth / samples / variance**2, np.nan),
+        power_sum=block.scale**k * state.power_sum,
+        max_range=block.scale * (state.maximum - state.minimum),
+        r_largest=np.divide(minimum, maximum, out=np.full_like(minimum, np.nan), where=turning & (maximum != 0.0)),
+        max_equivalent_range=block.scale * size[:, None] * state.largest ** (1.0 / k),
+        mean=block.mean,
+        kurtosis=np.where(turning, state.fourth / (record.q.shape[1] * np.maximum(block.variance, 1e-300) ** 2), np.nan),
         histogram=np.zeros((len(size), 2, 0, 2)),
     )
-    return count, doubtful.any(axis=1)
+
+
+def _in_doubt(state: _State, law: DamageLaw) -> NDArray[np.bool_]:
+    """Where the choice between samples at flat extremes could change the damage by more than ``DOUBT`` of it.
+
+    A cycle of range S that takes the other sample, with a membrane stress that differs by e, has a bending ratio that
+    differs by at most 2 e / S; ln I^(1/m) changes by at most 0.254 per unit of it.
+    """
+    k = float(law.slopes[0])
+    worst = 2.0 * 0.254 * k * state.doubt * (state.maximum - state.minimum) ** (k - 1.0) * damage.ratio_factor(np.zeros(1)) ** -k
+    return np.asarray(worst > DOUBT * state.damage)
 
 
 def _fresh_state(points: int) -> _State:
@@ -575,8 +604,8 @@ def _fresh_state(points: int) -> _State:
     )
 
 
-def _law(law: DamageLaw, uses_bending_ratio: bool) -> _Law:
-    k = law.slopes[0]
+@cache
+def _law(k: float, uses_bending_ratio: bool) -> _Law:
     head = np.round(k * 2**8) / 2**8
     if uses_bending_ratio:
         ratio = _series(lambda x: damage.ratio_factor(x + 0.5) ** -k, -0.5, 0.5, RATIO_DEGREE)

@@ -18,6 +18,7 @@ _COMPONENTS = ("F1", "F2", "F3", "M1", "M2", "M3")
 _SHAPE = ("X", "Y", "Z", "RX", "RY", "RZ")
 _STATIC, _MODES = 1, 2  # ANALYSIS in the table of domains
 _SHELLS = {"CQUAD4": 4, "CQUADR": 4, "CQUAD8": 4, "CTRIA3": 3, "CTRIAR": 3, "CTRIA6": 3}
+_BLANK = 1.7368e-18  # what the file holds for a real field left blank
 _MOST_COMPRESSED = 1100  # deflate cannot do better; a larger claim is damage
 
 Rows = NDArray[Any]
@@ -223,7 +224,9 @@ def _sections(read: Any) -> tuple[dict[int, Section], dict[int, str]]:
     for row in read("NASTRAN/INPUT/PROPERTY/PCOMP/IDENTITY", required=False):
         pid, first = int(row["PID"]), int(row["PLY_POS"])
         total = float(ply["T"][first : first + int(row["PLY_LEN"])].sum())
-        sections[pid] = Section(total)
+        bottom = float(row["Z0"])
+        is_centred = np.isclose(bottom, _BLANK, rtol=1e-3, atol=0)
+        sections[pid] = Section(total, 0.0 if is_centred else bottom + total / 2)
         doubts[pid] = f"PCOMP {pid} is a layered section"
     return sections, doubts
 

@@ -222,10 +222,14 @@ def _eigenvalues(op2: Op2File, table: Op2Table, record: NDArray[np.uint8]) -> di
         raise _damaged(op2, table, f"a record of {record.size // w} words is no whole number of 7-word rows")
     found = {}
     for row in record.view(dtype):
-        eigenvalue, _, _, mass, _ = (float(v) for v in row["value"])
+        eigenvalue, omega, frequency, mass, _ = (float(v) for v in row["value"])
         if row["mode"] < 1 or not is_sound(row["value"]).all() or mass < 0:
             raise _damaged(
                 op2, table, f"mode {row['mode']} with eigenvalue {eigenvalue:g} and mass {mass:g} is impossible"
+            )
+        if not np.allclose([omega, 2 * np.pi * frequency], np.sqrt(abs(eigenvalue)), rtol=1e-3, atol=1e-6):
+            raise _damaged(
+                op2, table, f"eigenvalue {eigenvalue:g} and {frequency:g} Hz of mode {row['mode']} contradict"
             )
         found[int(row["mode"])] = Eigenvalue(float(np.sqrt(abs(eigenvalue)) / (2 * np.pi)), mass)
     return found

@@ -1,6 +1,5 @@
 """What is shown of a weld in detail: its stresses along the line, and its worst point's records and spectra."""
 
-import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -8,13 +7,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.case import Event
 from fatigue.report import signals
 from fatigue.report.inputs import Inputs
 from fatigue.report.result import Result
 from fatigue.report.signals import Envelope, Excerpt, Record, Spectrum
-
-log = logging.getLogger(__name__)
 
 COMPONENTS = {
     "membrane": "membrane_MPa",
@@ -33,17 +29,21 @@ class Detail:
 
     spectra: list[Spectrum] = field(default_factory=list)
     envelope: Envelope | None = None
-    excerpt: Excerpt | None = None
+    excerpts: list[Excerpt] = field(default_factory=list)
     deviation: dict[str, NDArray[np.float64]] = field(default_factory=dict)
     variance_share: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Shapes:
-    """Stress of one weld per unit modal coordinate: at the worst point (m,), and components at all stations (n, m)."""
+class _Weld:
+    """A weld while its details are gathered: stress per unit modal coordinate at the worst point (m,) and, by component,
+    at all stations (n, m); its governing event and the cycles of its worst point.
+    """
 
     worst: NDArray[np.float64]
     stations: Mapping[str, NDArray[np.float64]]
+    governing_event: str | None
+    cycles: pd.DataFrame
 
 
 def weld_details(result: Result, inputs: Inputs) -> tuple[dict[str, Detail], dict[str, float]]:
@@ -55,43 +55,20 @@ def weld_details(result: Result, inputs: Inputs) -> tuple[dict[str, Detail], dic
     ------
     DataError : a history is not there any more or is not the one that was assessed
     """
-    details = {weld: Detail() for weld in result.detailed}
-    shapes = {weld: _shapes(result, weld) for weld in result.detailed}
-    governing = result.welds.set_index("weld")["governing_event"].to_dict()
+    welds = _welds(result)
+    details = {weld: Detail() for weld in welds}
     steps = {}
     for event in inputs.case.mission.event:
         record = signals.prepared(inputs.history(event), event.stress_factor)
         steps[event.name] = record.history.step
-        for weld, detail in details.items():
-            _add_event(detail, record, shapes[weld], result, inputs, event, weld, governing=governing[weld] == event.name)
+        upper = upper_hz(result, inputs, record.history.step)
+        for name, weld in welds.items():
+            spectrum = signals.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
+            if spectrum is not None:
+                details[name].spectra.append(spectrum)
+            if weld.governing_event == event.name:
+                _add_records(details[name], record, weld)
     return details, steps
-
-
-def _add_event(
-    detail: Detail,
-    record: Record,
-    shapes: _Shapes,
-    result: Result,
-    inputs: Inputs,
-    event: Event,
-    weld: str,
-    *,
-    governing: bool,
-) -> None:
-    spectrum = signals.spectrum(
-        record, shapes.worst, inputs.case.spectrum.segment_s, upper_hz(result, inputs, record.history.step)
-    )
-    if spectrum is not None:
-        detail.spectra.append(spectrum)
-    if not governing:
-        return
-    detail.deviation = {name: signals.deviations(record, shape) for name, shape in shapes.stations.items()}
-    detail.variance_share = signals.variance_shares(record, shapes.worst)
-    detail.envelope = signals.envelope(record, shapes.worst)
-    of_event = result.cycles[(result.cycles["weld"] == weld) & (result.cycles["event"] == event.name)]
-    largest = of_event.loc[(of_event["damage"] / of_event["count"]).idxmax()]
-    dominant = np.argsort(-np.abs(np.nan_to_num(detail.variance_share)), kind="stable")[: signals.DOMINANT_MODES]
-    detail.excerpt = signals.excerpt(record, shapes.worst, largest["start_s"], largest["end_s"], dominant.tolist())
 
 
 def upper_hz(result: Result, inputs: Inputs, step: float) -> float:
@@ -103,19 +80,29 @@ def upper_hz(result: Result, inputs: Inputs, step: float) -> float:
     return float(min(0.4 / step, 1.5 * max(normal, default=np.inf)))
 
 
-def _shapes(result: Result, weld: str) -> _Shapes:
-    """Lay the rows of the stress table of one weld out as (station, mode), stations in the order of the nodes."""
-    modes = result.record["modes"]["used"]
-    rows = result.stress_shapes(weld)
-    stations = result.nodes[(result.nodes["weld"] == weld) & (result.nodes["surface"] == "top")]
-    index = pd.MultiIndex.from_frame(stations[["part", "order"]])
+def _add_records(detail: Detail, record: Record, weld: _Weld) -> None:
+    """Add what is shown of the governing event: stresses along the line, the share of the modes, the history."""
+    detail.deviation = {name: signals.deviations(record, shape) for name, shape in weld.stations.items()}
+    detail.variance_share = signals.variance_shares(record, weld.worst)
+    detail.envelope = signals.envelope(record, weld.worst)
+    cycles = weld.cycles[weld.cycles["event"] == record.history.event]
+    largest = cycles.loc[(cycles["damage"] / cycles["count"]).idxmax()]
+    dominant = np.argsort(-np.abs(detail.variance_share), kind="stable")[: signals.DOMINANT_MODES]
+    detail.excerpts = signals.excerpts(record, weld.worst, largest["start_s"], largest["end_s"], dominant.tolist())
 
-    def component(column: str) -> NDArray[np.float64]:
-        table = rows.pivot(index=["part", "order"], columns="mode", values=column)
-        return table.loc[index, modes].to_numpy(dtype=np.float64)
 
-    found = {name: component(column) for name, column in COMPONENTS.items()}
-    worst = result.worst(weld)
-    at = index.get_loc((worst["part"], worst["order"]))
-    bending = found["bending"][at] if worst["surface"] == "top" else -found["bending"][at]
-    return _Shapes(worst=found["membrane"][at] + bending, stations=found)
+def _welds(result: Result) -> dict[str, _Weld]:
+    governing = result.welds.set_index("weld")["governing_event"]
+    welds = {}
+    for name, (stations, shapes) in result.stress_shapes(list(COMPONENTS.values())).items():
+        components = dict(zip(COMPONENTS, shapes, strict=True))
+        point = result.worst(name)
+        at = int(((stations["part"] == point["part"]) & (stations["order"] == point["order"])).argmax())
+        sign = 1.0 if point["surface"] == "top" else -1.0
+        welds[name] = _Weld(
+            worst=components["membrane"][at] + sign * components["bending"][at],
+            stations=components,
+            governing_event=None if pd.isna(governing[name]) else governing[name],
+            cycles=result.cycles[result.cycles["weld"] == name],
+        )
+    return {name: welds[name] for name in result.detailed}

@@ -15,29 +15,28 @@ _CODES = {"float32": "f4", "int32": "i4"}
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A figure of the page, with its number, its height [px] and its content as JSON."""
+    """A figure of the page: its number, height [px] and content as JSON; a wide one stands alone in its row."""
 
     id: str
     number: int
     caption: str
     height: int
     json: Markup
+    wide: bool = False
 
 
 @dataclass(slots=True)
 class Figures:
     """Numbers the figures of a page in the order in which they are added."""
 
-    count: int = 0
     shown: list[Shown] = field(default_factory=list)
 
-    def add(self, id_: str, fig: go.Figure, caption: str) -> Shown:
+    def add(self, id_: str, fig: go.Figure, caption: str, *, wide: bool = False) -> Shown:
         """Keep a figure; the template they all share is in the page once and not in each."""
         content = json.loads(fig.to_json(remove_uids=True))
         content["layout"].pop("template")
         height = int(content["layout"].pop("height"))
-        self.count += 1
-        shown = Shown(id_, self.count, caption, height, embedded(content))
+        shown = Shown(id_, len(self.shown) + 1, caption, height, embedded(content), wide)
         self.shown.append(shown)
         return shown
 

@@ -269,7 +269,7 @@ def _cycle_figures(
     unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
     name = wording.short(weld)
     return [
-        figs.add(f"{id_}-matrix", figures.rainflow_matrices(cycles, per_km), f"{name}: rainflow matrix and damage matrix"),
+        figs.add(f"{id_}-matrix", figures.rainflow_matrices(cycles, per_km), f"{name}: rainflow matrix and damage matrix", wide=True),
         figs.add(f"{id_}-exceedance", figures.exceedance(cycles, result.passes_per_km), f"{name}: stress ranges in 1e6 km"),
         figs.add(
             f"{id_}-sn",
@@ -284,25 +284,37 @@ def _survival(used: Assumptions, level: str) -> Survival | None:
 
 
 def _signal_figures(result: Result, detail: Detail, event: str, figs: Figures, id_: str) -> list[Shown]:
+    """Figures of the records; none where nothing varies."""
     colours = figures.event_colours([e["event"] for e in result.events])
-    modes = result.record["modes"]
-    frequency = dict(zip(modes["used"], modes["frequency_hz"], strict=True))
+    names, natural = _mode_names(result.record["modes"])
     shown = []
-    marked: dict[int, tuple[float, float]] = {}
+    if detail.envelope is not None and detail.excerpts:
+        history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
+        caption = f"Stress in event {wording.short(event)}, and close by at its most damaging cycle"
+        shown.append(figs.add(f"{id_}-history", history, caption, wide=True))
+    parts: dict[int, float] = {}
     if detail.variance_share is not None and np.isfinite(detail.variance_share).all():
         leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:8]
-        labels = [f"mode {modes['used'][k]}, {modes['frequency_hz'][k]:.4g} Hz" for k in leading]
-        marked = {modes["used"][k]: (modes["frequency_hz"][k], float(detail.variance_share[k])) for k in leading[:5]}
-        bars = figures.shares(labels, detail.variance_share[leading], f"share of the stress variance in event {wording.in_figure(event)} [%]")
+        parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}
+        title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
+        bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
         shown.append(figs.add(f"{id_}-modes", bars, "Modes in the stress of the worst point"))
-    if detail.envelope is not None and detail.excerpt is not None:
-        history = figures.stress_history(detail.envelope, detail.excerpt, frequency, colours[event])
-        shown.insert(0, figs.add(f"{id_}-history", history, f"Stress history in event {wording.short(event)} and its most damaging cycle"))
     if detail.spectra:
         drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:6]
-        spectrum = figures.stress_spectrum(drawn, colours, {m: v for m, v in marked.items() if v[0] > 0.0}, event)
-        shown.append(figs.add(f"{id_}-psd", spectrum, "Stress spectrum with the leading modes, and where the variance lies"))
+        marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
+        spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:4]), event)
+        shown.append(figs.add(f"{id_}-psd", spectrum, "Stress spectrum, the leading normal modes, and where the variance lies"))
     return shown
+
+
+def _mode_names(modes: Mapping[str, Any]) -> tuple[dict[int, str], dict[int, float]]:
+    """Name of every mode, and the natural frequencies [Hz] of the normal ones."""
+    names, natural = {}, {}
+    for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True):
+        names[mode] = f"mode {mode}, {frequency:.4g} Hz" + ("" if kind == "normal" else f", {kind}")
+        if kind == "normal" and frequency > 0.0:
+            natural[mode] = frequency
+    return names, natural
 
 
 def _facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:

@@ -61,9 +61,19 @@ class Result:
         found = (nodes["weld"] == weld) & (nodes["part"] == row["worst_part"]) & (nodes["order"] == row["worst_order"])
         return nodes[found & (nodes["surface"] == row["worst_surface"])].iloc[0]
 
-    def stress_shapes(self, weld: str) -> pd.DataFrame:
-        """Read the structural stress of every mode at the stations of a weld [MPa per unit modal coordinate]."""
-        return _rows(self.folder, "structural_stress", [weld])
+    def stress_shapes(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
+        """Read stress columns of the detailed welds [MPa per unit modal coordinate].
+
+        Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the order
+        of the table, which lists all modes of a station one after the other.
+        """
+        modes = len(self.record["modes"]["used"])
+        rows = _rows(self.folder, "structural_stress", self.detailed, ["weld", "part", "order", *columns])
+        found = {}
+        for weld, of_weld in rows.groupby("weld", sort=False):
+            stations = of_weld[["part", "order"]].iloc[::modes].reset_index(drop=True)
+            found[str(weld)] = (stations, of_weld[list(columns)].to_numpy().T.reshape(len(columns), -1, modes))
+        return found
 
 
 def read_result(folder: Path, most_detailed: int) -> Result:
@@ -92,11 +102,11 @@ def optional_table(folder: Path, name: str) -> pd.DataFrame | None:
     return pq.read_table(path).to_pandas() if path.is_file() else None
 
 
-def _rows(folder: Path, table: str, welds: Sequence[str]) -> pd.DataFrame:
+def _rows(folder: Path, table: str, welds: Sequence[str], columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Read the rows of some welds only: the whole table may not fit into memory."""
     read_table(folder, table, ["weld"])  # refuses a table that is missing or damaged
     wanted = pc.field("weld").isin(pa.array(welds, pa.string()))
-    return pq.read_table(folder / f"{table}.parquet", filters=wanted).to_pandas()
+    return pq.read_table(folder / f"{table}.parquet", columns=columns, filters=wanted).to_pandas()
 
 
 def _kurtosis(folder: Path, nodes: pd.DataFrame) -> NDArray[np.float64]:

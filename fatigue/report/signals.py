@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fatigue.life.history import ModalHistory
 from fatigue.spectrum.moments import has_spectrum, segment_spectra
 
-EXCERPT_SAMPLES = 500  # of the close-up around a cycle
+CLOSE_UP_SAMPLES = 75  # before and after an instant of a cycle
 ENVELOPE_BINS = 600  # of the whole record
 DOMINANT_MODES = 4
 
@@ -33,14 +33,9 @@ class Spectrum:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Excerpt:
-    """Stress around one cycle: file time [s], structural stress and the parts of the dominant modes [MPa].
+    """Stress around one or both instants of a cycle: file time [s], structural stress and parts of modes [MPa]."""
 
-    ``start_s`` and ``end_s`` are the two instants of the cycle.
-    """
-
-    event: str
-    start_s: float
-    end_s: float
+    instants: tuple[float, ...]
     time: NDArray[np.float64]
     stress: NDArray[np.float64]
     parts: Mapping[int, NDArray[np.float64]]
@@ -84,27 +79,30 @@ def variance_shares(record: Record, shape: NDArray[np.float64]) -> NDArray[np.fl
     return np.asarray(parts / total if total > 0.0 else np.full_like(parts, np.nan))
 
 
-def excerpt(record: Record, shape: NDArray[np.float64], start_s: float, end_s: float, modes: Sequence[int]) -> Excerpt:
-    """Cut the stress around one cycle; a cycle longer than the close-up is thinned out, its two instants kept.
+def excerpts(
+    record: Record, shape: NDArray[np.float64], start_s: float, end_s: float, modes: Sequence[int]
+) -> list[Excerpt]:
+    """Cut the stress around the two instants of a cycle: one excerpt where they are close, else one at each.
 
     ``modes`` are the rows of q whose parts of the stress are shown.
     """
     history = record.history
     last = history.q.shape[1] - 1
-    ends = sorted(round((t - history.start) / history.step) for t in (start_s, end_s))
-    margin = max(20, (ends[1] - ends[0]) // 2)
-    first, stop = max(0, ends[0] - margin), min(last, ends[1] + margin) + 1
-    keep = np.unique(np.concatenate([np.arange(first, stop, max(1, (stop - first) // EXCERPT_SAMPLES)), ends]))
-    keep = keep[(keep >= 0) & (keep <= last)]
-    q = history.q[:, keep]
-    return Excerpt(
-        event=history.event,
-        start_s=start_s,
-        end_s=end_s,
-        time=history.start + history.step * keep,
-        stress=shape @ q,
-        parts={int(history.mode[k]): shape[k] * (q[k] - history.q[k].mean(dtype=np.float64)) for k in modes},
-    )
+    at = sorted(min(max(round((t - history.start) / history.step), 0), last) for t in (start_s, end_s))
+    groups = [at] if at[1] - at[0] <= 2 * CLOSE_UP_SAMPLES else [at[:1], at[1:]]
+    found = []
+    for group in groups:
+        first = max(0, group[0] - CLOSE_UP_SAMPLES)
+        q = history.q[:, first : group[-1] + CLOSE_UP_SAMPLES + 1]
+        found.append(
+            Excerpt(
+                instants=tuple(history.start + history.step * i for i in group),
+                time=history.start + history.step * (first + np.arange(q.shape[1])),
+                stress=shape @ q,
+                parts={int(history.mode[k]): shape[k] * (q[k] - history.q[k].mean(dtype=np.float64)) for k in modes},
+            )
+        )
+    return found
 
 
 def envelope(record: Record, shape: NDArray[np.float64]) -> Envelope:

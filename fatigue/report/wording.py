@@ -51,10 +51,12 @@ def years(value: Any) -> str:
 
 
 def share(value: Any) -> str:
-    """Write a share as percentage with three digits at most."""
+    """Write a share as percentage: three digits, and no more than hundredths."""
     if value is None or value != value:  # noqa: PLR0124
         return NOT_AVAILABLE
-    return f"{100.0 * float(value):.3g} %".replace("-", "−")
+    percent = 100.0 * float(value)
+    digits = 1 if abs(percent) >= 9.95 else 2
+    return f"{percent:.{digits}f} %".replace("-", "−")
 
 
 def size(bytes_: int) -> str:

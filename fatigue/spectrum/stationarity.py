@@ -176,6 +176,8 @@ def _principal_scatter(
     to_lags = np.cos(2 * np.pi * np.outer(lag * step, spectra.frequency)) * spectra.weight
     stack = (np.sqrt(2 * overlap) / seen)[:, None] * to_lags @ density.reshape(len(density), -1)
 
+    if len(stack) > stack.shape[1]:
+        stack = np.linalg.qr(stack, mode="r")  # the same sums of squares from as many rows as columns
     energy, direction = np.linalg.eigh(stack @ stack.T)
     first = int(np.searchsorted(np.cumsum(energy), NEGLIGIBLE * energy.sum()))
     return np.asarray((direction[:, first:].T @ stack).reshape(-1, *unit.shape))

@@ -8,7 +8,7 @@ from typing import Any
 class Check:
     """A quantity of a case with a known answer.
 
-    ``tolerance`` is relative to the expected value, absolute where that is 0; ``source`` tells where the answer is from.
+    ``tolerance`` is relative to the expected value, absolute where that is 0; ``source`` is where the answer is from.
     """
 
     topic: str

@@ -174,7 +174,7 @@ def test_modes_without_forces_are_told(tmp_path):
     def cut(results, **kept):
         whole = modal_op2(results)
         part = Op2Writer()
-        lama = b"".join(part.ints(m, m) + part.reals(1.0, 1.0, 1.0, 1.0, 1.0) for m in kept["modes"])
+        lama = b"".join(part.ints(m, m) + part.reals(1.0, 1.0, 0.159155, 1.0, 1.0) for m in kept["modes"])
         part.table("LAMA", [part.identification(2, 6, 0, 7), lama])
         at = whole.index(b"OUGV1   ") - 16
         path.write_bytes(part.data + whole[at:])
@@ -183,6 +183,35 @@ def test_modes_without_forces_are_told(tmp_path):
     assert cut(case, modes=range(1, 8)).remarks[0].code == "modes_without_forces"
     with pytest.raises(DataError, match="mode 5 has forces and is not in the eigenvalue summary"):
         cut(case, modes=range(1, 5))
+
+
+@pytest.mark.parametrize("values", [(4.0, 1.0, 0.16, 1.0, 1.0), (1.0, 1.0, 9.9, 1.0, 1.0), (1.0, 1.0, 0.16, -1.0, 1.0)])
+def test_eigenvalues_must_agree_with_themselves(tmp_path, values):
+    """Eigenvalue, circular frequency and frequency of a mode are one number; a mass is not negative."""
+    path = written(
+        tmp_path / "a.op2", lambda w: [w.identification(2, 6, 0, 7), w.ints(1, 1) + w.reals(*values)], "LAMA"
+    )
+    with pytest.raises(DataError, match=r"contradict|impossible"):
+        read_op2(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "blocks"),
+    [
+        ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10)]),
+        ("OGPFB1", lambda w: [w.ints(*range(20)), w.forces([ROW])]),
+        ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10), w.ints(1, 2, 3)]),
+        ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10, device=2), w.forces([ROW])]),
+        ("OUGV1", lambda w: [w.identification(2, 7, 1, 14), w.shape([(1, [0.0] * 6)])]),
+        ("OUGV1", lambda w: [w.identification(2, 7, 1, 8), w.shape([(1, [np.inf] * 6)])]),
+        ("OUGV1", lambda w: [w.identification(2, 7, 1, 8), w.shape([(1, [0.0] * 6)] * 2)]),
+        ("LAMA", lambda w: [w.identification(2, 6, 0, 7), w.ints(1, 2, 3)]),
+    ],
+)
+def test_tables_that_contradict_themselves(tmp_path, name, blocks):
+    """Half blocks, short identifications, broken rows, other devices, complex or doubled shapes."""
+    with pytest.raises(DataError, match=f"table {name}"):
+        read_op2(written(tmp_path / "a.op2", blocks, name))
 
 
 def test_partial_mode_shapes_are_dropped(tmp_path):

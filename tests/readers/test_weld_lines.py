@@ -1,5 +1,7 @@
 """Weld lines a user marks, and the register that is edited and given back."""
 
+from itertools import pairwise
+
 import pytest
 
 from fatigue.errors import CaseError, DataError
@@ -15,7 +17,7 @@ def mesh(tmp_path):
     """Bulk data of the T joint with a set, plot elements and bars along the weld, and bars elsewhere."""
     line = joint_nodes()
     path = tmp_path / "tee.bdf"
-    plotels = [f"PLOTEL,{9000 + k},{a},{b}" for k, (a, b) in enumerate(zip(line, line[1:], strict=False))]
+    plotels = [f"PLOTEL,{9000 + k},{a},{b}" for k, (a, b) in enumerate(pairwise(line))]
     text = bulk(tee(), "\n".join([*plotels, "CBAR,9500,1,1,99", f"SET1,5,{','.join(str(n) for n in line[:6])}"]))
     path.write_text(text)
     return path

@@ -3,22 +3,18 @@
 They take the tables of a result folder as ``pandas.read_parquet`` reads them, or a part of their rows.
 """
 
+from fatigue.report.figures.cycles import exceedance, rainflow_matrices, sn_with_spectrum
+from fatigue.report.figures.domains import ratio_histogram, time_against_frequency
 from fatigue.report.figures.lines import along_weld
-from fatigue.report.figures.overview import damage_by_event, ratio_histogram, time_against_frequency, weld_lives, weld_strips
-from fatigue.report.figures.point import (
-    exceedance,
-    rainflow_matrices,
-    shares,
-    sn_with_spectrum,
-    stress_history,
-    stress_spectrum,
-)
-from fatigue.report.figures.scene import body_outline, line_rows, projections, scene, worst_faces
+from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
+from fatigue.report.figures.records import stress_history, stress_spectrum
+from fatigue.report.figures.scene import Body, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
 
 __all__ = [
     "CONFIG",
     "TEMPLATE",
+    "Body",
     "along_weld",
     "body_outline",
     "damage_by_event",

@@ -85,9 +85,7 @@ def _three_spectra() -> Iterator[Check]:
         ("1 to 2 and 20 to 24 Hz", two_bands, 5.0, 7.89339425e6, 8.68765185e6),
     ):
         yield _rate(f"{case}, k = {k:g}", DIRLIK, moments, _straight(k), dirlik, EIGHT_DIGITS, FLIFE)
-        yield _rate(
-            f"{case}, k = {k:g}", tovo_benasciutti_damage_rate, moments, _straight(k), tovo, EIGHT_DIGITS, FLIFE
-        )
+        yield _rate(f"{case}, k = {k:g}", TOVO, moments, _straight(k), tovo, EIGHT_DIGITS, FLIFE)
 
 
 def _bent_law() -> Iterator[Check]:

@@ -83,7 +83,7 @@ class Curve:
     def size_factor(self, thickness: float) -> float:
         """Factor of the plate thickness [mm] on the range."""
         if self.on_equivalent:
-            return float(np.clip(thickness, *self.thickness_limits)) ** (2.0 / 9.0)
+            return float(np.clip(thickness, *self.thickness_limits) ** (2.0 / 9.0))
         if self.thickness_reference is None or thickness <= self.thickness_reference:
             return 1.0
         return float((thickness / self.thickness_reference) ** self.thickness_exponent)

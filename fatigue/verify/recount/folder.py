@@ -1,7 +1,7 @@
 """The recount as a story: inputs as they were, every line solved anew, points counted anew, table against table."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -81,10 +81,10 @@ def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_file: 
     if not all(check.passed for check in checks):
         return Recount(folder, 0, len(points), tuple(checks))
 
-    worst = {name: _worst_of(stored.welds, name) for name in welds}
-    chosen = _chosen(stored.nodes, points, set(worst.values()), sample, seed)
-    counted, passes = _count(inputs, modes, {key: stations[key[:3]] for key in chosen}, stored.damage)
-    checks += _compared(inputs, modes, welds, stations, stored, counted, passes, worst)
+    with_cycles = _points_with_cycles(stored, welds)
+    chosen = _chosen(stored.nodes, points, with_cycles, sample, seed)
+    counted, passes = _count(inputs, modes, {key: stations[key[:3]] for key in chosen}, stored.damage, with_cycles)
+    checks += _compared(inputs, modes, welds, stations, stored, counted, passes, with_cycles)
     return Recount(folder, len(counted), len(points), tuple(checks))
 
 
@@ -121,9 +121,12 @@ def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any]) -> dict[str,
     return welds
 
 
-def _worst_of(welds: pd.DataFrame, weld: str) -> Key:
-    row = welds.loc[weld]
-    return weld, int(row["worst_part"]), int(row["worst_order"]), str(row["worst_surface"])
+def _points_with_cycles(stored: Stored, welds: Mapping[str, Weld]) -> set[Key]:
+    """Find the points whose cycles are in the table; of a weld without any, the worst point."""
+    found = {key[:4] for key in stored.cycles}
+    bare = [name for name in welds if name not in {weld for weld, *_ in found}]
+    worst = stored.welds.loc[bare, ["worst_part", "worst_order", "worst_surface"]]
+    return found | {(name, *row) for name, row in zip(bare, worst.itertuples(index=False), strict=True)}
 
 
 def _chosen(nodes: pd.DataFrame, points: Sequence[Key], named: set[Key], sample: int | None, seed: int) -> list[Key]:
@@ -139,9 +142,13 @@ def _chosen(nodes: pd.DataFrame, points: Sequence[Key], named: set[Key], sample:
 
 
 def _count(
-    inputs: Inputs, modes: Modes, stations: Mapping[Key, Station], damage: pd.DataFrame
+    inputs: Inputs,
+    modes: Modes,
+    stations: Mapping[Key, Station],
+    damage: pd.DataFrame,
+    with_cycles: set[Key],
 ) -> tuple[dict[Key, Passes], list[Event]]:
-    """Count every event at every point, one record in memory at a time."""
+    """Count every event at every point, one record in memory at a time; keep cycles only where they are compared."""
     asked = inputs.case["curve"]
     mean_stress = MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
     counted = {key: Passes([], []) for key in stations}
@@ -157,7 +164,7 @@ def _count(
             raw = one
             if not np.array_equal(solved.raw[at], solved.treated[at]):
                 raw = one_pass(point_of(solved.raw[at], key[3], curve, thickness), record, rules, mean_stress)
-            counted[key].treated.append(one)
+            counted[key].treated.append(one if key in with_cycles else replace(one, rows={}))
             counted[key].raw_damage.append(raw.quantities["damage_per_pass"])
         events.append(Event(record.name, record.length_km, record.passes_per_km))
     return counted, events
@@ -171,7 +178,7 @@ def _compared(
     stored: Stored,
     counted: Mapping[Key, Passes],
     events: Sequence[Event],
-    worst: Mapping[str, Key],
+    with_cycles: set[Key],
 ) -> list[ColumnCheck]:
     """Set the recounted rows of all tables beside the stored ones."""
     mission = inputs.case["mission"]
@@ -189,7 +196,7 @@ def _compared(
         for event, one in zip(events, passes.treated, strict=True):
             of_event = stored.damage.loc[(*key, event.name)].to_dict()
             damage.append(damage_row(key, event, one, of_event, is_bound=bool(found["screened"])))
-            if key == worst[key[0]]:
+            if key in with_cycles:
                 cycles.append(cycle_row(key, event, one, stored.cycles.get((*key, event.name), stored.no_cycles)))
     for at in dict.fromkeys(key[:3] for key in counted):
         of_modes = [stored.stress.loc[(*at, mode)].to_dict() for mode in modes.mode.tolist()]

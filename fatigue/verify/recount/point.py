@@ -43,7 +43,8 @@ class MeanStress:
 class OnePass:
     """One pass of an event at a point: its quantities by the name of their column, and its cycles.
 
-    ``ranges`` and ``counts`` are the equivalent range and the count of every cycle, ``rows`` the table of cycles.
+    ``rows`` is the table of cycles; ``ranges`` and ``counts`` repeat the equivalent range and the count of every cycle
+    on a curve that bends, and are empty on a straight one.
     """
 
     quantities: Values
@@ -113,7 +114,8 @@ def one_pass(point: Point, record: Record, rules: SpectrumRules, mean_stress: Me
         "with_shear": damage * _shear_factor(kept, t_m, t_b, I_one, curve) ** k if damage > 0 else 0.0,
     }
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
-    return OnePass(values, dS, n, rows)
+    kept_cycles = slice(0) if curve.is_straight else slice(None)
+    return OnePass(values, dS[kept_cycles], n[kept_cycles], rows)
 
 
 def point_values(
@@ -133,6 +135,7 @@ def point_values(
 
     share = weights * per_pass["damage_per_pass"]
     damage = float(share.sum())
+    utilisation = damage * target / limit
     governing = int(share.argmax()) if damage > 0 else None
     spectral = ~np.isnan(per_pass["damage_dirlik_per_pass"])
 
@@ -148,9 +151,9 @@ def point_values(
         "damage_per_km": damage,
         "life_km": life,
         "life_years": life / mission["km_per_year"],
-        "utilisation": damage * target / limit,
-        "fulfilled": damage * target / limit <= 1.0,
-        "load_factor": _load_factor(passes, weights, curve, target, limit),
+        "utilisation": utilisation,
+        "fulfilled": utilisation <= 1.0,
+        "load_factor": _load_factor(passes, weights * target / limit, curve, utilisation),
         "life_km_dirlik": _life(D_dirlik, limit),
         "life_km_tb": _life(D_tb, limit),
         "life_km_same_ratio": _life(D_same, limit),
@@ -185,19 +188,19 @@ def _cycle_rows(cycles: Cycles, m: Floats, b: Floats, record: Record) -> dict[st
     }
 
 
-def _load_factor(passes: Sequence[OnePass], weights: Floats, curve: Curve, target: float, limit: float) -> float:
-    """Scale on all ranges at which the damage of all cycles just meets the target, by bisection."""
-    x = np.concatenate([p.ranges for p in passes])
-    n = np.concatenate([w * p.counts for w, p in zip(weights, passes, strict=True)]) * target / limit
-    if not x.max(initial=0.0) > 0.0 or not n.any():
+def _load_factor(passes: Sequence[OnePass], weights: Floats, curve: Curve, utilisation: float) -> float:
+    """Scale on all ranges at which all cycles together just meet the target, by bisection where the curve bends."""
+    if curve.is_straight:
+        return float(utilisation ** (-1 / curve.slopes[0])) if utilisation > 0 else np.inf
+    x = np.concatenate([one.ranges for one in passes])
+    n = np.concatenate([weight * one.counts for weight, one in zip(weights, passes, strict=True)])
+    if not x[n > 0].max(initial=0.0) > 0.0:
         return np.inf
     low, high = -60.0, 60.0  # of ln(factor)
-    for _ in range(70):
+    for _ in range(60):
         middle = (low + high) / 2
-        if n @ curve.damage(x * np.exp(middle)) > 1.0:
-            high = middle
-        else:
-            low = middle
+        above = n @ curve.damage(x * np.exp(middle)) > 1.0
+        low, high = (low, middle) if above else (middle, high)
     return float(np.exp(low))
 
 

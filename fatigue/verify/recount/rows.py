@@ -15,6 +15,7 @@ from fatigue.verify.recount.point import Event, OnePass, Values
 
 COMPONENTS = ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear")
 NEGLIGIBLE = 1e-9  # of the largest range: what differs between two orders of summation
+SMALL = 1e-2  # of the largest range: the ratio of two parts of a smaller one says little
 _NOT_COLUMNS = {"power_sum", "R_largest", "with_mean_stress", "with_shear", "shear_ratio"}  # of a pass
 
 Key = tuple[str, int, int, str]  # weld, part, order, surface
@@ -56,7 +57,8 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
         "at_end": bool(solved.at_end[at]),
         "at_corner": bool(solved.at_corner[at]),
     }
-    scale = dict.fromkeys(("R_largest_cycle", "bending_ratio", "shear_ratio"), 1.0)
+    scale = dict.fromkeys(("bending_ratio", "shear_ratio"), 1.0)
+    scale["R_largest_cycle"] = max(1.0, values["R_largest_cycle"] ** 2)  # a ratio to a stress that may be close to 0
     scale |= dict.fromkeys(("arc_length_mm", "x_mm", "y_mm", "z_mm"), size)
     scale["mean_stress_MPa"] = values["max_range_MPa"]
     return Row(_place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
@@ -93,12 +95,11 @@ def cycle_row(key: Key, event: Event, one: OnePass, found: pd.DataFrame) -> Row:
 
     Cycles that only rounding makes are left out on both sides. Where the numbers of cycles differ, all columns do.
     """
-    largest = one.rows["range_MPa"].max(initial=0.0)
-    ours = one.rows["range_MPa"] > NEGLIGIBLE * largest
-    theirs = found["range_MPa"].to_numpy() > NEGLIGIBLE * largest
+    our_ranges, their_ranges = one.rows["range_MPa"], found["range_MPa"].to_numpy()
     expected, stored, scale = {}, {}, {}
     for name, column in one.rows.items():
-        a, b = np.sort(column[ours]), np.sort(found[name].to_numpy()[theirs])
+        least = our_ranges.max(initial=0.0) * (SMALL if name == "bending_ratio" else NEGLIGIBLE)
+        a, b = np.sort(column[our_ranges > least]), np.sort(found[name].to_numpy()[their_ranges > least])
         if not len(a) and not len(b):
             continue
         if len(a) != len(b):

@@ -1,0 +1,106 @@
+"""The modes of the forces and those of the simulation: one modal basis, or a refusal that names the difference."""
+
+from collections.abc import Collection, Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.readers.fe_results import FeResults
+from fatigue.readers.force_sign import LOWEST_HZ
+from fatigue.readers.foreign_history import ForeignHistory
+from fatigue.readers.tables import open_table
+
+
+def mode_list(text: str) -> tuple[int, ...]:
+    """Read a list of modes such as ``1-6,31-52``.
+
+    Raises
+    ------
+    CaseError : anything else
+    """
+    modes: list[int] = []
+    for part in text.split(","):
+        first, dash, last = part.strip().partition("-")
+        if not first.isdigit() or (dash and not last.isdigit()) or (dash and int(last) - int(first) > 100_000):
+            raise CaseError(Problem("bad_modes", "list of modes", f"{part!r} is no mode or range", "Write 1-6,31-52"))
+        modes += range(int(first), int(last or first) + 1)
+    return tuple(modes)
+
+
+def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
+    """Leave modes out of a run."""
+    keep = ~np.isin(results.mode, np.array(sorted(ignored), np.int64))
+    if keep.all():
+        return results
+    return replace(
+        results,
+        mode=results.mode[keep],
+        frequency=results.frequency[keep],
+        modal_mass=results.modal_mass[keep],
+        force=results.force[keep],
+        shape=results.shape[keep],
+    )
+
+
+def simulation_modes(path: Path | None) -> dict[int, tuple[float, float]]:
+    """Frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes."""
+    if path is None:
+        return {}
+    table = open_table(path)
+    table.expect(("mode", "frequency_hz"), ("modal_mass", "kind", "damping_ratio"), strict=False)
+    mode, frequency = table.integers("mode"), table.numbers("frequency_hz")
+    mass = table.numbers("modal_mass", default=np.nan)
+    table.refuse()
+    return {int(m): (float(f), float(g)) for m, f, g in zip(mode, frequency, mass, strict=True)}
+
+
+def simulated_frequencies(histories: list[ForeignHistory], table: dict[int, tuple[float, float]]) -> dict[int, float]:
+    """Frequencies of the simulation by FE mode."""
+    if not histories:
+        return {mode: frequency for mode, (frequency, _) in table.items()}
+    return {int(m): float(f) for h in histories for m, f in zip(h.mode, h.frequency, strict=True) if np.isfinite(f)}
+
+
+def common_modes(
+    results: FeResults, histories: list[ForeignHistory], source: Path, interface_modes: Collection[int]
+) -> tuple[FeResults, list[Problem]]:
+    """Leave out rigid modes the simulation does not have; any other difference of the bases is refused."""
+    problems, remarks = [], []
+    have = set(results.mode.tolist())
+    for history in histories:
+        if extra := sorted(set(history.mode.tolist()) - have):
+            problems.append(
+                Problem(
+                    "mode_without_forces",
+                    history.source,
+                    f"modes {_short(extra)} have coordinates and no forces",
+                    "Request their forces, or ignore the modes",
+                )
+            )
+    if histories:
+        common = set.intersection(*(set(h.mode.tolist()) for h in histories))
+        lacking = sorted(have - common)
+        frequency = dict(zip(results.mode.tolist(), results.frequency.tolist(), strict=True))
+        rigid = [m for m in lacking if frequency[m] <= LOWEST_HZ and m not in interface_modes]
+        if elastic := [m for m in lacking if m not in rigid]:
+            problems.append(
+                Problem(
+                    "mode_without_coordinates",
+                    str(source),
+                    f"modes {_short(elastic)} have forces and no coordinates",
+                    "Export their coordinates, or ignore the modes",
+                )
+            )
+        if rigid:
+            remarks.append(
+                Problem("rigid_left_out", str(source), f"rigid modes {_short(rigid)} are left out", "Nothing to do")
+            )
+            results = without_modes(results, rigid)
+    refuse(DataError, problems)
+    return results, remarks
+
+
+def _short(modes: list[int]) -> str:
+    return ", ".join(str(m) for m in modes[:10]) + (f" and {len(modes) - 10} more" if len(modes) > 10 else "")

@@ -1,0 +1,94 @@
+"""Forces for the weld lines: which lines have them, and their way to global axes, neutral units and the mid-surface."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.readers.audit import SHELL_KINDS
+from fatigue.readers.fe_model import FeModel, to_basic
+from fatigue.readers.fe_results import FeResults
+from fatigue.readers.units import Normalisation, UnitSystem
+from fatigue.readers.weld_lines import FoundWelds
+from fatigue.weld.cuts import WeldCut
+from fatigue.weld.mesh import normals
+
+_CONNECTORS = frozenset(
+    {
+        *(
+            "BAR",
+            "BEAM",
+            "BEAM3",
+            "BEND",
+            "ROD",
+            "CONROD",
+            "TUBE",
+            "BUSH",
+            "BUSH1D",
+            "FAST",
+            "WELD",
+            "SEAM",
+            "GAP",
+            "VISC",
+        ),
+        *(f"{kind}{k}" for kind in ("ELAS", "DAMP", "MASS") for k in range(1, 5)),
+        *("CONM1", "CONM2", "RBE2", "RBE3", "RBAR", "RROD"),
+    }
+)
+"""Elements that may touch a weld line without being part of a plate."""
+
+
+def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
+    """Exclude welds whose side lacks forces, or which an element of unknown kind touches."""
+    present: dict[int, set[int]] = {}
+    for element, node in zip(results.element[results.of_element], results.node[results.of_element], strict=True):
+        present.setdefault(int(element), set()).add(int(node))
+    strange = results.of_element & ~np.isin(results.kind, sorted(SHELL_KINDS | _CONNECTORS))
+    strange_at = dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))
+    rows = []
+    for row in found.rows:
+        cut = found.cuts.get(row.line)
+        reason = _force_gap(cut, present, strange_at) if cut is not None and row.status == "assess" else ""
+        rows.append(replace(row, status="excluded", reason=reason) if reason else row)
+    return replace(found, rows=tuple(rows))
+
+
+def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int, str]) -> str:
+    """Why a cut cannot be assessed with the forces at hand; empty if it can."""
+    silent = [int(e) for e in cut.elements if int(e) not in present]
+    if silent:
+        return f"{len(silent)} of {cut.elements.size} elements have no grid point forces, element {silent[0]} the first"
+    covered = set().union(*(present[int(e)] for e in cut.elements))
+    bare = [int(n) for n in cut.line.node if int(n) not in covered]
+    if bare:
+        return f"node {bare[0]} has no grid point forces"
+    touching = [int(n) for n in cut.line.node if int(n) in strange_at]
+    if touching:
+        return f"an element of kind {strange_at[touching[0]]} touches the line at node {touching[0]}"
+    return ""
+
+
+def neutral_forces(
+    results: FeResults, model: FeModel, units: UnitSystem, normalisation: Normalisation
+) -> NDArray[np.floating]:
+    """Turn the forces of all rows into basic axes and N, N mm per unit modal coordinate of the mm, t, s system."""
+    coordinate = units.modal_coordinate(normalisation) if results.analysis == "modal" else 1.0
+    factor = units.force / coordinate * np.array([1.0] * 3 + [units.length] * 3)
+    force = to_basic(results.force, results.node, model)
+    return force if np.all(factor == 1) else (force * factor).astype(force.dtype)
+
+
+def to_mid_surface(
+    force: NDArray[np.floating], results: FeResults, model: FeModel, rows: NDArray[np.int64]
+) -> NDArray[np.floating]:
+    """Move moments from the grids to the mid-surface: the grid lies at -offset along the element normal."""
+    mesh = model.mesh
+    at = np.searchsorted(mesh.element, results.element[rows])
+    offset = mesh.offset[at]
+    shifted = rows[offset != 0]
+    if not shifted.size:
+        return force
+    arm = -(offset[:, None] * normals(mesh)[at])[offset != 0]
+    moved = force.copy()
+    moved[:, shifted, 3:] += np.cross(arm, force[:, shifted, :3])
+    return moved
