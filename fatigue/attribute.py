@@ -39,7 +39,7 @@ class EventAttribution:
     thickness_slope : (p,) by ln(t) through the stress: membrane ~ 1/t, bending ~ 1/t^2 at constant line load
     rule_slope : (p,) by ln(t) through the thickness rule of the curve
     mode, mode_slope : (p, m) damage owed to each mode, below 0 where it relieves; slope by ln(amplitude) of the mode
-    resonant : (p, m) part of ``mode`` within the half-power band f (1 +- 2 zeta) of the mode; NaN without damping
+    resonant : (p, m) part of ``mode`` in resonance, within f (1 +- 2 zeta) of the mode; NaN without damping
     band, band_slope : (p, b) the same for the frequency bands
     edges_hz : (b + 1,) edges of the bands; one band from 0 to infinity for a record too short to have a spectrum
     place : (p, x) damage credited half and half to the two instants of each cycle, per bin of the track
@@ -104,7 +104,7 @@ class Attribution:
 
     @property
     def resonant_share(self) -> Floats:
-        """Part of `mode_share` that each mode makes within its own half-power band, (p, m); NaN without damping."""
+        """Part of `mode_share` that each mode makes in its own resonance, (p, m); NaN without damping."""
         return self.share(np.asarray(sum(event.resonant for event in self.events)))
 
     @property
@@ -187,7 +187,7 @@ def count_credit(sigma_m: Floats, sigma_b: Floats, side: float, rule: DamageRule
 
 
 def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:
-    """Products of the share vectors (p, t) with each mode's coordinate in its own half-power band: (p, m)."""
+    """Products of the share vectors (p, t) with each mode's coordinate in its own resonance: (p, m)."""
     half_width = 2.0 * modes.damping_ratio * modes.frequency
     products = np.full((len(share), len(Q)), np.nan)
     for k in np.flatnonzero(np.isfinite(half_width)):

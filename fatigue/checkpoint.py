@@ -113,7 +113,7 @@ def locked(result_folder: Path) -> Iterator[None]:
     except OSError as error:
         raise _cannot_write(result_folder, error) from error
     with file:
-        if not _take(file.fileno()):
+        if not _take(file.fileno()) or not _is_still(path, file.fileno()):
             raise DataError(
                 Problem(
                     "busy",
@@ -144,6 +144,11 @@ def _take(descriptor: int) -> bool:
     except OSError:
         return False
     return True
+
+
+def _is_still(path: Path, descriptor: int) -> bool:
+    """Whether the locked file is the one at the path, not one that a run which just ended has removed."""
+    return path.exists() and os.path.samestat(os.fstat(descriptor), path.stat())
 
 
 def _cannot_write(path: Path, error: OSError) -> DataError:

@@ -30,8 +30,9 @@ from fatigue.diagnosis_tables import (
     lever_rows,
     track_rows,
 )
-from fatigue.errors import DataError, Problem, refuse
+from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.events import event_loads, mission_plan
+from fatigue.folder import result_log
 from fatigue.levers import best_levers
 from fatigue.life.mission import Plan
 from fatigue.model import weld_groups
@@ -71,27 +72,33 @@ def diagnose(
     Raises
     ------
     DataError : no finished result in the folder, or its inputs are gone or have changed
+    CaseError : band edges or bins that make no sense
     """
+    refuse(CaseError, _senseless(edges_hz, bin_km))
     body = _same_body(folder, case_file)
     plan, _ = mission_plan(body)
     edges = third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64)
-    with locked(folder), threadpool_limits(limits=1, user_api="blas"), _staging(folder) as staging:
+    with (
+        locked(folder),
+        result_log(folder),
+        threadpool_limits(limits=1, user_api="blas"),
+        _staging(folder) as staging,
+    ):
         chosen, worst, which = choose_points(folder, body.case, plan, share_of_limit)
         log.info("diagnosing %s", which)
         groups = weld_groups(body, staging / "forces")
         points, loads = gather_points(folder, groups, chosen), event_loads(groups)
 
         events: list[EventAttribution] = []
-        verdicts: list[EventVerdicts] = []
-        assessed = assessed_rows(folder, np.flatnonzero(chosen), plan)
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))
             events.append(attribute_event(points, load, one_pass, body.modes, edges, bin_km))
         attribution = Attribution(points, tuple(events))
         governing = attribution.event_share[worst].argmax(axis=1)
-        for number, (load, event) in enumerate(zip(loads, events, strict=True)):
-            split_at = worst[governing == number]
-            verdicts.append(event_verdicts(body, load, points, event, assessed[number], split_at))
+        assessed = assessed_rows(folder, np.flatnonzero(chosen), plan)
+        verdicts: list[EventVerdicts] = []
+        for number, (load, event, rows) in enumerate(zip(loads, events, assessed, strict=True)):
+            verdicts.append(event_verdicts(body, load, points, event, rows, worst[governing == number]))
         levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
         progress("diagnosis", len(loads), len(loads))
 
@@ -108,10 +115,20 @@ def diagnose(
     return findings(body, plan, attribution, levers, verdicts, which)
 
 
+def _senseless(edges_hz: Sequence[float] | None, bin_km: float) -> list[Problem]:
+    problems = []
+    if edges_hz is not None and not (np.diff([0.0, *edges_hz]) > 0.0).all():
+        what = f"{list(edges_hz)} does not ascend from above 0 Hz"
+        problems.append(Problem("bad_edges", "edges_hz", what, "Sort the edges of the bands"))
+    if not bin_km > 0.0:
+        problems.append(Problem("bad_bin", "bin_km", f"{bin_km:g} km is not a length", "Give a length above 0"))
+    return problems
+
+
 def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.DataFrame]:
     """Read what ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event."""
     columns = [
-        "event", "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
+        "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
         "kurtosis", "samples_per_peak",
     ]  # fmt: skip
     table, events = read_table(folder, "damage", columns), len(plan.passes)

@@ -97,7 +97,7 @@ class Finding:
             "event": f"{self.event} {_percent(self.event_share)}",
             "bands": bands or "not available: no record is long enough for a spectrum",
             "modes": f"{modes}; relieving modes {_percent(self.relieving_share)}",
-            "place": f"half of {self.event} on {_percent(self.half_damage_part)} of its length, most at {place}, "
+            "place": f"half of the damage of {self.event} on {_percent(self.half_damage_part)} of it, most at {place}, "
             f"{self.place_intensity:.1f} times the average",
             "lever": f"mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
             "Dirlik": f"{self.verdict}: {self.reason}",

@@ -51,7 +51,7 @@ ATTRIBUTION = (
         "resonant_share",
         "float",
         "-",
-        "part of share within the half-power band f (1 +- 2 zeta) of the mode; empty without damping ratio",
+        "part of share in resonance, within f (1 +- 2 zeta) of the mode; empty without damping ratio",
     ),
     Column(
         "life_exponent",

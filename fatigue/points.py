@@ -63,10 +63,11 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
     stations, curve = model.stations, model.case.curve
     names = np.array([weld.name for weld in model.welds], dtype=object)
     yield_MPa = curve.yield_MPa if curve.mean_stress == "asme" else None
+    rated_of_weld = [model.curves[name] for name in model.curve_of_weld]
     rule = np.empty(len(station), dtype=object)
     exponent = np.empty(len(station))
     for i, at in enumerate(station):
-        rated, t = model.curves[model.curve_of_weld[stations.weld[at]]], stations.thickness[at : at + 1]
+        rated, t = rated_of_weld[stations.weld[at]], stations.thickness[at : at + 1]
         size = float(size_factor(t, rated.curve, curve.thickness_rule)[0])
         rule[i] = DamageRule(rated.law, size, rated.curve.applies == "dS", yield_MPa)
         exponent[i] = size_exponent(float(t[0]), rated.curve, curve.thickness_rule)

@@ -14,7 +14,7 @@ from fatigue.attribute import Attribution, attribute_event
 from fatigue.case import load_case
 from fatigue.diagnose import diagnose
 from fatigue.diagnosis_summary import Diagnosis
-from fatigue.errors import DataError
+from fatigue.errors import CaseError, DataError
 from fatigue.events import event_load, mission_plan
 from fatigue.model import read_model
 from fatigue.points import points_of
@@ -36,6 +36,7 @@ class Diagnosed:
     tables: dict[str, pd.DataFrame]
 
     def __getattr__(self, name: str) -> pd.DataFrame:
+        """Give a table by its name."""
         return self.tables[name]
 
 
@@ -85,13 +86,16 @@ def case_with(name: str) -> SmallCase:
     if name == "structural stress curve":
         case.curve |= {"name": "mine"}
         case.extra = (
-            '[curves.mine]\nslopes = [3.0, 5.0]\nknees_cycles = [1e7]\nrange_at_2e6_MPa = 40.0\napplies = "structural"\n'
-            'source = "a test"\nthickness_reference_mm = 5.0\nthickness_exponent = 0.2'
+            "[curves.mine]\nslopes = [3.0, 5.0]\nknees_cycles = [1e7]\nrange_at_2e6_MPa = 40.0\n"
+            'applies = "structural"\nsource = "a test"\nthickness_reference_mm = 5.0\nthickness_exponent = 0.2'
         )
     return case
 
 
-@pytest.mark.parametrize("name", ["knee", "mean stress", "upsampled, factored, single pass", "structural stress curve"])
+RULES = ("knee", "mean stress", "upsampled, factored, single pass", "structural stress curve")
+
+
+@pytest.mark.parametrize("name", RULES)
 def test_every_table_adds_up_to_the_damage_of_the_result(name, tmp_path):
     """Events, modes, bands and places each sum to damage_per_km of every point, whatever the rules."""
     found = run(case_with(name), tmp_path)
@@ -136,13 +140,17 @@ def test_sine_of_one_mode_belongs_to_its_mode_band_and_every_metre(tmp_path):
 
 @pytest.mark.parametrize("mode", [1, 7])
 def test_life_exponents_against_a_second_assessment(small, mode, tmp_path):
-    """Life with one mode 0.1 % larger and smaller, by the whole pipeline, against the exponent of that mode."""
-    step = 1e-3
+    """Life with one mode a little larger and smaller, by the whole pipeline, against the exponent of that mode.
+
+    The step is small because damage is not continuous: where two peaks tie, the instants of a cycle change, and with
+    them its bending ratio.
+    """
+    step = 1e-6
     above, below = (lives(scaled(1.0 + sign * step, mode), tmp_path / f"{sign}").sort_index() for sign in (1, -1))
     rows = small.attribution[small.attribution["mode"] == mode]
     exponent = rows.groupby(POINT)["life_exponent"].sum()
     expected = (np.log(above) - np.log(below)) / (np.log(1.0 + step) - np.log(1.0 - step))
-    assert exponent.to_numpy() == pytest.approx(expected.to_numpy(), abs=2e-3)
+    assert exponent.to_numpy() == pytest.approx(expected.to_numpy(), abs=1e-6)
 
 
 def test_load_and_event_exponents_against_a_second_assessment(small, tmp_path):
@@ -161,14 +169,14 @@ def test_load_and_event_exponents_against_a_second_assessment(small, tmp_path):
 
 
 def test_thickness_exponents_against_a_second_assessment(small, tmp_path):
-    """Plates 0.1 % thicker under the same line loads: stress and thickness rule together."""
-    thicker = small_case()
-    thicker.weld_nodes["thickness_mm"] *= 1.001
+    """Slightly thicker plates under the same line loads: stress and thickness rule together."""
+    thicker, step = small_case(), 1e-6
+    thicker.weld_nodes["thickness_mm"] *= 1.0 + step
     after = lives(thicker, tmp_path).sort_index()
     before = small.nodes.set_index(POINT)["life_km"].sort_index()
     kinds = small.attribution.groupby(["kind", *POINT])["life_exponent"].sum()
     expected = kinds["thickness"].to_numpy() + kinds["thickness_rule"].to_numpy()
-    assert np.log(after / before).to_numpy() / np.log(1.001) == pytest.approx(expected, abs=2e-2)
+    assert np.log(after / before).to_numpy() / np.log1p(step) == pytest.approx(expected, abs=1e-4)
 
 
 def test_levers_are_counted_again_exactly(small, tmp_path):
@@ -229,10 +237,13 @@ def test_summary_names_event_modes_bands_lever_and_verdict(small):
     record = json_ready(small.summary.as_record())
     text = small.summary.as_text()
     assert json.dumps(record)
-    assert [finding["weld"] for finding in record["findings"]] == ["A", "B"]
-    worst = record["findings"][0]
-    assert worst["life_km"] == pytest.approx(small.nodes[small.nodes.weld == "A"]["life_km"].min())
-    assert worst["modes"][0]["mode"] == small.levers.iloc[0]["mode"]
+    shortest = small.nodes[small.nodes.toe].groupby("weld")["life_km"].min().sort_values()
+    assert [finding["weld"] for finding in record["findings"]] == list(shortest.index)
+    assert [finding["life_km"] for finding in record["findings"]] == pytest.approx(list(shortest))
+    for finding in record["findings"]:
+        best = small.levers[(small.levers.weld == finding["weld"]) & (small.levers["rank"] == 1)].iloc[0]
+        assert finding["levers"][0]["mode"] == best["mode"]
+        assert finding["modes"][0]["share"] >= best["share"]
     for word in ("event ", "bands ", "modes ", "place ", "lever ", "Dirlik ", "all 28 points", "Not available"):
         assert word in text
 
@@ -299,6 +310,12 @@ def test_refuses_a_folder_without_result(tmp_path):
     """Nothing to diagnose."""
     with pytest.raises(DataError, match="no finished result"):
         diagnose(tmp_path)
+
+
+def test_refuses_bands_and_bins_that_make_no_sense(tmp_path):
+    """Edges that do not ascend would lose damage; a bin needs a length. Both are said at once."""
+    with pytest.raises(CaseError, match=r"does not ascend(.|\n)*-1 km is not a length"):
+        diagnose(tmp_path, edges_hz=[5.0, 5.0], bin_km=-1.0)
 
 
 def test_refuses_changed_and_missing_inputs(tmp_path):

@@ -8,8 +8,9 @@ With the damage over ds laid on the two instants of every cycle, as one vector g
 
 The same cycles give the gradient of the damage with respect to every sample of the membrane and the bending stress.
 Every sensitivity follows from it by the chain rule: the range, the bending ratio and the mean-stress factor of each
-cycle all move. The gradient is exact where no two cycles tie and none sits on a knee; at a cut-off, where damage jumps,
-it is that of the side where the cycle is.
+cycle all move. It is exact where no two reversals tie and no cycle sits on a knee or a cut-off. Across a tie cycles
+trade instants: their ranges do not jump, but their bending ratios do, so that damage itself has small steps (parts in
+a thousand) which no gradient sees. Nor does it see the cycles that cross a cut-off.
 """
 
 from dataclasses import dataclass

@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
+from numba.extending import intrinsic, overload
 from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import NDArray
 
@@ -36,8 +36,14 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue
 from fatigue.life.rainflow import BlockCount, compiled, count_block, not_finite
 
+if importlib.util.find_spec("fatigue.life.rainflow_simd"):
+    from fatigue.life import rainflow_simd as simd
+else:
+    simd = None
+
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
+Numbers = NDArray[np.floating]  # single precision, or double where a point is counted again
 
 CHUNK = 8192  # samples of a block recovered at once
 PAD = 32  # room behind a row for vector instructions that write more than they keep
@@ -45,10 +51,10 @@ RESIDUE = 1024  # reversals of a point that may wait for the next chunk
 FEW = 32  # reversals that are not worth another pass
 
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
-FLAT = 1e-6  # stress difference lost to rounding, in units of the rms of the modal stresses
+FLAT = 8e-8  # 3 standard deviations of a rounding error per root of the number of modes, of a modal stress rms of 1
 CANCELLATION = 16.0  # modal stresses over their sum from which on single precision is not enough
 RATIO_DEGREE = 10
-DOUBT = 2e-7  # relative doubt about the damage that is let pass
+POINTS = 128  # counted at a time: 256 rows of stress stay in the cache
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,39 +87,40 @@ class _Law(NamedTuple):
 class _State(NamedTuple):
     """What the counter knows of each point and surface (n, 2) between two chunks, and what it has summed up.
 
-    ``first_up`` and ``up`` are the directions of the first step and of the last one, -1 before there is any; ``near``
-    tells whether the last step was flat; ``waiting`` of the reversals ``z``, ``m`` have not closed a cycle. The sums
-    are those of `BlockCount` for normalised stress; ``doubt`` is the sum of the membrane differences between samples of
-    which either may be the extreme.
+    ``start`` are membrane and bending of the first sample. ``first_up`` and ``up`` are the directions of the first step
+    and of the last one, -1 before there is any; ``plateau_m`` is the membrane stress before the first step. The first
+    ``waiting`` of the reversals ``z``, ``m`` have not closed a cycle. The sums are those of `BlockCount` for normalised
+    stress. ``doubtful``: rounding may have decided; ``crowded``: there was no room for all that waits.
     """
 
-    start: Singles
-    flat: Singles
-    first_m: Singles
+    wanted: NDArray[np.bool_]
+    start: Numbers
+    plateau_m: Numbers
     first_up: NDArray[np.int64]
     up: NDArray[np.int64]
-    near: NDArray[np.int64]
     waiting: NDArray[np.int64]
-    z: Singles
-    m: Singles
+    z: Numbers
+    m: Numbers
+    doubtful: NDArray[np.bool_]
+    crowded: NDArray[np.bool_]
     cycles: Floats
     power_sum: Floats
     damage: Floats
     largest: Floats
     fourth: Floats
-    doubt: Floats
     maximum: Floats
     minimum: Floats
 
 
 class _Block(NamedTuple):
-    """Shapes of a block over ``scale`` [MPa] in single precision, mean [MPa] and normalised variance of its stress.
+    """Shapes of a block over ``scale`` [MPa], and mean [MPa] and normalised variance of its stress.
 
-    ``weights`` (2 n, m) are membrane rows above bending rows; ``scale`` (n, 1); ``mean`` and ``variance`` (n, 2);
-    ``trusted`` (n,): single precision is enough.
+    ``membrane`` and ``bending`` (n, m); ``scale`` (n, 1); ``mean``, ``variance`` and ``trusted`` (n, 2), where single
+    precision is enough.
     """
 
-    weights: Singles
+    membrane: Floats
+    bending: Floats
     scale: Floats
     mean: Floats
     variance: Floats
@@ -121,22 +128,23 @@ class _Block(NamedTuple):
 
 
 class _Stage(NamedTuple):
-    """Where in the record a chunk is, and whether the record recurs."""
+    """Where in the record a chunk is, whether the record recurs, and up to what difference rounding may decide."""
 
     begins: bool
     ends: bool
     recurs: bool
+    flat: np.float32
 
 
 class _Room(NamedTuple):
     """Work space of one row: signed reversals, and the ranges of full and of half cycles with their membrane part."""
 
-    z: Singles
-    m: Singles
-    S: Singles
-    dm: Singles
-    half_S: Singles
-    half_dm: Singles
+    z: Numbers
+    m: Numbers
+    S: Numbers
+    dm: Numbers
+    half_S: Numbers
+    half_dm: Numbers
     step: NDArray[np.int8]
     at: NDArray[np.int32]
 
@@ -180,12 +188,12 @@ def horner(c: tuple[np.float32, ...], x: np.float32) -> np.float32:
 
 
 @compiled("contract")
-def raise_to_slope(S: Singles, dm: Singles, n: int, law: _Law) -> None:
+def raise_to_slope(S: Numbers, dm: Numbers, n: int, law: _Law) -> None:
     """Replace S by S^k, and the membrane range dm by S^k I(r)^(-k/m) with r = db / (dm + db)."""
     for i in range(n):
         db = abs(S[i] - dm[i])
-        r = db / max(abs(dm[i]) + db, _TINY)
-        shifted = bits_of(max(S[i], _ZERO)) - _ROOT_BITS
+        r = np.float32(db / max(abs(dm[i]) + db, _TINY))
+        shifted = bits_of(np.float32(max(S[i], _ZERO))) - _ROOT_BITS
         e = np.float32(shifted >> _SHIFT)  # S = 2^e (1 + t)
         t = number_of((shifted & _MANTISSA) + _ROOT_BITS) - _ONE
         rest = law.tail * e + law.slope * (t * horner(_LOG2, t))
@@ -197,7 +205,7 @@ def raise_to_slope(S: Singles, dm: Singles, n: int, law: _Law) -> None:
 
 
 @compiled("reassoc", "nsz", "nnan", "contract")
-def add_up(power: Singles, damage: Singles, n: int) -> tuple[float, float, float]:
+def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, float]:
     """Sums of both and the largest damage."""
     power_sum = 0.0
     damage_sum = 0.0
@@ -210,7 +218,7 @@ def add_up(power: Singles, damage: Singles, n: int) -> tuple[float, float, float
 
 
 @compiled("reassoc", "nsz", "nnan", "contract")
-def fourth_powers(m: Singles, b: Singles) -> tuple[float, float]:
+def fourth_powers(m: Numbers, b: Numbers) -> tuple[float, float]:
     """Sums of (m + b)^4 and (m - b)^4."""
     top = _ZERO
     bottom = _ZERO
@@ -224,45 +232,48 @@ def fourth_powers(m: Singles, b: Singles) -> tuple[float, float]:
 
 @compiled()
 def write_reversals(
-    m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int, up: int, near: int, room: _Room, n: int
-) -> tuple[int, int, int, int]:
-    """Append the reversals among the first samples of the row, and return how many there are now, the direction behind
-    them, whether the last step was flat, and whether any reversal has a flat step beside it.
+    m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: _Room, n: int
+) -> tuple[int, int, bool]:
+    """Append the reversals among the first samples of a row; ``up`` is the direction before them.
+
+    Returns how many reversals there are now, the direction behind them, and whether any step is as small as rounding.
     """
     z, zm, step, at = room.z, room.m, room.step, room.at
+    small_steps = 0
     for i in range(samples):
         ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
-        step[i] = (int(ds > 0) - int(ds < 0)) * (2 - int(abs(ds) <= flat))  # flat steps are 1 high, others 2
+        step[i] = int(ds > 0) - int(ds < 0)
+        small_steps += int(abs(ds) <= flat) & int(m[i + 1] != m[i])
     reversals = 0
     direction = 2 * up - 1
     for i in range(samples):
         at[reversals] = i
         reversals += int(step[i] * direction < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
         direction = step[i] if step[i] != 0 else direction
-    doubtful = 0
     sign = np.float32(2 * up - 1)
     for k in range(reversals):
         i = at[k]
         z[n + k] = sign * (m[i] + side * b[i])
         zm[n + k] = sign * m[i]
-        doubtful |= int(abs(step[i]) < 2) | (int(abs(step[i - 1]) < 2) if i > 0 else near)
         sign = -sign
-    return n + reversals, int(direction > 0), int(abs(step[samples - 1]) < 2), doubtful
+    return n + reversals, int(direction > 0), small_steps > 0
 
 
 @compiled()
-def close_pass(room: _Room, n: int, cycles: int) -> tuple[int, int]:
+def close_pass(room: _Room, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
     """Take out every range smaller than the one before and not larger than the one after; none begins at the start.
 
-    Returns how many reversals are left and how many cycles there are now.
+    Returns how many reversals are left, how many cycles there are now, and whether rounding may have decided.
     """
     z, zm, S, dm = room.z, room.m, room.S, room.dm
-    z[n : n + PAD] = -np.inf
+    z[n] = z[n + 1] = -np.inf
     kept = 0
     before = 1  # whether the range before is not larger
     taken = 0
+    close_calls = 0
     for i in range(n):
         after = int(z[i + 2] >= z[i])
+        close_calls += int(abs(z[i + 2] - z[i]) <= flat) & int(zm[i + 2] != zm[i])
         was_taken, taken = taken, after & (1 - before)
         S[cycles] = z[i] + z[i + 1]
         dm[cycles] = zm[i] + zm[i + 1]
@@ -270,24 +281,29 @@ def close_pass(room: _Room, n: int, cycles: int) -> tuple[int, int]:
         z[kept], zm[kept] = z[i], zm[i]
         kept += 1 - (taken | was_taken)
         before = after
-    return kept, cycles
+    return kept, cycles, close_calls > 0
 
 
-write_reversals_in_lanes, close_pass_in_lanes = write_reversals, close_pass
-if importlib.util.find_spec("fatigue.life.rainflow_simd"):
-    from fatigue.life import rainflow_simd
-    if rainflow_simd.LANES:
-        write_reversals_in_lanes, close_pass_in_lanes = rainflow_simd.write_reversals, rainflow_simd.close_pass
+def find_reversals(*args: Any) -> Any:
+    """Call `write_reversals`, in vector instructions where they are."""
+    return write_reversals(*args)
 
 
-@compiled()
-def material_difference(m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int) -> float:
-    """Sum of the membrane differences over flat steps."""
-    total = 0.0
-    for i in range(samples):
-        if abs((m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])) <= flat:
-            total += abs(m[i + 1] - m[i])
-    return total
+def close_ranges(*args: Any) -> Any:
+    """Call `close_pass`, in vector instructions where they are."""
+    return close_pass(*args)
+
+
+@overload(find_reversals, strict=False)
+def _find_reversals(m: Any, b: Any, side: Any, flat: Any, samples: Any, up: Any, room: Any, n: Any) -> Any:
+    step = simd.write_reversals if simd and m.dtype == types.float32 else write_reversals
+    return lambda m, b, side, flat, samples, up, room, n: step(m, b, side, flat, samples, up, room, n)
+
+
+@overload(close_ranges, strict=False)
+def _close_ranges(room: Any, n: Any, cycles: Any, flat: Any) -> Any:
+    step = simd.close_pass if simd and room.types[0].dtype == types.float32 else close_pass
+    return lambda room, n, cycles, flat: step(room, n, cycles, flat)
 
 
 @compiled()
@@ -299,48 +315,46 @@ def rotate_to_maximum(room: _Room, n: int, first_peak: int) -> int:
         first = i if z[i] > z[first] else first
     for i in range(n + 1):
         path[i], path_m[i] = z[(first + i) % n], zm[(first + i) % n]
-    z[: n + 1], zm[: n + 1] = path[: n + 1], path_m[: n + 1]
+    for i in range(n + 1):
+        z[i], zm[i] = path[i], path_m[i]
     return n + 1
 
 
 @compiled()
-def close_on_stack(room: _Room, n: int, recurs: bool, cycles: int) -> tuple[int, int]:
-    """Do what `rainflow.close_cycles` does on signed reversals; returns how many full and half cycles there are."""
-    z, zm = room.z, room.m
+def close_on_stack(room: _Room, n: int, recurs: bool, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
+    """Do what `rainflow.close_cycles` does, on signed reversals.
+
+    Returns how many full and half cycles there are, and whether rounding may have decided.
+    """
+    z, zm, S, dm, half_S, half_dm = room.z, room.m, room.S, room.dm, room.half_S, room.half_dm
     halves = 0
     base = 0
     top = -1
+    close_call = False
     for k in range(n):
         top += 1
         z[top], zm[top] = z[k], zm[k]
-        while top - base >= 2 and z[top] >= z[top - 2]:
+        while top - base >= 2:
+            close_call |= abs(z[top] - z[top - 2]) <= flat and zm[top] != zm[top - 2]
+            if z[top] < z[top - 2]:
+                break
             if top - base == 2 and not recurs:
-                room.half_S[halves], room.half_dm[halves] = z[base] + z[base + 1], zm[base] + zm[base + 1]
+                half_S[halves], half_dm[halves] = z[base] + z[base + 1], zm[base] + zm[base + 1]
                 halves += 1
                 base += 1
             else:
-                room.S[cycles], room.dm[cycles] = z[top - 2] + z[top - 1], zm[top - 2] + zm[top - 1]
+                S[cycles], dm[cycles] = z[top - 2] + z[top - 1], zm[top - 2] + zm[top - 1]
                 cycles += 1
                 z[top - 2], zm[top - 2] = z[top], zm[top]
                 top -= 2
     for k in range(base, top):
-        room.half_S[halves], room.half_dm[halves] = z[k] + z[k + 1], zm[k] + zm[k + 1]
+        half_S[halves], half_dm[halves] = z[k] + z[k + 1], zm[k] + zm[k + 1]
         halves += 1
-    return cycles, halves
+    return cycles, halves, close_call
 
 
 @compiled()
-def begin(m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int) -> tuple[int, np.float32, float]:
-    """Find the first step: its direction (-1: there is none), the membrane stress before it, and the doubt about it."""
-    for i in range(samples):
-        s, following = m[i] + side * b[i], m[i + 1] + side * b[i + 1]
-        if s != following:
-            return int(following > s), m[i], abs(m[i + 1] - m[i]) if abs(following - s) <= flat else _ZERO
-    return -1, _ZERO, _ZERO
-
-
-@compiled()
-def extremes(z: Singles, n: int, first_peak: int) -> tuple[float, float]:
+def extremes(z: Numbers, n: int, first_peak: int) -> tuple[float, float]:
     """Largest and smallest stress: closing cycles never takes the last one of either out."""
     largest, smallest = -np.inf, -np.inf
     for i in range(n):
@@ -352,60 +366,7 @@ def extremes(z: Singles, n: int, first_peak: int) -> tuple[float, float]:
 
 
 @compiled()
-def count_side(
-    m: Singles, b: Singles, at: tuple[int, int], samples: int, stage: _Stage, law: _Law, state: _State, room: _Room
-) -> None:
-    """Count one surface of one point over the steps of one chunk."""
-    side = np.float32(1 - 2 * at[1])
-    flat = state.flat[at[0]]
-    z, zm = room.z, room.m
-    n = state.waiting[at]
-    z[:n], zm[:n] = state.z[at][:n], state.m[at][:n]
-    if state.up[at] < 0:
-        first_up, state.first_m[at], doubt = begin(m, b, side, flat, samples)
-        state.up[at] = state.first_up[at] = first_up
-        state.doubt[at] += doubt
-        if first_up < 0:
-            return
-        if not stage.recurs:  # a single pass has a reversal at its first sample
-            first, first_m = state.start[at[0], 0] + side * state.start[at[0], 1], state.start[at[0], 0]
-            z[0], zm[0] = (-first, -first_m) if first_up else (first, first_m)
-            n = 1
-    first_up = state.first_up[at]
-    n, up, near, doubtful = write_reversals_in_lanes(m, b, side, flat, samples, state.up[at], state.near[at], room, n)
-    state.up[at], state.near[at] = up, near
-    if doubtful:
-        state.doubt[at] += material_difference(m, b, side, flat, samples)
-    if stage.ends and not (stage.recurs and up == first_up):
-        last = m[samples] + side * b[samples]
-        last_m = state.first_m[at] if stage.recurs else m[samples]
-        z[n], zm[n] = (last, last_m) if up else (-last, -last_m)
-        n += 1
-
-    cycles, before = 0, 2 * n
-    while n > FEW and before - n > before // 8:
-        before = n
-        n, cycles = close_pass_in_lanes(room, n, cycles)
-    if stage.ends:
-        first_peak = 1 - first_up if stage.recurs else first_up
-        state.maximum[at], state.minimum[at] = extremes(z, n, first_peak)
-        if stage.recurs:
-            n = rotate_to_maximum(room, n, first_peak)
-        cycles, halves = close_on_stack(room, n, stage.recurs, cycles)
-        raise_to_slope(room.half_S, room.half_dm, halves, law)
-        add_cycles(room.half_S, room.half_dm, halves, 0.5, at, state)
-    elif n <= RESIDUE:
-        state.z[at][:n], state.m[at][:n] = z[:n], zm[:n]
-        state.waiting[at] = n
-    else:
-        state.doubt[at] = np.inf
-        state.waiting[at] = 0
-    raise_to_slope(room.S, room.dm, cycles, law)
-    add_cycles(room.S, room.dm, cycles, 1.0, at, state)
-
-
-@compiled()
-def add_cycles(power: Singles, damage: Singles, n: int, count: float, at: tuple[int, int], state: _State) -> None:
+def add_cycles(power: Numbers, damage: Numbers, n: int, count: float, at: tuple[int, int], state: _State) -> None:
     """Add the first n cycles, counting ``count`` each, to the sums."""
     power_sum, damage_sum, largest = add_up(power, damage, n)
     state.cycles[at] += count * n
@@ -415,8 +376,72 @@ def add_cycles(power: Singles, damage: Singles, n: int, count: float, at: tuple[
 
 
 @compiled()
-def count_chunk(stress: Singles, samples: int, stage: _Stage, law: _Law, state: _State, room: _Room) -> None:
-    """Count the steps between the first samples + 1 columns of the block, membrane rows above bending rows."""
+def begin_side(m: Numbers, b: Numbers, side: np.float32, steps: int, at: tuple[int, int], state: _State) -> None:
+    """Look for the first step of the record."""
+    for i in range(steps):
+        s, following = m[i] + side * b[i], m[i + 1] + side * b[i + 1]
+        if s != following:
+            state.up[at] = state.first_up[at] = int(following > s)
+            state.plateau_m[at] = m[i]
+            return
+
+
+@compiled()
+def count_side(
+    m: Numbers, b: Numbers, steps: int, at: tuple[int, int], stage: _Stage, law: _Law, state: _State, room: _Room
+) -> None:
+    """Count one surface of one point over the steps of a chunk."""
+    side = np.float32(1 - 2 * at[1])
+    z, zm = room.z, room.m
+    n = state.waiting[at]
+    for i in range(n):
+        z[i], zm[i] = state.z[at][i], state.m[at][i]
+    if state.up[at] < 0:
+        begin_side(m, b, side, steps, at, state)
+        if state.up[at] < 0:
+            return
+        if not stage.recurs:  # a single pass turns at its first sample
+            sign = np.float32(1 - 2 * state.first_up[at])
+            z[0], zm[0] = sign * (state.start[at[0], 0] + side * state.start[at[0], 1]), sign * state.start[at[0], 0]
+            n = 1
+    first_up = state.first_up[at]
+    n, up, doubtful = find_reversals(m, b, side, stage.flat, steps, state.up[at], room, n)
+    state.up[at] = up
+    if stage.ends and not (stage.recurs and up == first_up):  # a block that recurs turns where its first plateau ends
+        sign = np.float32(2 * up - 1)
+        z[n] = sign * (m[steps] + side * b[steps])
+        zm[n] = sign * (state.plateau_m[at] if stage.recurs else m[steps])
+        n += 1
+
+    cycles, before = 0, 2 * n
+    while n > FEW and before - n > before // 8:
+        before = n
+        n, cycles, close_call = close_ranges(room, n, cycles, stage.flat)
+        doubtful |= close_call
+    if stage.ends:
+        first_peak = 1 - first_up if stage.recurs else first_up
+        state.maximum[at], state.minimum[at] = extremes(z, n, first_peak)
+        if stage.recurs:
+            n = rotate_to_maximum(room, n, first_peak)
+        cycles, halves, close_call = close_on_stack(room, n, stage.recurs, cycles, stage.flat)
+        doubtful |= close_call
+        raise_to_slope(room.half_S, room.half_dm, halves, law)
+        add_cycles(room.half_S, room.half_dm, halves, 0.5, at, state)
+    elif n <= state.z.shape[2]:
+        for i in range(n):
+            state.z[at][i], state.m[at][i] = z[i], zm[i]
+        state.waiting[at] = n
+    else:
+        state.crowded[at] = True
+        state.waiting[at] = 0
+    raise_to_slope(room.S, room.dm, cycles, law)
+    add_cycles(room.S, room.dm, cycles, 1.0, at, state)
+    state.doubtful[at] |= doubtful
+
+
+@compiled()
+def count_chunk(stress: Numbers, samples: int, stage: _Stage, law: _Law, state: _State, room: _Room) -> None:
+    """Count the steps between the first samples + 1 columns of a block, its membrane rows above its bending rows."""
     points = stress.shape[0] // 2
     for row in range(points):
         m, b = stress[row], stress[points + row]
@@ -430,9 +455,11 @@ def count_chunk(stress: Singles, samples: int, stage: _Stage, law: _Law, state: 
         if stage.ends and stage.recurs:  # and the step from the last sample to the first one
             steps += 1
             m[steps], b[steps] = state.start[row, 0], state.start[row, 1]
-        m[steps + 1 : steps + PAD], b[steps + 1 : steps + PAD] = m[steps], b[steps]  # level, so nothing turns there
+        for i in range(steps + 1, steps + PAD):
+            m[i], b[i] = m[steps], b[steps]  # level, so that nothing turns here
         for surface in range(2):
-            count_side(m, b, (row, surface), steps, stage, law, state, room)
+            if state.wanted[row, surface]:
+                count_side(m, b, steps, (row, surface), stage, law, state, room)
         m[0], b[0] = m[samples], b[samples]
 
 
@@ -494,62 +521,71 @@ def count_block_fast(
     choices = {"uses_bending_ratio": uses_bending_ratio, "residue": residue, "yield_MPa": yield_MPa, "mean_stress": mean_stress}
 
     def exactly(rows: Any) -> BlockCount:
-        q = record.exact
-        return count_block(S_m[rows] @ q, S_b[rows] @ q, size[rows], same_ratio[rows], law, **choices)
+        membrane, bending = S_m[rows] @ record.exact, S_b[rows] @ record.exact
+        return count_block(membrane, bending, size[rows], same_ratio[rows], law, **choices)
 
     if not is_fast(law, record):
         return exactly(slice(None))
     block = _normalised(S_m, S_b, record)
-    state = _count(block, record, residue == "repeat", law, uses_bending_ratio)
+    rules = _law(float(law.slopes[0]), uses_bending_ratio)
+    everywhere = np.ones((len(size), 2), np.bool_)
+    state = _count(block, everywhere, record, rules, residue == "repeat", np.float32)
+    doubtful = (state.doubtful | ~block.trusted) & ~state.crowded
+    rows = np.flatnonzero(doubtful.any(axis=1))
+    if rows.size:
+        wanted = doubtful[rows]
+        again = _count(_Block(*(a[rows] for a in block)), wanted, record, rules, residue == "repeat", np.float64)
+        for old, new in zip(state, again, strict=True):
+            old[doubtful] = new[wanted]
     count = _evaluated(state, block, record, size, same_ratio, law, uses_bending_ratio)
-    top = block.mean + block.scale * state.maximum
-    doubtful = ~block.trusted[:, None] | _in_doubt(state, law)
+    unsuited = state.crowded
     if yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
-        doubtful |= 2.0 * top >= (1.0 - 1e-6) * yield_MPa
+        unsuited |= 2.0 * (block.mean + block.scale * state.maximum) >= (1.0 - 1e-6) * yield_MPa
         count = replace(count, damage_mean_stress=count.damage.copy())
-    again = np.flatnonzero(doubtful.any(axis=1))
-    if again.size:
-        exact = exactly(again)
+    rows = np.flatnonzero(unsuited.any(axis=1))
+    if rows.size:
+        exact = exactly(rows)
         for field in fields(BlockCount):
-            getattr(count, field.name)[again] = getattr(exact, field.name)
+            getattr(count, field.name)[rows] = getattr(exact, field.name)
     return count
 
 
 def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
     """Divide the shapes of each point by a power of 2 so that its modal stresses have an rms of about 1."""
-    points = len(S_m)
-    S = np.concatenate([S_m, S_b])
-    mean_m, mean_b = np.split(S @ record.mean, 2)
-    CS = S @ record.covariance
-    membrane, bending = np.split((CS * S).sum(axis=1), 2)
-    both = 2.0 * (CS[:points] * S_b).sum(axis=1)
-    variance = np.maximum((membrane + bending)[:, None] + np.stack([both, -both], axis=1), 0.0)
-    modal = np.sum(np.split(S**2 @ np.diagonal(record.covariance), 2), axis=0)
-    scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])
+    membrane, bending, both = (((a @ record.covariance) * b).sum(axis=1) for a, b in ((S_m, S_m), (S_b, S_b), (S_m, S_b)))
+    variance = np.maximum((membrane + bending)[:, None] + 2.0 * np.stack([both, -both], axis=1), 0.0)
+    mean_m, mean_b = S_m @ record.mean, S_b @ record.mean
+    modal = (S_m**2 + S_b**2) @ np.diagonal(record.covariance)
+    scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])[:, None]
     return _Block(
-        weights=(S / np.tile(scale, 2)[:, None]).astype(np.float32),
-        scale=scale[:, None],
+        membrane=S_m / scale,
+        bending=S_b / scale,
+        scale=scale,
         mean=np.stack([mean_m + mean_b, mean_m - mean_b], axis=1),
-        variance=variance / scale[:, None] ** 2,
-        trusted=(variance.min(axis=1) * CANCELLATION**2 >= modal),
+        variance=variance / scale**2,
+        trusted=variance * CANCELLATION**2 >= modal[:, None],
     )
 
 
-def _count(block: _Block, record: Record, recurs: bool, law: DamageLaw, uses_bending_ratio: bool) -> _State:
-    """Count a block of normalised stress chunk by chunk."""
-    points, t = len(block.scale), record.q.shape[1]
-    state = _fresh_state(points)
-    state.flat[:] = FLAT if uses_bending_ratio else -1.0
-    edges = np.linspace(0, t, -(-t // CHUNK) + 1).astype(int)
-    longest = int(np.diff(edges).max())
-    stress = np.empty((2 * points, longest + 1 + PAD), np.float32)
-    kinds = (np.float32,) * 6 + (np.int8, np.int32)
-    room = _Room(*(np.empty(longest + RESIDUE + 2 * PAD, kind) for kind in kinds))
-    rules = _law(float(law.slopes[0]), uses_bending_ratio)
-    for first, end in pairwise(edges.tolist()):
-        samples = end - first
-        np.matmul(block.weights, record.q[:, first:end], out=stress[:, 1 : samples + 1])
-        count_chunk(stress, samples, _Stage(first == 0, end == t, recurs), rules, state, room)
+def _count(block: _Block, wanted: NDArray[np.bool_], record: Record, rules: _Law, recurs: bool, precision: type[np.floating]) -> _State:
+    """Count normalised stress, some points and some samples at a time."""
+    single = precision is np.float32
+    flat = np.float32(FLAT * math.sqrt(len(record.q)) if single else -1.0)
+    points, t = len(wanted), record.q.shape[1]
+    edges = np.linspace(0, t, -(-t // CHUNK) + 1).astype(int).tolist()
+    width = max(end - first for first, end in pairwise(edges)) + 1 + PAD
+    room = _room(width, precision)
+    state = _fresh_state(wanted, precision)
+    for first_point in range(0, points, POINTS):
+        piece = slice(first_point, first_point + POINTS)
+        weights = np.concatenate([block.membrane[piece], block.bending[piece]]).astype(precision)
+        stress = np.empty((len(weights), width), precision)
+        piece_of_state = _State(*(a[piece] for a in state))
+        for first, end in pairwise(edges):
+            q = record.q[:, first:end] if single else record.exact[:, first:end] - record.mean[:, None]
+            np.matmul(weights, q, out=stress[:, 1 : end - first + 1])
+            stage = _Stage(first == 0, end == t, recurs, flat)
+            count_chunk(stress, end - first, stage, rules, piece_of_state, room)
     return state
 
 
@@ -577,31 +613,23 @@ def _evaluated(
     )
 
 
-def _in_doubt(state: _State, law: DamageLaw) -> NDArray[np.bool_]:
-    """Where the choice between samples at flat extremes could change the damage by more than ``DOUBT`` of it.
+def _fresh_state(wanted: NDArray[np.bool_], precision: type[np.floating]) -> _State:
+    """Nothing counted yet."""
+    shape = wanted.shape
+    kinds = {
+        "wanted": (shape, np.bool_), "start": (shape, precision), "plateau_m": (shape, precision), "first_up": (shape, np.int64),
+        "up": (shape, np.int64), "waiting": (shape, np.int64), "z": ((*shape, RESIDUE), precision), "m": ((*shape, RESIDUE), precision),
+        "doubtful": (shape, np.bool_), "crowded": (shape, np.bool_),
+    }
+    state = _State(*(np.zeros(*kinds.get(name, (shape, np.float64))) for name in _State._fields))
+    state.wanted[:] = wanted
+    state.up[:] = state.first_up[:] = -1
+    return state
 
-    A cycle of range S that takes the other sample, with a membrane stress that differs by e, has a bending ratio that
-    differs by at most 2 e / S; ln I^(1/m) changes by at most 0.254 per unit of it.
-    """
-    k = float(law.slopes[0])
-    worst = 2.0 * 0.254 * k * state.doubt * (state.maximum - state.minimum) ** (k - 1.0) * damage.ratio_factor(np.zeros(1)) ** -k
-    return np.asarray(worst > DOUBT * state.damage)
 
-
-def _fresh_state(points: int) -> _State:
-    shape = (points, 2)
-    return _State(
-        start=np.zeros(shape, np.float32),
-        flat=np.zeros(points, np.float32),
-        first_m=np.zeros(shape, np.float32),
-        first_up=np.full(shape, -1),
-        up=np.full(shape, -1),
-        near=np.zeros(shape, np.int64),
-        waiting=np.zeros(shape, np.int64),
-        z=np.empty((*shape, RESIDUE), np.float32),
-        m=np.empty((*shape, RESIDUE), np.float32),
-        **{name: np.zeros(shape) for name in _State._fields[9:]},
-    )
+def _room(width: int, precision: type[np.floating]) -> _Room:
+    kinds = (precision,) * 6 + (np.int8, np.int32)
+    return _Room(*(np.empty(width + RESIDUE + PAD, kind) for kind in kinds))
 
 
 @cache

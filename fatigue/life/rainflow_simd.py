@@ -57,6 +57,10 @@ class _Vector:
         lane_0 = ir.Constant(ir.VectorType(I32, LANES), [0] * LANES)
         return self.builder.shuffle_vector(one, ir.Constant(self.type, ir.Undefined), lane_0)
 
+    def absolute(self, number: Any) -> Any:
+        zero = ir.Constant(self.type, [0.0] * LANES)
+        return self.builder.select(self.builder.fcmp_ordered("<", number, zero), self.builder.fneg(number), number)
+
     def bits(self, mask: Any) -> Any:
         """One bit per lane, as an integer of 64 bits."""
         return self.builder.zext(self.builder.bitcast(mask, ir.IntType(LANES)), I64)
@@ -101,23 +105,26 @@ class _Vector:
 
 @intrinsic
 def _reversals_of_lanes(
-    typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, near: Any, z: Any, zm: Any, n: Any
+    typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, z: Any, zm: Any, n: Any
 ) -> Any:
     """Do what `rainflow_fast.write_reversals` does for the samples i to i + LANES - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        m_, b_, side_, flat_, i_, up_, near_, z_, zm_, n_ = args
+        m_, b_, side_, flat_, i_, up_, z_, zm_, n_ = args
         vector = _Vector(context, builder)
         following = builder.add(i_, ir.Constant(I64, 1))
         sign = vector.everywhere(side_)
         membrane = vector.load(m, m_, i_)
         s = builder.fadd(membrane, builder.fmul(sign, vector.load(b, b_, i_)))
-        s_next = builder.fadd(vector.load(m, m_, following), builder.fmul(sign, vector.load(b, b_, following)))
+        next_membrane = vector.load(m, m_, following)
+        s_next = builder.fadd(next_membrane, builder.fmul(sign, vector.load(b, b_, following)))
         step = builder.fsub(s_next, s)
         zero = ir.Constant(vector.type, [0.0] * LANES)
         rises, level = vector.compare(">", step, zero), vector.compare("==", step, zero)
-        size = builder.select(builder.fcmp_ordered("<", step, zero), builder.fneg(step), step)
-        is_near = vector.compare("<=", size, vector.everywhere(flat_))
+        small = builder.and_(
+            vector.compare("<=", vector.absolute(step), vector.everywhere(flat_)),
+            vector.compare("!=", next_membrane, membrane),
+        )
 
         # The carry of the addition runs through level steps (0 + 1) and takes the direction before them along.
         rises_or_level = builder.or_(rises, level)
@@ -125,38 +132,39 @@ def _reversals_of_lanes(
         up_before = builder.xor(total, builder.xor(rises_or_level, rises))
         turns = builder.and_(builder.not_(level), builder.xor(rises, up_before))
         turns = builder.and_(turns, ir.Constant(I64, 2**LANES - 1))
-        beside = builder.or_(is_near, builder.or_(builder.shl(is_near, ir.Constant(I64, 1)), near_))
-        doubtful = builder.and_(turns, beside)
-
         peaks = vector.lanes(up_before)
         vector.store_selected(builder.select(peaks, s, builder.fneg(s)), turns, z, z_, n_)
         vector.store_selected(builder.select(peaks, membrane, builder.fneg(membrane)), turns, zm, zm_, n_)
         n_ = builder.add(n_, builder.ctpop(turns))
         up_ = builder.lshr(total, ir.Constant(I64, LANES))
-        near_ = builder.lshr(is_near, ir.Constant(I64, LANES - 1))
-        return context.make_tuple(builder, signature.return_type, [n_, up_, near_, doubtful])
+        return context.make_tuple(builder, signature.return_type, [n_, up_, small])
 
     integer = types.int64
-    arguments = (m, b, types.float32, types.float32, integer, integer, integer, z, zm, integer)
-    return types.UniTuple(integer, 4)(*arguments), generate
+    arguments = (m, b, types.float32, types.float32, integer, integer, z, zm, integer)
+    return types.UniTuple(integer, 3)(*arguments), generate
 
 
 @intrinsic
 def _cycles_of_lanes(
-    typing: Any, z: Any, zm: Any, S: Any, dm: Any, i: Any, n: Any, before: Any, taken: Any, kept: Any, cycles: Any
+    typing: Any, z: Any, zm: Any, S: Any, dm: Any, i: Any, n: Any, before: Any, taken: Any, kept: Any, cycles: Any, flat: Any
 ) -> Any:
     """Do what `rainflow_fast.close_pass` does for the reversals i to i + LANES - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_ = args
+        z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_, flat_ = args
         vector = _Vector(context, builder)
         one = ir.Constant(I64, 1)
         next_, second = builder.add(i_, one), builder.add(i_, ir.Constant(I64, 2))
         z0, m0 = vector.load(z, z_, i_), vector.load(zm, zm_, i_)
-        after = vector.compare(">=", vector.load(z, z_, second), z0)
         left = builder.sub(n_, i_)
         within = builder.icmp_signed("<", left, ir.Constant(I64, LANES))
         there = builder.select(within, builder.sub(builder.shl(one, left), one), ir.Constant(I64, 2**LANES - 1))
+        z2, m2 = vector.load(z, z_, second), vector.load(zm, zm_, second)
+        after = vector.compare(">=", z2, z0)
+        difference = vector.absolute(builder.fsub(z2, z0))
+        close_calls = builder.and_(
+            builder.and_(vector.compare("<=", difference, vector.everywhere(flat_)), vector.compare("!=", m2, m0)), there
+        )
         take = builder.and_(after, builder.not_(builder.or_(builder.shl(after, one), before_)))
         take = builder.and_(take, there)
         drop = builder.or_(take, builder.or_(builder.shl(take, one), taken_))
@@ -174,32 +182,35 @@ def _cycles_of_lanes(
             builder.add(cycles_, builder.ctpop(take)),
             builder.lshr(after, last),
             builder.lshr(take, last),
+            close_calls,
         ]
         return context.make_tuple(builder, signature.return_type, results)
 
     integer = types.int64
-    return types.UniTuple(integer, 4)(z, zm, S, dm, *(integer,) * 6), generate
+    return types.UniTuple(integer, 5)(z, zm, S, dm, *(integer,) * 6, types.float32), generate
 
 
 @compiled()
 def write_reversals(
-    m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int, up: int, near: int, room: Any, n: int
-) -> tuple[int, int, int, int]:
+    m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
+) -> tuple[int, int, bool]:
     """Do what `rainflow_fast.write_reversals` does."""
-    doubtful = 0
+    small_steps = 0
     for i in range(0, samples, LANES):
-        n, up, near, unsure = _reversals_of_lanes(m, b, side, flat, i, up, near, room.z, room.m, n)
-        doubtful |= unsure
-    return n, up, near, min(doubtful, 1)
+        n, up, small = _reversals_of_lanes(m, b, side, flat, i, up, room.z, room.m, n)
+        small_steps |= small
+    return n, up, small_steps != 0
 
 
 @compiled()
-def close_pass(room: Any, n: int, cycles: int) -> tuple[int, int]:
+def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
     """Do what `rainflow_fast.close_pass` does."""
     z, zm, S, dm = room.z, room.m, room.S, room.dm
-    z[n : n + 32] = -np.inf
+    z[n] = z[n + 1] = -np.inf
     kept = 0
     before, taken = 1, 0
+    close_calls = 0
     for i in range(0, n, LANES):
-        kept, cycles, before, taken = _cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles)
-    return kept, cycles
+        kept, cycles, before, taken, close = _cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles, flat)
+        close_calls |= close
+    return kept, cycles, close_calls != 0

@@ -56,7 +56,7 @@ class Inputs:
     def _unchanged(self, name: str) -> Path:
         if self.root is None:
             raise DataError(
-                Problem("missing_case", name, "the case of this result was not found", "Name the case file as well")
+                Problem("missing_case", name, "the case file is not where it was, or has changed", "Name the case file as well")
             )
         path = self.root / name
         if not path.is_file():
@@ -69,25 +69,24 @@ class Inputs:
 def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None) -> Inputs:
     """Find the inputs of the result with this provenance record.
 
-    The case file is looked for where ``case_path`` says, else in the result folder, beside it and in the current folder;
-    it counts as found when its text is the one that was assessed.
+    The case file is where ``case_path`` says, by default where the record says. It counts as found when its text is the
+    one that was assessed.
 
     Raises
     ------
     DataError : the case text in the record is no case, so the record is damaged
     """
     text: str = record["case_text"]
-    name: str = record["case_file"]
     try:
         case = Case.model_validate(tomllib.loads(text))
     except (ValueError, FatigueError) as error:
         raise DataError(
             Problem("damaged_result", "provenance.json", f"holds no valid case ({error})", "Run the assessment again")
         ) from None
-    wanted = [case_path] if case_path is not None else [place / name for place in (folder, folder.parent, Path())]
-    found = next((path for path in wanted if _holds(path, text)), None)
+    path = case_path or folder / record["case_path"]
+    root = path.parent if _holds(path, text) else None
     hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
-    return Inputs(case, None if found is None else found.parent, hashes, tuple(record["modes"]["used"]))
+    return Inputs(case, root, hashes, tuple(record["modes"]["used"]))
 
 
 def _holds(path: Path, text: str) -> bool:

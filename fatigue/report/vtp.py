@@ -1,6 +1,8 @@
 """Weld lines for ParaView: one poly-line per line part, every column of both faces as point data (VTK XML PolyData)."""
 
 import base64
+from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -8,9 +10,23 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.errors import DataError, Problem
 from fatigue.results import NODES, read_table
+from fatigue.weld.line import WeldLine
 
-STATION = ("weld", "part", "node", "order", "arc_length_mm", "x_mm", "y_mm", "z_mm", "thickness_mm", "at_end", "at_corner")
+STATION = (
+    "weld",
+    "part",
+    "node",
+    "order",
+    "arc_length_mm",
+    "x_mm",
+    "y_mm",
+    "z_mm",
+    "thickness_mm",
+    "at_end",
+    "at_corner",
+)
 _XYZ = ["x_mm", "y_mm", "z_mm"]
 _VTK_TYPE = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}
 
@@ -19,8 +35,8 @@ def write_vtp(folder: Path) -> Path:
     """Write ``weld_lines.vtp`` beside the tables of a result.
 
     A point of the file is a node of a weld line. Columns that differ between the faces come twice, with ``_top`` and
-    ``_bottom`` at the end of their name; texts are VTK strings, and ``weld_number`` counts the welds in the order of the
-    register, for colouring. Source of the format: VTK file formats, XML PolyData.
+    ``_bottom`` at the end of their name; texts are VTK strings, and ``weld_number`` counts the welds in the order of
+    the register, for colouring. Source of the format: VTK file formats, XML PolyData.
 
     Raises
     ------
@@ -32,40 +48,72 @@ def write_vtp(folder: Path) -> Path:
     bottom = nodes[nodes["surface"] == "bottom"].reset_index(drop=True)
 
     ring = (closed["closed"] & (closed["parts"] == 1)).to_dict()
-    pieces, ends = [], []
+    pieces = []
     for (weld, _), rows in top.groupby(["weld", "part"], sort=False).indices.items():
         pieces.append(np.append(rows, rows[0]) if ring[weld] else rows)
-        ends.append(len(pieces[-1]))
-    connectivity, offsets = np.concatenate(pieces), np.cumsum(ends)
 
     point_data = [_array(name, top[name]) for name in STATION if name not in _XYZ]
     point_data.append(_array("weld_number", top["weld"].map({weld: i for i, weld in enumerate(closed.index, 1)})))
     for column in NODES:
         if column.name not in (*STATION, "surface"):
-            point_data += [_array(f"{column.name}_{face}", rows[column.name]) for face, rows in (("top", top), ("bottom", bottom))]
-    lines = [
-        '<?xml version="1.0"?>',
-        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">',
-        "<PolyData>",
-        f'<Piece NumberOfPoints="{len(top)}" NumberOfVerts="0" NumberOfLines="{len(pieces)}" NumberOfStrips="0" '
-        'NumberOfPolys="0">',
-        "<Points>",
-        _data("Points", "f8", top[_XYZ].to_numpy(), components=3),
-        "</Points>",
-        "<Lines>",
-        _data("connectivity", "i8", connectivity),
-        _data("offsets", "i8", offsets),
-        "</Lines>",
-        '<PointData Scalars="life_km_top">',
-        *point_data,
-        "</PointData>",
-        "</Piece>",
-        "</PolyData>",
-        "</VTKFile>",
-    ]
+            point_data += [
+                _array(f"{column.name}_{face}", rows[column.name]) for face, rows in (("top", top), ("bottom", bottom))
+            ]
     path = folder / "weld_lines.vtp"
-    path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
+    path.write_text(_poly_lines(top[_XYZ].to_numpy(), pieces, point_data), encoding="ascii", newline="\n")
     return path
+
+
+def write_line_picture(path: Path, lines: Sequence[WeldLine], *, overwrite: bool) -> None:
+    """Write weld lines that are not assessed yet: number of the line, node, thickness, normal and outward vectors.
+
+    Raises
+    ------
+    DataError : the file exists and may not be overwritten
+    """
+    if path.exists() and not overwrite:
+        raise DataError(Problem("foreign_file", str(path), "is there already", "Use --force to overwrite it"))
+    number = np.repeat(np.arange(1, len(lines) + 1), [len(line.node) for line in lines])
+    first = np.cumsum([0, *(len(line.node) for line in lines)])
+    pieces = [
+        np.append(rows, rows[0]) if line.closed else rows
+        for line, rows in zip(lines, (np.arange(i, j) for i, j in pairwise(first)), strict=True)
+    ]
+    data = [
+        _array("weld", pd.Series([line.weld for line in lines]).iloc[number - 1]),
+        _data("weld_number", "i8", number),
+        _data("node", "i8", np.concatenate([line.node for line in lines])),
+        _data("thickness_mm", "f8", np.concatenate([line.thickness for line in lines])),
+        _data("normal", "f8", np.concatenate([line.normal for line in lines]), components=3),
+        _data("outward", "f8", np.concatenate([line.outward for line in lines]), components=3),
+    ]
+    xyz = np.concatenate([line.xyz for line in lines])
+    path.write_text(_poly_lines(xyz, pieces, data), encoding="ascii", newline="\n")
+
+
+def _poly_lines(xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Sequence[str]) -> str:
+    """Lay out points, poly-lines and the arrays of the points."""
+    return "\n".join(
+        [
+            '<?xml version="1.0"?>',
+            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">',
+            "<PolyData>",
+            f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(pieces)}">',
+            "<Points>",
+            _data("Points", "f8", xyz, components=3),
+            "</Points>",
+            "<Lines>",
+            _data("connectivity", "i8", np.concatenate(pieces)),
+            _data("offsets", "i8", np.cumsum([len(piece) for piece in pieces])),
+            "</Lines>",
+            "<PointData>",
+            *point_data,
+            "</PointData>",
+            "</Piece>",
+            "</PolyData>",
+            "</VTKFile>\n",
+        ]
+    )
 
 
 def _array(name: str, column: pd.Series) -> str:

@@ -37,8 +37,9 @@ VERDICTS = (
 FEWEST_SAMPLES_PER_PEAK = 6.0  # rainflow on samples loses k (pi nu_p / fs)^2 / 6 of the damage: 16 % at k = 3.6
 HIGHEST_PEAK_RATE = 3.0  # over the highest mode: more peaks than modes can make are noise
 SLOW_SHARE = 0.20  # of the variance
-TOP_CYCLE_SHARE = 0.10  # of the damage
+TOP_CYCLE_SHARE, TOP_CYCLE_HALF = 0.10, 0.50  # of the damage; half of it is one event, however few cycles there are
 MODULATED, STEADY = 1.4, 0.6  # modulation index; Gaussian records of 51 s keep 0.7 to 1.35
+MODULATION_MATTERS = 1.1  # factor on the damage
 LINE_SHARE = 0.30  # of the variance, in tones
 STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
 NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, that of a mode with 3 % damping: a tone is narrower
@@ -183,8 +184,10 @@ def diagnose(
         peaks_over_top_mode=shape.peaks / (np.nan if top_mode_hz is None else top_mode_hz),
         slow_share=_quotient(slow, total),
         top_cycle_share=top_cycle_share,
-        top_cycle_limit=np.maximum(
-            TOP_CYCLE_SHARE, _top_cycle_share(_rayleigh_cycles(moments, time, matrices.duration, slope), slope)
+        top_cycle_limit=np.clip(
+            _top_cycle_share(_rayleigh_cycles(moments, time, matrices.duration, slope), slope),
+            TOP_CYCLE_SHARE,
+            TOP_CYCLE_HALF,
         ),
         modulation_index=time.modulation_index,
         modulation_low=lower,
@@ -221,6 +224,7 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
 
 def _verdict(of: Diagnosis) -> NDArray[np.int8]:
     """Apply the rule: the first finding that holds; a number that could not be had accuses nobody."""
+    modulated = (of.modulation_index > of.modulation_high) & (of.modulation_factor > MODULATION_MATTERS)
     high_peaks = of.expected_kurtosis - 3 < EXPLAINED_KURTOSIS * (of.kurtosis - 3)
     narrow = of.relative_bandwidth < NARROW_PEAK
     steady = (of.modulation_index < of.modulation_low) & narrow
@@ -230,7 +234,7 @@ def _verdict(of: Diagnosis) -> NDArray[np.int8]:
         "sampling": (of.samples_per_peak < FEWEST_SAMPLES_PER_PEAK) | (of.peaks_over_top_mode > HIGHEST_PEAK_RATE),
         "quasi_static": of.slow_share > SLOW_SHARE,
         "single_event": of.top_cycle_share > of.top_cycle_limit,
-        "non_stationary": (of.modulation_index > of.modulation_high) & ~high_peaks,
+        "non_stationary": modulated & ~high_peaks,
         "harmonic": steady | tones,
         "non_gaussian": np.abs(of.kurtosis - of.expected_kurtosis) > of.kurtosis_tolerance,
         "bandwidth": (of.dirlik_ratio < of.ratio_low) | (of.dirlik_ratio > of.ratio_high),

@@ -120,13 +120,14 @@ def stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices) -> Statio
     expected_cov = _quotient(scatter, mean)
     relative = _quotient(variance, variance.mean(axis=0))
     count = len(relative)
-    # The variance of a sample variance grows with the kurtosis of what is sampled, here close to a chi-square variable.
+    # The variance of a sample variance grows with the kurtosis of what is sampled, here close to a chi-square variable:
+    # its upper tail gets heavier, the lower one stays.
     freedom = (count - 1) / (1 + 3 * expected_cov**2 * (count - 1) / count)
     return Stationarity(
         relative_variance=relative,
         modulation_index=_quotient(relative.std(axis=0, ddof=1), expected_cov),
-        lower=np.sqrt(_chi_square_quantile(-2.326, freedom) / freedom),  # standard normal quantiles of 1 and 99 %
-        upper=np.sqrt(_chi_square_quantile(2.326, freedom) / freedom),
+        lower=np.sqrt(_chi_square_over_freedom(-2.576, np.full_like(freedom, count - 1))),  # normal quantile of 0.5 %
+        upper=np.sqrt(_chi_square_over_freedom(2.326, freedom)),  # 99 %
         bandwidth_hz=_quotient(1.0 / periods.period_s, expected_cov**2),
         expected_cov=expected_cov,
     )
@@ -177,7 +178,7 @@ def _principal_scatter(
     stack = (np.sqrt(2 * overlap) / seen)[:, None] * to_lags @ density.reshape(len(density), -1)
 
     if len(stack) > stack.shape[1]:
-        stack = np.linalg.qr(stack, mode="r")  # the same sums of squares from as many rows as columns
+        stack = np.asarray(np.linalg.qr(stack, mode="r"))  # the same sums of squares from as many rows as columns
     energy, direction = np.linalg.eigh(stack @ stack.T)
     first = int(np.searchsorted(np.cumsum(energy), NEGLIGIBLE * energy.sum()))
     return np.asarray((direction[:, first:].T @ stack).reshape(-1, *unit.shape))
@@ -197,10 +198,10 @@ def _autocorrelation(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.fft.irfft(np.abs(np.fft.rfft(x, 2 * len(x))) ** 2, 2 * len(x))[: len(x)]
 
 
-def _chi_square_quantile(normal: float, freedom: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Quantile of chi-square from that of the standard normal distribution (Wilson and Hilferty, 1931)."""
+def _chi_square_over_freedom(normal: float, freedom: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Quantile of chi-square over its degrees of freedom, from the normal quantile (Wilson and Hilferty, 1931)."""
     spread = 2 / (9 * freedom)
-    return np.asarray(freedom * np.maximum(1 - spread + normal * np.sqrt(spread), 0) ** 3)
+    return np.asarray(np.maximum(1 - spread + normal * np.sqrt(spread), 0) ** 3)
 
 
 def _quotient(a: NDArray[np.float64] | float, b: NDArray[np.float64]) -> NDArray[np.float64]:

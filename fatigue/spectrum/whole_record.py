@@ -13,7 +13,7 @@ from fatigue.spectrum.moments import hann
 
 SLOWEST_HZ = 0.3
 SLOWEST_CYCLES = 10.0  # per record; fewer are an event, not a spectrum
-LINE_OVER_MEDIAN = 40.0  # a periodogram of noise exceeds its median so far once in 1e12 bins
+LINE_OVER_MEDIAN = 20.0  # a periodogram of noise exceeds its median so far once in a million bins
 LINE_BLOCK = 16  # bins of a local median: narrow against resonances, wide against the four bins of a tapered tone
 
 
@@ -73,9 +73,10 @@ def _line_amplitudes(q: NDArray[np.floating], taper: NDArray[np.float64]) -> NDA
 
 
 def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Bins far above the median of their block."""
-    blocks = -(-len(power) // LINE_BLOCK)
-    padded = np.full(blocks * LINE_BLOCK, np.nan)
-    padded[: len(power)] = power
-    median = np.nanmedian(padded.reshape(blocks, LINE_BLOCK), axis=1) if blocks else np.empty(0)
-    return np.asarray(power > LINE_OVER_MEDIAN * np.repeat(median, LINE_BLOCK)[: len(power)])
+    """Bins far above the median of their block; the last, incomplete block takes the median of the one before it."""
+    blocks = len(power) // LINE_BLOCK
+    if blocks == 0:
+        return np.zeros(len(power), dtype=np.bool_)
+    median = np.median(power[: blocks * LINE_BLOCK].reshape(blocks, LINE_BLOCK), axis=1)
+    block = np.minimum(np.arange(len(power)) // LINE_BLOCK, blocks - 1)
+    return np.asarray(power > LINE_OVER_MEDIAN * median[block])

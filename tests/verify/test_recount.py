@@ -4,6 +4,7 @@ import json
 import shutil
 import subprocess
 import sys
+from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
@@ -62,8 +63,11 @@ CASES = {
         by_element=True,
         welds=("angle", "square", "curved"),
     ),
-    "own curve in dS with scatter": TinyCase(
-        curve='name = "mine"\nsurvival = "mean-1sigma"', curves=SCATTERED_CURVE, welds=("curved", "ring")
+    "own curve in dS with scatter, a weld without forces": TinyCase(
+        curve='name = "mine"\nsurvival = "mean-1sigma"',
+        curves=SCATTERED_CURVE,
+        welds=("curved", "ring", "short"),
+        dead="ring",
     ),
 }
 
@@ -84,7 +88,7 @@ def test_pipeline_and_recount_agree(tmp_path, name):
     """Two programs that share no code agree to rounding in every column of every point, whatever the rules."""
     found = recount(assessed(tmp_path, CASES[name]), sample=None)
     assert found.passed, found.as_text()
-    assert found.points == found.points_in_all > 50
+    assert found.points == found.points_in_all > 40
     rounding = {c.column: c.difference for c in found.columns if c.column != "load_factor"}
     assert max(rounding.values()) < 1e-10, rounding
     load_factors = [c for c in found.columns if c.column == "load_factor"]
@@ -112,33 +116,36 @@ def test_the_recount_shares_no_code_with_the_pipeline():
 
 # ------------------------------------------------------------------------------------------------ spoiled results
 
-KEYS = {"weld", "part", "order", "surface", "event", "mode"}
-NOT_RECOUNTED = {
-    "nodes": {"dirlik_verdict", "screened"},
-    "damage": {"node", "verdict"},
-    "cycles": {"node"},
-    "welds": {"status", "reason", "description", "survival"},
+POINT = {"weld", "part", "order", "surface"}
+NOT_RECOUNTED = {  # keys of the rows, which a test below spoils, and what no number stands behind
+    "nodes": POINT | {"dirlik_verdict", "screened"},
+    "damage": POINT | {"event", "node", "verdict"},
+    "structural_stress": POINT | {"mode"},
+    "cycles": POINT | {"event", "node"},
+    "welds": {"weld", "status", "reason", "description", "survival"},
 }
-CHECKED = [
-    (table, column.name)
-    for table in ("nodes", "damage", "structural_stress", "cycles", "welds")
-    for column in TABLES[table]
-    if column.name not in KEYS | NOT_RECOUNTED.get(table, set())
+CHECKED = {
+    table: [column.name for column in TABLES[table] if column.name not in others]
+    for table, others in NOT_RECOUNTED.items()
+}
+ROUNDS = [
+    [(table, name) for table, name in zip(CHECKED, names, strict=True) if name]
+    for names in zip_longest(*CHECKED.values())
 ]
 
 
 @pytest.fixture(scope="module")
-def seam_result(tmp_path_factory) -> Path:
+def short_result(tmp_path_factory) -> Path:
     """Result of one short open weld."""
-    tiny = TinyCase(welds=("seam",), samples=200)
-    return assessed(tmp_path_factory.mktemp("seam"), tiny)
+    tiny = TinyCase(welds=("short",), samples=120, spectrum="segment_s = 0.3")
+    return assessed(tmp_path_factory.mktemp("short"), tiny)
 
 
 @pytest.fixture
-def copy_of_seam(tmp_path, seam_result) -> Path:
+def copy_of_short(tmp_path, short_result) -> Path:
     """Copy the result and its inputs, to be spoiled."""
-    shutil.copytree(seam_result.parent, tmp_path / "seam")
-    return tmp_path / "seam" / "result"
+    shutil.copytree(short_result.parent, tmp_path / "short")
+    return tmp_path / "short" / "result"
 
 
 def edit(folder: Path, table: str, change) -> None:
@@ -168,48 +175,53 @@ def spoil(folder: Path, table: str, column: str) -> None:
     edit(folder, table, change)
 
 
-def test_the_unspoiled_result_agrees(seam_result):
+def test_the_unspoiled_result_agrees(short_result):
     """What the next test spoils is in order before; every column it spoils is recounted."""
-    found = recount(seam_result, sample=None)
+    found = recount(short_result, sample=None)
     assert found.passed, found.as_text()
-    assert {(c.table, c.column) for c in found.columns if c.unit != "rows"} == set(CHECKED)
+    recounted = [(c.table, c.column) for c in found.columns if c.unit != "rows"]
+    assert sorted(recounted) == sorted((table, name) for table, names in CHECKED.items() for name in names)
 
 
-@pytest.mark.parametrize(("table", "column"), CHECKED)
-def test_one_spoiled_value_is_found(copy_of_seam, table, column):
-    """A single changed value is found in exactly its column, and named with its place."""
-    spoil(copy_of_seam, table, column)
-    found = recount(copy_of_seam, sample=None)
-    assert not found.passed
-    assert differing(found) == {f"{table}.{column}"}
-    assert f"  {table}.{column}: " in found.as_text()
-    assert "weld seam" in found.as_text()
+@pytest.mark.parametrize("spoiled", ROUNDS, ids=lambda spoiled: ",".join(".".join(column) for column in spoiled))
+def test_one_spoiled_value_is_found(copy_of_short, spoiled):
+    """A single changed value in a table is found in exactly its column, and named with its place.
+
+    One value is spoiled in each table at a time, so that every column has its turn in few recounts.
+    """
+    for table, column in spoiled:
+        spoil(copy_of_short, table, column)
+    found = recount(copy_of_short, sample=None)
+    assert differing(found) == {f"{table}.{column}" for table, column in spoiled}
+    lines = found.as_text().splitlines()
+    for table, column in spoiled:
+        (line,) = (line for line in lines if line.startswith(f"  {table}.{column}: "))
+        assert " where the recount has " in line
+        assert "weld short" in line
 
 
 @pytest.mark.parametrize("table", ["nodes", "damage", "structural_stress", "welds"])
 @pytest.mark.parametrize("fault", ["dropped", "twice"])
-def test_a_row_too_few_or_too_many_is_found(copy_of_seam, table, fault):
+def test_a_row_too_few_or_too_many_is_found(copy_of_short, table, fault):
     """No row of a table may be missing or be there twice."""
-    edit(copy_of_seam, table, lambda frame: frame[1:] if fault == "dropped" else pd.concat([frame, frame[:1]]))
-    found = recount(copy_of_seam, sample=None)
+    edit(copy_of_short, table, lambda frame: frame[1:] if fault == "dropped" else pd.concat([frame, frame[:1]]))
+    found = recount(copy_of_short, sample=None)
     (wrong,) = (column for column in found.columns if not column.passed)
     assert (wrong.table, wrong.difference, wrong.unit) == (table, 1.0, "rows")
     assert wrong.found == wrong.expected + (-1 if fault == "dropped" else 1)
-    assert "seam" in wrong.where
+    assert "short" in wrong.where
 
 
-def test_a_dropped_cycle_is_found(copy_of_seam):
+def test_a_dropped_cycle_is_found(copy_of_short):
     """A cycle that is missing shows in every column of the table of cycles."""
-    edit(copy_of_seam, "cycles", lambda frame: frame.drop(index=frame["range_MPa"].idxmax()))
-    assert differing(recount(copy_of_seam, sample=None)) == {
-        f"cycles.{column}" for table, column in CHECKED if table == "cycles"
-    }
+    edit(copy_of_short, "cycles", lambda frame: frame.drop(index=frame["range_MPa"].idxmax()))
+    assert differing(recount(copy_of_short, sample=None)) == {f"cycles.{column}" for column in CHECKED["cycles"]}
 
 
-def test_a_weld_without_cycles_is_found(copy_of_seam):
+def test_a_weld_without_cycles_is_found(copy_of_short):
     """An empty table of cycles does not pass for one without differences."""
-    edit(copy_of_seam, "cycles", lambda frame: frame[:0])
-    assert "cycles.range_MPa" in differing(recount(copy_of_seam, sample=0))
+    edit(copy_of_short, "cycles", lambda frame: frame[:0])
+    assert "cycles.range_MPa" in differing(recount(copy_of_short, sample=0))
 
 
 # ------------------------------------------------------------------------------------------------- what is chosen
@@ -238,7 +250,7 @@ EMPTY = ["R_largest_cycle", "mean_stress_MPa", "governing_event", "load_factor",
 
 
 def screen(folder: Path, factor: float) -> None:
-    """Turn the first point into a screened one whose bounds are ``factor`` times as far from the truth as they may be."""
+    """Turn the first point into a screened one, its bounds safe with the factor 1, unsafe with -1."""
 
     def nodes(frame: pd.DataFrame) -> pd.DataFrame:
         frame.loc[0, "screened"] = "range"
@@ -258,40 +270,40 @@ def screen(folder: Path, factor: float) -> None:
     edit(folder, "damage", damage)
 
 
-def test_bounds_of_a_screened_point_may_be_wide(copy_of_seam):
+def test_bounds_of_a_screened_point_may_be_wide(copy_of_short):
     """A screened row may be on the safe side of the recount, and empty where it knows nothing."""
-    screen(copy_of_seam, 1.0)
-    found = recount(copy_of_seam, sample=None)
+    screen(copy_of_short, 1.0)
+    found = recount(copy_of_short, sample=None)
     assert found.passed, found.as_text()
 
 
-def test_bounds_of_a_screened_point_must_hold(copy_of_seam):
+def test_bounds_of_a_screened_point_must_hold(copy_of_short):
     """A bound on the wrong side of the recount is found, for damage, life and range."""
-    screen(copy_of_seam, -1.0)
-    assert differing(recount(copy_of_seam, sample=None)) == {
+    screen(copy_of_short, -1.0)
+    assert differing(recount(copy_of_short, sample=None)) == {
         *(f"nodes.{column}" for column in BOUNDS),
         *(f"damage.{column}" for column in ("damage_per_km", "damage_per_pass", "max_range_MPa")),
     }
 
 
-def test_dirlik_of_a_screened_point_is_exact(copy_of_seam):
+def test_dirlik_of_a_screened_point_is_exact(copy_of_short):
     """The frequency domain is computed for every point, so it has no safe side."""
-    screen(copy_of_seam, 1.0)
-    edit(copy_of_seam, "nodes", lambda frame: frame.assign(life_km_dirlik=frame["life_km_dirlik"] * 0.99))
-    assert differing(recount(copy_of_seam, sample=None)) == {"nodes.life_km_dirlik"}
+    screen(copy_of_short, 1.0)
+    edit(copy_of_short, "nodes", lambda frame: frame.assign(life_km_dirlik=frame["life_km_dirlik"] * 0.99))
+    assert differing(recount(copy_of_short, sample=None)) == {"nodes.life_km_dirlik"}
 
 
 # --------------------------------------------------------------------------------------------------------- inputs
 
 
-def test_changed_and_missing_inputs_are_refused_by_name(copy_of_seam):
+def test_changed_and_missing_inputs_are_refused_by_name(copy_of_short):
     """Every input that is not what it was is named; nothing is compared then."""
-    case = copy_of_seam.parent / "case"
+    case = copy_of_short.parent / "case"
     with (case / "modes.csv").open("a") as file:
         file.write("\n")
     (case / "q_load.csv").unlink()
     with pytest.raises(DataError) as refusal:
-        recount(copy_of_seam)
+        recount(copy_of_short)
     changed, missing = refusal.value.problems
     assert (changed.code, Path(changed.where).name) == ("changed_input", "modes.csv")
     assert "SHA-256" in changed.what
@@ -299,13 +311,13 @@ def test_changed_and_missing_inputs_are_refused_by_name(copy_of_seam):
     assert missing.remedy == "Put the file back, or assess again"
 
 
-def test_a_case_that_moved_is_asked_for_and_may_be_named(copy_of_seam, tmp_path):
+def test_a_case_that_moved_is_asked_for_and_may_be_named(copy_of_short, tmp_path):
     """Without the case at its old place the refusal says so; with its new place the recount goes on."""
     moved = tmp_path / "elsewhere"
-    (copy_of_seam.parent / "case").rename(moved)
+    (copy_of_short.parent / "case").rename(moved)
     with pytest.raises(DataError, match=r"case\.toml: the case of this result is not there\. Name the case file"):
-        recount(copy_of_seam)
-    assert recount(copy_of_seam, sample=0, case_file=moved / "case.toml").passed
+        recount(copy_of_short)
+    assert recount(copy_of_short, sample=0, case_file=moved / "case.toml").passed
 
 
 def test_a_folder_without_result_is_refused(tmp_path):
@@ -317,11 +329,11 @@ def test_a_folder_without_result_is_refused(tmp_path):
 # -------------------------------------------------------------------------------------------------- what it tells
 
 
-def test_text_and_record_of_a_recount(seam_result, copy_of_seam):
+def test_text_and_record_of_a_recount(short_result, copy_of_short):
     """The text names points, tables and largest differences; the record says the same to machines."""
-    good = recount(seam_result, sample=2)
+    good = recount(short_result, sample=2)
     head, *tables = good.as_text().splitlines()
-    assert head.endswith(f": {good.points} of 12 points recounted from the input files: agree with the recount")
+    assert head.endswith(f": {good.points} of 4 points recounted from the input files: agree with the recount")
     assert [line.split(":")[0].strip() for line in tables] == [
         "nodes",
         "damage",
@@ -329,8 +341,8 @@ def test_text_and_record_of_a_recount(seam_result, copy_of_seam):
         "welds",
         "cycles",
     ]
-    spoil(copy_of_seam, "nodes", "life_km")
-    bad = recount(copy_of_seam, sample=None)
+    spoil(copy_of_short, "nodes", "life_km")
+    bad = recount(copy_of_short, sample=None)
     record = json.loads(json.dumps(json_ready(bad.as_record()), allow_nan=False))
     assert record["passed"] is False
     (wrong,) = (column for column in record["columns"] if not column["passed"])
@@ -339,4 +351,4 @@ def test_text_and_record_of_a_recount(seam_result, copy_of_seam):
     assert wrong["found"] == pytest.approx(1.001 * wrong["expected"])
     text = bad.as_text().splitlines()
     assert text[0].endswith(f"1 of {len(bad.columns)} columns differ")
-    assert f"{wrong['expected']:.10g} km (difference 0.001, weld seam, part 1" in text[1]
+    assert f"{wrong['expected']:.10g} km (difference 0.001, weld short, part 1" in text[1]

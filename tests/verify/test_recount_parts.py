@@ -1,5 +1,7 @@
 """The parts of the recount against libraries and published values of their own."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -102,7 +104,7 @@ def test_mean_damage_is_the_integral_over_the_density():
         edges = [*sorted({*curve.knees, curve.cutoff}), 2000.0]
         expected = sum(
             quad(lambda x, d=density: d(x) * curve.damage(np.array([x]))[0], a, b, epsabs=0, epsrel=1e-11, limit=200)[0]
-            for a, b in zip(edges[:-1], edges[1:], strict=True)
+            for a, b in pairwise(edges)
         )
         assert curve.mean_damage(scale, shape) == pytest.approx(expected, rel=1e-8)
     assert curve.mean_damage(0.0, 2.0) == 0.0

@@ -28,6 +28,7 @@ class TinyCase:
     files: str = "parquet"
     welds: tuple[str, ...] = ("seam", "curved", "ring", "angle", "square", "short")
     samples: int = 400
+    dead: str = ""
 
 
 def write_case(folder: Path, tiny: TinyCase) -> Path:
@@ -51,7 +52,8 @@ def write_case(folder: Path, tiny: TinyCase) -> Path:
         _write_element_forces(folder, lines, forced, rng)
     else:
         rows = [
-            {"weld": name, "node": node, "mode": mode} | dict(zip(FORCES, _force(rng), strict=True))
+            {"weld": name, "node": node, "mode": mode}
+            | dict(zip(FORCES, _force(rng) * (name != tiny.dead), strict=True))
             for name, line in lines.items()
             for node in line["node"]
             for mode in forced
@@ -156,7 +158,7 @@ def _lines(rng: np.random.Generator) -> dict[str, dict]:
         "seam": line(np.stack([s, 0.1 * s], 1), (0.0, 2.0), surface="top"),
         "curved": line(60 * arc, arc, mid=True, end=18.0),
         "ring": line(40 * round_, round_, mid=True, closed=True),
-        "angle": line(angle, np.array([[0, -1.0]] * 4 + [[1, -1.0]] + [[1.0, 0]] * 4)),
+        "angle": line(angle, np.array([[0, -1.0]] * 4 + [[1, -1.0]] + [[1.0, 0]] * 4), end=0.0),
         "square": line(square, (square - 30.0), closed=True, end=0.0),
         "short": line([[0, 0], [7.0, 0]], (0, 1.0), surface="bottom"),
     }

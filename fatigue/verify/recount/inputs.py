@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 
 FORCE_COLUMNS = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
+IDS = ("mode", "node", "order", "element")
+TEXTS = ("weld", "surface", "curve", "kind", "description", "closed", "edge_mid")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,13 +83,14 @@ def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
 
 
 def read_frame(path: Path) -> pd.DataFrame:
-    """Read a table of the neutral format; weld names and other texts stay texts."""
+    """Read a table of the neutral format: ids as integers, texts and flags as they are, all else as numbers."""
     if path.suffix.lower() == ".parquet":
         frame = pd.read_parquet(path)
-    else:
-        texts = dict.fromkeys(("weld", "surface", "curve", "kind", "description"), str)
-        frame = pd.read_csv(path, dtype=texts, float_precision="round_trip", keep_default_na=False, na_values=[""])
+    else:  # as texts: the number parser of pandas may be wrong in the last digit
+        frame = pd.read_csv(path, dtype=str, keep_default_na=False, na_values=[""])
     frame.columns = frame.columns.str.strip()
+    for name in frame.columns.difference(TEXTS):
+        frame[name] = frame[name].astype(np.int64 if name in IDS else np.float64)
     if "weld" in frame:
         frame["weld"] = frame["weld"].astype(str).str.strip()
     return frame
@@ -97,7 +100,7 @@ def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[n
     """Numbers of a column, (r,); the default where the cell is empty or the column absent."""
     if name not in frame:
         return np.full(len(frame), default)
-    return np.asarray(pd.to_numeric(frame[name]).astype(float).fillna(default))
+    return np.asarray(frame[name].fillna(default))
 
 
 def flags(frame: pd.DataFrame, name: str) -> NDArray[np.bool_]:

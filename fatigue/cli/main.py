@@ -68,7 +68,7 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
 
     found = check_case(load_case(case_file), strict=strict)
     if as_json:
-        _print_json(found.as_record())
+        print_json(found.as_record())
         return
     click.echo(found.as_text())
     _print_warnings(found.warnings)
@@ -113,7 +113,7 @@ def assess(
     _print_warnings(done.warnings)
     found = result_summary(output, top=10)
     if as_json:
-        _print_json(found.as_record())
+        print_json(found.as_record())
     else:
         click.echo(found.as_text())
     if not done.fulfilled and not exit_zero:
@@ -137,7 +137,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 
     found = result_summary(folder, top=top, only=welds)
     if as_json:
-        _print_json(found.as_record())
+        print_json(found.as_record())
     else:
         click.echo(found.as_text())
 
@@ -168,7 +168,7 @@ def schema() -> None:
     """
     from fatigue.case import case_schema
 
-    _print_json(case_schema())
+    print_json(case_schema())
 
 
 @contextmanager
@@ -194,7 +194,8 @@ def _progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None]]:
             bar.__exit__(None, None, None)
 
 
-def _print_json(record: Any) -> None:
+def print_json(record: Any) -> None:
+    """Print a record as JSON; infinite and missing numbers become null."""
     from fatigue.results import json_ready
 
     click.echo(json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False))

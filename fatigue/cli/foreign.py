@@ -1,0 +1,244 @@
+"""Commands that bring FE and simulation files into the neutral format."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from fatigue.cli.main import as_json, cli, print_json
+
+_FILE = click.Path(path_type=Path)
+_COLOUR = {"red": "red", "amber": "yellow", "green": "green"}
+
+_sources = [
+    click.option("--register", type=_FILE, help="Edited weld register; its status, names and thicknesses win."),
+    click.option("--node-lists", type=_FILE, help="CSV weld,order,node with weld lines of your own."),
+    click.option(
+        "--set", "sets", type=int, multiple=True, help="Id of a node set whose mesh edges are welds; repeatable."
+    ),
+    click.option(
+        "--marker", "markers", multiple=True, help="Card that lies on welds: PLOTEL, CBAR, CBEAM; repeatable."
+    ),
+    click.option(
+        "--detect/--no-detect", default=None, help="Search the mesh for weld lines; default: if nothing is marked."
+    ),
+    click.option("--candidates", is_flag=True, help="Assess flat changes of property and folds as well."),
+]
+
+
+def weld_sources(command: Any) -> Any:
+    """Add the options that say where weld lines come from."""
+    for option in reversed(_sources):
+        command = option(command)
+    return command
+
+
+@cli.command()
+@click.option("--forces", type=_FILE, required=True, help="Grid point forces: OP2, MSC .h5, or punch.")
+@click.option("--mesh", type=_FILE, required=True, help="Geometry: BDF, or the same MSC .h5.")
+@click.option(
+    "--coordinates", type=_FILE, multiple=True, help="Modal coordinates: CSV, text or .mcf; one file per event."
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    metavar="DIR",
+    help="Folder to write.",
+)
+@click.option(
+    "--convention",
+    type=click.Choice(["on_element", "on_node"]),
+    help="Sign of the forces; default: as the audit proves it.",
+)
+@click.option("--subcase", type=int, help="Subcase, where the force file has several.")
+@click.option("--units", default="mm-t-s", show_default=True, help="Unit system of the FE files: mm-t-s, m-kg-s ...")
+@click.option("--coordinate-units", default="mm-t-s", show_default=True, help="Unit system of the coordinates.")
+@click.option(
+    "--normalisation",
+    type=click.Choice(["mass", "length"]),
+    default="mass",
+    show_default=True,
+    help="Modes of unit generalised mass or unit displacement.",
+)
+@click.option(
+    "--match",
+    type=click.Choice(["id", "frequency", "order"]),
+    default="id",
+    show_default=True,
+    help="How columns of coordinates find their modes.",
+)
+@click.option("--columns", type=_FILE, help="CSV column,mode: which column belongs to which mode.")
+@click.option("--time-column", help="Name of the time column.")
+@click.option(
+    "--resample", type=float, metavar="STEP_S", help="Interpolate records with uneven steps onto this step [s]."
+)
+@click.option("--simulation-modes", type=_FILE, help="CSV mode,frequency_hz,modal_mass of the simulation's modes.")
+@click.option("--interface-modes", default="", help="Residual, constraint or attachment modes, as 31-52.")
+@click.option("--ignore-modes", default="", help="Modes to leave out on either side, as 1-6.")
+@click.option(
+    "--accept", multiple=True, metavar="CHECK", help="Go on although this check of the audit is red; repeatable."
+)
+@click.option("--curve", default="master-aluminium", show_default=True, help="S-N curve of the first case.toml.")
+@click.option("--title", default="", help="Title of the first case.toml.")
+@click.option("--speed", type=float, default=100.0, show_default=True, help="Speed of the first case.toml [km/h].")
+@click.option("--target-km", type=float, default=1.0e6, show_default=True, help="Target of the first case.toml [km].")
+@click.option("--force", is_flag=True, help="Overwrite foreign and changed files in DIR.")
+@weld_sources
+@as_json
+def convert(
+    forces: Path,
+    mesh: Path,
+    coordinates: tuple[Path, ...],
+    output: Path,
+    convention: Any,
+    subcase: int | None,
+    units: str,
+    coordinate_units: str,
+    normalisation: Any,
+    match: Any,
+    columns: Path | None,
+    time_column: str | None,
+    resample: float | None,
+    simulation_modes: Path | None,
+    interface_modes: str,
+    ignore_modes: str,
+    accept: tuple[str, ...],
+    curve: str,
+    title: str,
+    speed: float,
+    target_km: float,
+    force: bool,
+    register: Path | None,
+    node_lists: Path | None,
+    sets: tuple[int, ...],
+    markers: tuple[str, ...],
+    detect: bool | None,
+    candidates: bool,
+    as_json: bool,
+) -> None:
+    r"""Turn FE results and simulation exports into a neutral folder with a first case.toml.
+
+    The audit of signs, balance and completeness is printed; a red light stops the conversion. Formats are recognised by
+    content.
+
+    \b
+    Example:
+      fatigue convert --mesh model.bdf --forces run.op2 --coordinates q.csv -o body
+      fatigue assess body/case.toml -o result
+    """
+    from fatigue.readers.convert import ConvertOptions
+    from fatigue.readers.convert import convert as run
+    from fatigue.readers.modal_basis import mode_list
+    from fatigue.readers.weld_lines import WeldSources
+
+    done = run(
+        ConvertOptions(
+            forces=forces,
+            mesh=mesh,
+            out=output,
+            coordinates=coordinates,
+            convention=convention,
+            subcase=subcase,
+            force_units=units,
+            coordinate_units=coordinate_units,
+            normalisation=normalisation,
+            interface_modes=mode_list(interface_modes) if interface_modes else (),
+            ignore_modes=mode_list(ignore_modes) if ignore_modes else (),
+            match=match,
+            columns=columns,
+            time_column=time_column,
+            resample_s=resample,
+            simulation_modes=simulation_modes,
+            welds=WeldSources(node_lists, sets, markers, detect, candidates, register),
+            accept=accept,
+            curve=curve,
+            title=title,
+            speed_km_h=speed,
+            target_km=target_km,
+            force=force,
+        )
+    )
+    assessed = [row for row in done.welds if row.status == "assess"]
+    if as_json:
+        print_json(
+            {
+                "folder": done.folder,
+                "files": done.files,
+                "modes": done.modes,
+                "audit": [
+                    {"check": r.check, "light": r.light, "value": r.value, "finding": r.finding, "remedy": r.remedy}
+                    for r in done.audit.rows
+                ],
+                "welds_assessed": len(assessed),
+                "welds_listed": len(done.welds),
+                "remarks": [str(problem) for problem in done.remarks],
+            }
+        )
+        return
+    for row in done.audit.rows:
+        light = click.style(f"{row.light:5}", fg=_COLOUR[row.light])
+        value = "" if row.value is None else f" {row.value:.3g}"
+        remedy = f" {row.remedy}." if row.remedy and row.light != "green" else ""
+        click.echo(f"{light}  {row.check}:{value} {row.finding}.{remedy}")
+    for problem in done.remarks:
+        click.echo(f"note   {problem}")
+    click.echo(
+        f"{done.modes} modes, {done.force_rows} force rows, {len(assessed)} of {len(done.welds)} weld lines assessed"
+    )
+    click.echo(
+        f"written to {done.folder}: edit case.toml and welds_register.csv, then `fatigue assess` the case"
+    )
+
+
+@cli.command()
+@click.argument("mesh", metavar="MODEL", type=_FILE)
+@click.option("--units", default="mm-t-s", show_default=True, help="Unit system of the model: mm-t-s, m-kg-s ...")
+@click.option(
+    "-o", "--output", type=_FILE, help="Register (CSV) to write, to be edited and given back with --register."
+)
+@click.option("--vtp", type=_FILE, help="Picture of the lines for ParaView.")
+@click.option("--only", default="", help="List only lines whose name contains this text.")
+@click.option("--force", is_flag=True, help="Overwrite existing files.")
+@weld_sources
+@as_json
+def welds(
+    mesh: Path,
+    units: str,
+    output: Path | None,
+    vtp: Path | None,
+    only: str,
+    force: bool,
+    register: Path | None,
+    node_lists: Path | None,
+    sets: tuple[int, ...],
+    markers: tuple[str, ...],
+    detect: bool | None,
+    candidates: bool,
+    as_json: bool,
+) -> None:
+    r"""Find the weld lines of a mesh; list them, write the register to edit, and a picture of them.
+
+    \b
+    Example:
+      fatigue welds model.bdf -o welds_register.csv --vtp lines.vtp
+    """
+    from dataclasses import asdict
+
+    from fatigue.readers.weld_lines import WeldSources, list_welds
+    from fatigue.report.vtp import write_line_picture
+
+    sources = WeldSources(node_lists, sets, markers, detect, candidates, register)
+    found = list_welds(mesh, sources, units, output, force)
+    rows = [row for row in found.rows if only in row.weld]
+    if vtp is not None:
+        write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
+    if as_json:
+        print_json([asdict(row) for row in rows])
+        return
+    for row in rows:
+        reason = f"  {row.reason}" if row.reason else ""
+        click.echo(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {row.weld}{reason}")
+    for problem in found.remarks:
+        click.echo(f"note: {problem}", err=True)

@@ -1,0 +1,142 @@
+"""The tables of a result in formats that people open: an Excel workbook, and CSV files."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from fatigue.errors import DataError, Problem
+from fatigue.report.wording import LONGEST
+from fatigue.results import TABLES, Column, read_provenance, read_table
+
+WORKBOOK = "nodes.xlsx"
+CSV_TABLES = ("nodes", "damage", "cycles", "welds")
+_MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
+_FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
+
+
+def write_xlsx(folder: Path) -> Path:
+    """Write ``nodes.xlsx``: all points, the welds, and what every column means.
+
+    Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an equals
+    sign stay texts. An infinite life is left empty with its reason in the header's comment; what is not available is empty.
+
+    Raises
+    ------
+    DataError : the extra ``excel`` is not installed, no finished result, or more points than a sheet holds
+    """
+    try:
+        import xlsxwriter
+    except ImportError:
+        raise DataError(
+            Problem(
+                "no_xlsxwriter",
+                WORKBOOK,
+                "writing a workbook needs the package xlsxwriter",
+                'Install it with pip install "fatigue[excel]", or write CSV',
+            )
+        ) from None
+    record = read_provenance(folder)
+    tables = {name: read_table(folder, name).to_pandas() for name in ("nodes", "welds")}
+    if len(tables["nodes"]) > _MOST_ROWS:
+        raise DataError(
+            Problem(
+                "too_many_rows",
+                WORKBOOK,
+                f"{len(tables['nodes'])} points do not fit into a sheet of {_MOST_ROWS} rows",
+                "Use nodes.parquet or CSV",
+            )
+        )
+    path = folder / WORKBOOK
+    options = {"constant_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    with xlsxwriter.Workbook(str(path), options) as book:
+        book.set_properties({"title": record["title"], "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
+        formats = {name: book.add_format(look) for name, look in _FORMATS.items()}
+        for name, frame in tables.items():
+            _write_sheet(book.add_worksheet(name), frame, TABLES[name], formats)
+        _write_meanings(book.add_worksheet("columns"), formats)
+    return path
+
+
+_FORMATS = {
+    "head": {"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"},
+    "text": {"num_format": "@"},
+    "whole": {"num_format": "0"},
+    "plain": {"num_format": "0.000"},
+    "large": {"num_format": "#,##0"},
+    "small": {"num_format": "0.000E+00"},
+    "missed": {"font_color": "#B3261E", "bold": True},
+}
+_LARGE = ("life_km", "life_km_dirlik", "life_km_tb", "life_km_same_ratio", "life_km_raw_end", "life_years")
+
+
+def _write_sheet(sheet, frame: pd.DataFrame, columns: tuple[Column, ...], formats) -> None:  # type: ignore[no-untyped-def]
+    for i, column in enumerate(columns):
+        unit = f"\n[{column.unit}]" if column.unit != "-" else ""
+        sheet.write_string(0, i, f"{column.name}{unit}", formats["head"])
+        sheet.set_column(i, i, 24 if column.type == "text" else 13)
+    cells = [_cells(frame[column.name], column) for column in columns]
+    looks = [formats[_look(column)] for column in columns]
+    for row, values in enumerate(zip(*cells, strict=True), start=1):
+        for i, value in enumerate(values):
+            if value is None:
+                continue
+            write = sheet.write_string if isinstance(value, str) else sheet.write_boolean if isinstance(value, bool) else sheet.write_number
+            write(row, i, value, looks[i])
+    sheet.freeze_panes(1, 1)
+    sheet.autofilter(0, 0, len(frame), len(columns) - 1)
+
+
+def _cells(values: pd.Series, column: Column) -> list[str | bool | float | None]:
+    """Values of a column as a sheet takes them; None leaves a cell empty."""
+    if column.type == "text":
+        return [None if pd.isna(v) else str(v) for v in values]
+    if column.type == "flag":
+        return [bool(v) for v in values]
+    numbers = values.to_numpy(dtype=np.float64)
+    return [f"> {LONGEST:g}" if v == np.inf else float(v) if np.isfinite(v) else None for v in numbers]
+
+
+def _look(column: Column) -> str:
+    if column.type != "float":
+        return {"text": "text", "int": "whole", "flag": "text"}[column.type]
+    return "large" if column.name in _LARGE else "small" if column.name == "damage_per_km" else "plain"
+
+
+def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
+    for i, (name, width) in enumerate((("table", 10), ("column", 30), ("unit", 14), ("meaning", 100))):
+        sheet.write_string(0, i, name, formats["head"])
+        sheet.set_column(i, i, width)
+    row = 1
+    for table in ("nodes", "welds"):
+        for column in TABLES[table]:
+            for i, words in enumerate((table, column.name, column.unit, column.meaning)):
+                sheet.write_string(row, i, words)
+            row += 1
+    sheet.freeze_panes(1, 0)
+
+
+def write_csv(folder: Path) -> list[Path]:
+    """Write the tables of points, events, cycles and welds as CSV files, UTF-8, decimal points, beside the Parquet files.
+
+    Infinite lives are written as ``inf``, what is not available is empty, both as pandas and most programs read them. A
+    text that a spreadsheet would take for a formula gets an apostrophe before it.
+
+    Raises
+    ------
+    DataError : no finished result in the folder
+    """
+    read_provenance(folder)
+    paths = []
+    for name in CSV_TABLES:
+        frame = read_table(folder, name).to_pandas()
+        for column in TABLES[name]:
+            if column.type == "text":
+                frame[column.name] = frame[column.name].map(_harmless, na_action="ignore")
+        paths.append(folder / f"{name}.csv")
+        frame.to_csv(paths[-1], index=False, encoding="utf-8", lineterminator="\n")
+    return paths
+
+
+def _harmless(text: str) -> str:
+    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text

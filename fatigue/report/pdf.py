@@ -1,0 +1,96 @@
+"""Print the report: the same page on paper, by a Chromium, Chrome or Edge that is installed."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from fatigue.errors import DataError, Problem
+
+BROWSERS = (
+    "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge",
+    "microsoft-edge-stable", "msedge",
+)  # fmt: skip
+_MAC = ("Google Chrome", "Chromium", "Microsoft Edge")
+_WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Application\msedge.exe")
+TIME_LIMIT_S = 300.0
+
+
+def print_pdf(html: Path, pdf: Path) -> None:
+    """Print a report to PDF: all figures and details, paginated for A4.
+
+    The page draws all its figures before it has finished loading when its address ends in ``#print``.
+
+    Raises
+    ------
+    DataError : no browser is installed, it fails, or there is no such page
+    """
+    if not html.is_file():
+        raise DataError(Problem("missing_file", str(html), "there is no such page", "Write the report first"))
+    browser = find_browser()
+    with tempfile.TemporaryDirectory(prefix="fatigue-") as profile:
+        printed = Path(profile) / "report.pdf"
+        command = [
+            str(browser),
+            "--headless",
+            f"--user-data-dir={profile}",
+            "--no-first-run",
+            "--disable-gpu",
+            "--disable-background-networking",
+            "--no-pdf-header-footer",
+            f"--print-to-pdf={printed}",
+            *(["--no-sandbox"] if _is_root() else []),
+            f"{html.resolve().as_uri()}#print",
+        ]
+        try:
+            done = subprocess.run(command, capture_output=True, timeout=TIME_LIMIT_S, check=False)
+            said = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or [f"exit code {done.returncode}"]
+        except subprocess.TimeoutExpired:
+            said = [f"not done after {TIME_LIMIT_S:g} s"]
+        if not printed.is_file():
+            raise DataError(
+                Problem("no_pdf", str(browser), f"could not print the page ({said[0]})", f"Open {html} and print it there")
+            )
+        shutil.copyfile(printed, pdf)
+
+
+def find_browser() -> Path:
+    """Find a browser that can print a page.
+
+    ``FATIGUE_BROWSER`` names one that is not in its usual place.
+
+    Raises
+    ------
+    DataError : there is none
+    """
+    for candidate in _candidates():
+        if candidate.is_file():
+            return candidate
+    raise DataError(
+        Problem(
+            "no_browser",
+            "PDF",
+            "no Chromium, Chrome or Edge was found to print the page",
+            "Install one, name it in FATIGUE_BROWSER, or open report.html in any browser and print it there",
+        )
+    )
+
+
+def _candidates() -> Iterator[Path]:
+    if named := os.environ.get("FATIGUE_BROWSER"):
+        yield Path(named)
+        return  # who names a browser wants that one
+    yield from (Path(found) for name in BROWSERS if (found := shutil.which(name)))
+    if sys.platform == "darwin":
+        yield from (Path(f"/Applications/{name}.app/Contents/MacOS/{name}") for name in _MAC)
+    if sys.platform == "win32":
+        roots = [os.environ.get(name) for name in ("PROGRAMFILES", "PROGRAMFILES(X86)", "LOCALAPPDATA")]
+        yield from (Path(root) / name for root in roots if root for name in _WINDOWS)
+
+
+def _is_root() -> bool:
+    """Chromium refuses its sandbox to root, as in a container."""
+    return hasattr(os, "geteuid") and os.geteuid() == 0
