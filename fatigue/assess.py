@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.body import Body, read_body
+from fatigue.body import Body, read_body, register_file
 from fatigue.case import Case
 from fatigue.checkpoint import Checkpoint, locked, state_key
 from fatigue.cycles import point_cycles
@@ -23,7 +23,7 @@ from fatigue.folder import publish, refuse_foreign, result_log
 from fatigue.life.mission import Plan
 from fatigue.model import GROUP, Model, check_forces, solve_group, weld_groups
 from fatigue.provenance import provenance_record
-from fatigue.register import PointLives, toe_faces, weld_rows, worst_points
+from fatigue.register import PointLives, excluded_rows, toe_faces, weld_rows, worst_points
 from fatigue.results import TableWriter, input_register, result_tables, software_versions, write_json
 from fatigue.stations import BLOCK, Block, cut_blocks, shapes_of
 from fatigue.tables import damage_rows, mission_block, node_rows, stress_rows
@@ -73,7 +73,8 @@ def assess(
     """
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
-    inputs = input_register(sorted({case.path, *case.input_files().values()}), case.path.parent)
+    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case)])}
+    inputs = input_register(sorted(files), case.path.parent)
     key = state_key({"inputs": inputs, "software": software_versions(), "blocks": (GROUP, BLOCK)})
 
     refuse_foreign(folder, force=force)
@@ -91,6 +92,7 @@ def assess(
                     blocks = cut_blocks(model.stations, model.curve_of_weld)
                     parts = count_group(number, model, blocks, loads, state, executor, done)
                     write_group(tables, model, blocks, parts, loads, plan, state, done)
+                tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
             warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
             write_json(unpublished / "provenance.json", provenance_record(body, plan, folder, inputs, warnings))

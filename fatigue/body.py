@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from fatigue.case import Case, check_files
 from fatigue.errors import Problem
 from fatigue.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
 from fatigue.weld.line import WeldLine
 
 
@@ -15,7 +17,8 @@ class Body:
     """One body under one case.
 
     ``lines`` has one line per weld, in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve
-    a weld asks for; ``mesh`` serves the balance check and pictures; ``warnings`` are the doubts about these files.
+    a weld asks for; ``mesh`` serves the balance check and pictures; ``excluded`` are the lines the weld register lists
+    as not assessed; ``warnings`` are the doubts about these files.
     """
 
     case: Case
@@ -24,6 +27,7 @@ class Body:
     lines: tuple[WeldLine, ...]
     curves: Mapping[str, RatedCurve]
     mesh: Mesh | None
+    excluded: tuple[RegisterRow, ...]
     strict: bool
     warnings: tuple[Problem, ...]
 
@@ -53,4 +57,13 @@ def read_body(case: Case, *, strict: bool) -> Body:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, doubts = read_mesh(case.resolve(files.nodes), elements, strict=strict)
         warnings += doubts
-    return Body(case, modes, welds, lines, curves, mesh, strict, tuple(warnings))
+    register = register_file(case)
+    rows = read_register(register).values() if register else ()
+    excluded = tuple(row for row in rows if row.status != "assess")
+    return Body(case, modes, welds, lines, curves, mesh, excluded, strict, tuple(warnings))
+
+
+def register_file(case: Case) -> Path | None:
+    """Find the register that `fatigue convert` wrote beside the welds; None where there is none."""
+    path = case.resolve(case.body.welds).parent / REGISTER
+    return path if path.exists() else None

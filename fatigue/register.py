@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.model import Model
+from fatigue.readers.weld_register import RegisterRow
+from fatigue.results import WELDS
 from fatigue.tables import FACES, MissionBlock
 from fatigue.weld.line import length
 
@@ -102,4 +104,17 @@ def weld_rows(model: Model, plan: Plan, lives: PointLives, worst: Sequence[Worst
         "worst_surface": [FACES[p.face] for p in worst],
         "worst_arc_length_mm": [stations.arc_length[p.station] for p in worst],
         "governing_event": [events[lives.governing[i]] for i in at],
+    }
+
+
+def excluded_rows(excluded: Sequence[RegisterRow]) -> dict[str, Any]:
+    """Rows of ``welds.parquet`` for the lines that are listed and not assessed, with the reason."""
+    rows: dict[str, Any] = {column.name: [None] * len(excluded) for column in WELDS}
+    return rows | {
+        "weld": [row.weld for row in excluded],
+        "status": ["excluded"] * len(excluded),
+        "reason": [row.reason or row.status for row in excluded],
+        "description": [row.description for row in excluded],
+        "nodes": [row.nodes for row in excluded],
+        "length_mm": [row.length for row in excluded],
     }

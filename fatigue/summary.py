@@ -90,6 +90,7 @@ def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summa
     """
     record = read_provenance(folder)
     welds = read_table(folder, "welds").to_pandas()
+    welds = welds[welds["status"] == "assessed"].astype({"fulfilled": bool, "worst_node": int})
     points = read_table(folder, "nodes", _POINT_COLUMNS).to_pandas()
     unknown = sorted(set(only) - set(welds["weld"]))
     if unknown:

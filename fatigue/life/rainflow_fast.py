@@ -54,7 +54,7 @@ STEEPEST = 12.0  # slope up to which S^k stays within single precision
 FLAT = 8e-8  # 3 standard deviations of a rounding error per root of the number of modes, of a modal stress rms of 1
 CANCELLATION = 16.0  # modal stresses over their sum from which on single precision is not enough
 RATIO_DEGREE = 10
-POINTS = 128  # counted at a time: 256 rows of stress stay in the cache
+POINTS = 128  # counted at a time, so that 256 rows of stress stay in the cache
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -296,13 +296,13 @@ def close_ranges(*args: Any) -> Any:
 
 @overload(find_reversals, strict=False)
 def _find_reversals(m: Any, b: Any, side: Any, flat: Any, samples: Any, up: Any, room: Any, n: Any) -> Any:
-    step = simd.write_reversals if simd and m.dtype == types.float32 else write_reversals
+    step = simd.write_reversals if simd and simd.lanes(m) else write_reversals
     return lambda m, b, side, flat, samples, up, room, n: step(m, b, side, flat, samples, up, room, n)
 
 
 @overload(close_ranges, strict=False)
 def _close_ranges(room: Any, n: Any, cycles: Any, flat: Any) -> Any:
-    step = simd.close_pass if simd and room.types[0].dtype == types.float32 else close_pass
+    step = simd.close_pass if simd and simd.lanes(room.types[0]) else close_pass
     return lambda room, n, cycles, flat: step(room, n, cycles, flat)
 
 

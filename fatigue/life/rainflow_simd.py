@@ -1,4 +1,4 @@
-"""The two inner loops of `rainflow_fast` in vector instructions of x86-64 processors, 16 or 8 samples at a time.
+"""The two inner loops of `rainflow_fast` in vector instructions of x86-64 processors, up to 16 samples at a time.
 
 Both steps select: turning points among samples, closed ranges among turning points. A comparison of vectors gives one
 bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would decide one after the
@@ -17,75 +17,93 @@ from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
 
-Singles = NDArray[np.float32]
+Numbers = NDArray[np.floating]
 
-I1, I8, I32, I64, FLOAT = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64), ir.FloatType()
+I1, I8, I32, I64 = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64)
 
 
-def lanes() -> int:
-    """Return the single precision numbers to a vector: 16 with AVX-512, 8 with AVX2, 0 where neither is there.
-
-    Asked of the processor that numba compiles for.
-    """
+def vector_bits() -> int:
+    """Width of the vectors of the processor that numba compiles for: 512 with AVX-512, 256 with AVX2, 0 otherwise."""
     if config.CPU_NAME or config.CPU_FEATURES is not None:
         named = (config.CPU_FEATURES or "").split(",")
-        return 16 if "+avx512f" in named else 8 if "+avx2" in named else 0
+        return 512 if "+avx512f" in named else 256 if "+avx2" in named else 0
     has = binding.get_host_cpu_features()
-    return 16 if has.get("avx512f") else 8 if has.get("avx2") else 0
+    return 512 if has.get("avx512f") else 256 if has.get("avx2") else 0
 
 
-LANES = lanes()
+WIDTH = vector_bits()
+
+
+def lanes(array_type: Any) -> int:
+    """Numbers of an array to a vector: 16 or 8 in single precision, 8 in double precision; 0: use the plain loops."""
+    if array_type.dtype == types.float32:
+        return WIDTH // 32
+    return 8 if WIDTH == 512 else 0
+
+
+@intrinsic
+def lanes_of(typing: Any, array: Any) -> Any:
+    """Give `lanes` to compiled code."""
+    return types.int64(array), lambda *_: ir.Constant(I64, lanes(array))
 
 
 class _Vector:
-    """Shorthand for building instructions on vectors of ``LANES`` single precision numbers."""
+    """Shorthand for building instructions on vectors of the numbers of an array."""
 
-    def __init__(self, context: Any, builder: Any) -> None:
+    def __init__(self, context: Any, builder: Any, array_type: Any) -> None:
         self.context, self.builder = context, builder
-        self.type = ir.VectorType(FLOAT, LANES)
-        self.mask = ir.VectorType(I1, LANES)
+        self.size = lanes(array_type)
+        self.number = context.get_data_type(array_type.dtype)
+        self.align = array_type.dtype.bitwidth // 8
+        self.type = ir.VectorType(self.number, self.size)
+        self.mask = ir.VectorType(I1, self.size)
+        self.all = ir.Constant(I64, 2**self.size - 1)
+        self.last = ir.Constant(I64, self.size - 1)
 
     def pointer(self, array_type: Any, array: Any, index: Any) -> Any:
         data = self.context.make_array(array_type)(self.context, self.builder, array).data
         return self.builder.bitcast(self.builder.gep(data, [index]), self.type.as_pointer())
 
     def load(self, array_type: Any, array: Any, index: Any) -> Any:
-        return self.builder.load(self.pointer(array_type, array, index), align=4)
+        return self.builder.load(self.pointer(array_type, array, index), align=self.align)
 
     def everywhere(self, number: Any) -> Any:
+        if number.type != self.number:
+            number = self.builder.fpext(number, self.number)
         one = self.builder.insert_element(ir.Constant(self.type, ir.Undefined), number, ir.Constant(I32, 0))
-        lane_0 = ir.Constant(ir.VectorType(I32, LANES), [0] * LANES)
+        lane_0 = ir.Constant(ir.VectorType(I32, self.size), [0] * self.size)
         return self.builder.shuffle_vector(one, ir.Constant(self.type, ir.Undefined), lane_0)
 
     def absolute(self, number: Any) -> Any:
-        zero = ir.Constant(self.type, [0.0] * LANES)
+        zero = ir.Constant(self.type, [0.0] * self.size)
         return self.builder.select(self.builder.fcmp_ordered("<", number, zero), self.builder.fneg(number), number)
 
     def bits(self, mask: Any) -> Any:
         """One bit per lane, as an integer of 64 bits."""
-        return self.builder.zext(self.builder.bitcast(mask, ir.IntType(LANES)), I64)
+        return self.builder.zext(self.builder.bitcast(mask, ir.IntType(self.size)), I64)
 
     def lanes(self, bits: Any) -> Any:
-        return self.builder.bitcast(self.builder.trunc(bits, ir.IntType(LANES)), self.mask)
+        return self.builder.bitcast(self.builder.trunc(bits, ir.IntType(self.size)), self.mask)
 
     def compare(self, how: str, a: Any, b: Any) -> Any:
         return self.bits(self.builder.fcmp_ordered(how, a, b))
 
     def store_selected(self, value: Any, bits: Any, array_type: Any, array: Any, index: Any) -> None:
         """Store the selected lanes side by side; what is behind them is overwritten with anything."""
-        self.builder.store(self._together(value, bits), self.pointer(array_type, array, index), align=4)
+        self.builder.store(self._together(value, bits), self.pointer(array_type, array, index), align=self.align)
 
     def _together(self, value: Any, bits: Any) -> Any:
         module = self.builder.module
-        if LANES == 16:
+        if WIDTH == 512:
+            name = f"llvm.x86.avx512.mask.compress.v{self.size}f{8 * self.align}"
             kind = ir.FunctionType(self.type, [self.type, self.type, self.mask])
-            compress = cgutils.get_or_insert_function(module, kind, "llvm.x86.avx512.mask.compress.v16f32")
+            compress = cgutils.get_or_insert_function(module, kind, name)
             return self.builder.call(compress, [value, ir.Constant(self.type, ir.Undefined), self.lanes(bits)])
-        numbers = ir.VectorType(I32, LANES)
+        numbers = ir.VectorType(I32, self.size)
         kind = ir.FunctionType(self.type, [self.type, numbers])
         permute = cgutils.get_or_insert_function(module, kind, "llvm.x86.avx2.permps")
         row = self.builder.gep(self._table(module), [ir.Constant(I64, 0), bits])
-        row = self.builder.bitcast(row, ir.VectorType(I8, LANES).as_pointer())
+        row = self.builder.bitcast(row, ir.VectorType(I8, self.size).as_pointer())
         return self.builder.call(permute, [value, self.builder.zext(self.builder.load(row, align=8), numbers)])
 
     @staticmethod
@@ -107,11 +125,11 @@ class _Vector:
 def _reversals_of_lanes(
     typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, z: Any, zm: Any, n: Any
 ) -> Any:
-    """Do what `rainflow_fast.write_reversals` does for the samples i to i + LANES - 1."""
+    """Do what `rainflow_fast.write_reversals` does for the samples i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         m_, b_, side_, flat_, i_, up_, z_, zm_, n_ = args
-        vector = _Vector(context, builder)
+        vector = _Vector(context, builder, m)
         following = builder.add(i_, ir.Constant(I64, 1))
         sign = vector.everywhere(side_)
         membrane = vector.load(m, m_, i_)
@@ -119,7 +137,7 @@ def _reversals_of_lanes(
         next_membrane = vector.load(m, m_, following)
         s_next = builder.fadd(next_membrane, builder.fmul(sign, vector.load(b, b_, following)))
         step = builder.fsub(s_next, s)
-        zero = ir.Constant(vector.type, [0.0] * LANES)
+        zero = ir.Constant(vector.type, [0.0] * vector.size)
         rises, level = vector.compare(">", step, zero), vector.compare("==", step, zero)
         small = builder.and_(
             vector.compare("<=", vector.absolute(step), vector.everywhere(flat_)),
@@ -131,12 +149,12 @@ def _reversals_of_lanes(
         total = builder.add(builder.add(rises_or_level, rises), up_)
         up_before = builder.xor(total, builder.xor(rises_or_level, rises))
         turns = builder.and_(builder.not_(level), builder.xor(rises, up_before))
-        turns = builder.and_(turns, ir.Constant(I64, 2**LANES - 1))
+        turns = builder.and_(turns, vector.all)
         peaks = vector.lanes(up_before)
         vector.store_selected(builder.select(peaks, s, builder.fneg(s)), turns, z, z_, n_)
         vector.store_selected(builder.select(peaks, membrane, builder.fneg(membrane)), turns, zm, zm_, n_)
         n_ = builder.add(n_, builder.ctpop(turns))
-        up_ = builder.lshr(total, ir.Constant(I64, LANES))
+        up_ = builder.lshr(total, ir.Constant(I64, vector.size))
         return context.make_tuple(builder, signature.return_type, [n_, up_, small])
 
     integer = types.int64
@@ -148,17 +166,17 @@ def _reversals_of_lanes(
 def _cycles_of_lanes(
     typing: Any, z: Any, zm: Any, S: Any, dm: Any, i: Any, n: Any, before: Any, taken: Any, kept: Any, cycles: Any, flat: Any
 ) -> Any:
-    """Do what `rainflow_fast.close_pass` does for the reversals i to i + LANES - 1."""
+    """Do what `rainflow_fast.close_pass` does for the reversals i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_, flat_ = args
-        vector = _Vector(context, builder)
+        vector = _Vector(context, builder, z)
         one = ir.Constant(I64, 1)
         next_, second = builder.add(i_, one), builder.add(i_, ir.Constant(I64, 2))
         z0, m0 = vector.load(z, z_, i_), vector.load(zm, zm_, i_)
         left = builder.sub(n_, i_)
-        within = builder.icmp_signed("<", left, ir.Constant(I64, LANES))
-        there = builder.select(within, builder.sub(builder.shl(one, left), one), ir.Constant(I64, 2**LANES - 1))
+        within = builder.icmp_signed("<", left, ir.Constant(I64, vector.size))
+        there = builder.select(within, builder.sub(builder.shl(one, left), one), vector.all)
         z2, m2 = vector.load(z, z_, second), vector.load(zm, zm_, second)
         after = vector.compare(">=", z2, z0)
         difference = vector.absolute(builder.fsub(z2, z0))
@@ -176,12 +194,11 @@ def _cycles_of_lanes(
         vector.store_selected(dm_lanes, take, dm, dm_, cycles_)
         vector.store_selected(z0, keep, z, z_, kept_)
         vector.store_selected(m0, keep, zm, zm_, kept_)
-        last = ir.Constant(I64, LANES - 1)
         results = [
             builder.add(kept_, builder.ctpop(keep)),
             builder.add(cycles_, builder.ctpop(take)),
-            builder.lshr(after, last),
-            builder.lshr(take, last),
+            builder.lshr(after, vector.last),
+            builder.lshr(take, vector.last),
             close_calls,
         ]
         return context.make_tuple(builder, signature.return_type, results)
@@ -192,11 +209,11 @@ def _cycles_of_lanes(
 
 @compiled()
 def write_reversals(
-    m: Singles, b: Singles, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
+    m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
 ) -> tuple[int, int, bool]:
     """Do what `rainflow_fast.write_reversals` does."""
     small_steps = 0
-    for i in range(0, samples, LANES):
+    for i in range(0, samples, lanes_of(m)):
         n, up, small = _reversals_of_lanes(m, b, side, flat, i, up, room.z, room.m, n)
         small_steps |= small
     return n, up, small_steps != 0
@@ -210,7 +227,7 @@ def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, i
     kept = 0
     before, taken = 1, 0
     close_calls = 0
-    for i in range(0, n, LANES):
+    for i in range(0, n, lanes_of(z)):
         kept, cycles, before, taken, close = _cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles, flat)
         close_calls |= close
     return kept, cycles, close_calls != 0

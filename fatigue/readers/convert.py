@@ -23,9 +23,8 @@ from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import WeldSources, find_welds
-from fatigue.readers.weld_register import RegisterRow, register_text
+from fatigue.readers.weld_register import REGISTER, RegisterRow, register_text
 
-REGISTER = "welds_register.csv"
 CASE = "case.toml"
 
 

@@ -19,6 +19,7 @@ from fatigue.readers.body import SURFACES
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.line import length
 
+REGISTER = "welds_register.csv"
 STATUSES = ("assess", "candidate", "excluded")
 _COLUMNS = [
     *("weld", "line", "status", "reason", "kind", "pids", "pid", "nodes", "length_mm"),

@@ -106,9 +106,9 @@ def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> 
     checks = []
     for name in (name for name in units if any(name in row.expected for row in rows)):
         compared = [row for row in rows if name in row.expected and not (row.is_bound and _is_undefined(name, row))]
-        differences = np.array([_difference(name, row) for row in compared])
-        if not compared:
+        if not compared:  # every row stands for a bound that says nothing of this column
             continue
+        differences = np.array([_difference(name, row) for row in compared])
         worst = compared[int(differences.argmax())]
         checks.append(
             ColumnCheck(
@@ -124,6 +124,23 @@ def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> 
             )
         )
     return checks
+
+
+def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnCheck:
+    """Compare which rows a table has with those it should have: none dropped, none twice, none from elsewhere."""
+    expected = pd.MultiIndex.from_tuples(keys, names=found.names) if found.nlevels > 1 else pd.Index(keys)
+    astray = [*found[found.duplicated()], *expected.symmetric_difference(found.drop_duplicates())]
+    return ColumnCheck(
+        table=table,
+        column=", ".join(found.names),
+        unit="rows",
+        compared=len(expected),
+        difference=float(len(astray)),
+        tolerance=0.5,  # rows
+        where=f"first {astray[0]}" if astray else "",
+        found=len(found),
+        expected=len(expected),
+    )
 
 
 def _is_undefined(name: str, row: Row) -> bool:
@@ -155,20 +172,3 @@ def _difference(name: str, row: Row) -> float:
 
 def _shown(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
-
-
-def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnCheck:
-    """Compare which rows a table has with those it should have: none dropped, none twice, none from elsewhere."""
-    expected = pd.MultiIndex.from_tuples(keys, names=found.names) if found.nlevels > 1 else pd.Index(keys)
-    astray = [*found[found.duplicated()], *expected.symmetric_difference(found.drop_duplicates())]
-    return ColumnCheck(
-        table=table,
-        column=", ".join(found.names),
-        unit="rows",
-        compared=len(expected),
-        difference=float(len(astray)),
-        tolerance=0.5,  # rows
-        where=f"first {astray[0]}" if astray else "",
-        found=len(found),
-        expected=len(expected),
-    )
