@@ -34,22 +34,22 @@ VERDICTS = (
     "bandwidth",
 )
 
-FEWEST_SAMPLES_PER_PEAK = 6.0  # rainflow on samples loses k (pi nu_p / fs)^2 / 6 of the damage: 16 % at k = 3.6
+FEW_SAMPLES_PER_PEAK = 10.0  # worth a warning
+FEWEST_SAMPLES_PER_PEAK = 6.0  # below, the rainflow count is no reference: it loses 16 % of the damage at k = 3.6
 HIGHEST_PEAK_RATE = 3.0  # over the highest mode: more peaks than modes can make are noise
 SLOW_SHARE = 0.20  # of the variance
-TOP_CYCLE_SHARE, TOP_CYCLE_HALF = 0.10, 0.50  # of the damage; half of it is one event, however few cycles there are
+TOP_CYCLE_SHARE, HALF_OF_DAMAGE = 0.10, 0.50  # half of it in one cycle is an event, however few cycles there are
+TOP_CYCLE_QUANTILE = 4.6  # -ln(-ln 0.99): 99 of 100 largest values of N exponential variables stay below ln N + 4.6
 MODULATED, STEADY = 1.4, 0.6  # modulation index; Gaussian records of 51 s keep 0.7 to 1.35
 MODULATION_MATTERS = 1.1  # factor on the damage
+EXPLAINED_KURTOSIS = 0.25  # share of the excess that modulation must make; with less, high peaks scatter the variance
 LINE_SHARE = 0.30  # of the variance, in tones
 STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
 NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, that of a mode with 3 % damping: a tone is narrower
-EXPLAINED_KURTOSIS = (
-    0.25  # least share of the excess kurtosis that modulation makes; else high peaks scatter the variance
-)
 KURTOSIS_OFF = 0.5  # from what the modulation found explains
 RATIO_BAND = {4.0: (0.80, 1.25), 5.0: (0.65, 1.35)}  # of Dirlik / rainflow on Gaussian records, by slope k
 CONFIDENT = 0.25  # coefficient of variation of the damage from one record to the next
-TOP_CYCLE_QUANTILE = 4.6  # -ln(-ln 0.99): 99 of 100 largest values of N exponential variables stay below ln N + 4.6
+RATIO_SCATTER = 0.5  # of ln(Dirlik / rainflow) over that of each damage (Monte Carlo): one record, common errors
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -170,8 +170,7 @@ def diagnose(
     steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
     damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
-    # Both damages come from one record and err together; their ratio scatters half as much (Monte Carlo).
-    chance = np.exp(1.645 * 0.5 * np.nan_to_num(damage_cov))
+    chance = np.exp(1.645 * RATIO_SCATTER * np.nan_to_num(damage_cov, nan=2 * CONFIDENT))
     diagnosis = Diagnosis(
         verdict=np.zeros(len(shapes), dtype=np.int8),
         record_too_short=~(damage_cov <= CONFIDENT),
@@ -187,7 +186,7 @@ def diagnose(
         top_cycle_limit=np.clip(
             _top_cycle_share(_rayleigh_cycles(moments, time, matrices.duration, slope), slope),
             TOP_CYCLE_SHARE,
-            TOP_CYCLE_HALF,
+            HALF_OF_DAMAGE,
         ),
         modulation_index=time.modulation_index,
         modulation_low=lower,
@@ -208,6 +207,11 @@ def diagnose(
     )
     diagnosis.verdict[:] = _verdict(diagnosis)
     return diagnosis
+
+
+def sampling_loss(samples_per_peak: NDArray[np.float64], k: float) -> NDArray[np.float64]:
+    """Share of the damage that counting samples loses, ``k (pi / samples per peak)**2 / 6``: peaks fall between them."""
+    return np.asarray(np.minimum(k * (np.pi / samples_per_peak) ** 2 / 6, 1.0))
 
 
 def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float64]:

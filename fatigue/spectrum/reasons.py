@@ -10,6 +10,7 @@ from fatigue.spectrum.diagnosis import (
     SLOW_SHARE,
     VERDICTS,
     Diagnosis,
+    sampling_loss,
 )
 from fatigue.spectrum.stationarity import FEWEST_PERIODS
 
@@ -35,10 +36,9 @@ def _valid(of: Diagnosis, i: int) -> str:
 
 def _sampling(of: Diagnosis, i: int) -> str:
     if of.samples_per_peak[i] < FEWEST_SAMPLES_PER_PEAK:
-        loss = min(of.slope * (math.pi / of.samples_per_peak[i]) ** 2 / 6, 1.0)
         return (
-            f"Only {of.samples_per_peak[i]:.1f} samples per peak: the rainflow count itself loses about {loss:.0%} of "
-            f"the damage. Upsample the record or write it out more often, {FEWEST_SAMPLES_PER_PEAK:.0f} is the least."
+            f"Only {of.samples_per_peak[i]:.1f} samples per peak: the rainflow count itself loses about "
+            f"{sampling_loss(of.samples_per_peak[i], of.slope):.0%} of the damage. Upsample the record or write it out more often, {FEWEST_SAMPLES_PER_PEAK:.0f} is the least."
         )
     return (
         f"Stress peaks come {of.peaks_over_top_mode[i]:.1f} times as often as the highest mode swings, more than "

@@ -232,7 +232,8 @@ def _factor(r: Floats, curve: Curve) -> Floats:
 
 
 def _kurtosis(s: Floats) -> float:
-    deviation = s - s.mean()
+    deviation = s - s[0]  # first, so that a stress that stands still has none
+    deviation -= deviation.mean()
     return _quotient(float(np.mean(deviation**4)), float(np.mean(deviation**2) ** 2))
 
 

@@ -17,6 +17,7 @@ COMPONENTS = ("membrane", "bending", "in_plane_shear", "twist_shear", "transvers
 NEGLIGIBLE = 1e-9  # of the largest range: what differs between two orders of summation
 SMALL = 1e-2  # of the largest range: the ratio of two parts of a smaller one says little
 _NOT_COLUMNS = {"power_sum", "R_largest", "with_mean_stress", "with_shear", "shear_ratio"}  # of a pass
+_OF_STILL_STRESS = ("damage_per_", "damage_same_ratio_", "cycles_", "max_range_", "mean_stress_")
 
 Key = tuple[str, int, int, str]  # weld, part, order, surface
 
@@ -73,7 +74,10 @@ def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *
         for name, value in values.items()
         if name.endswith("_per_pass")
     }
-    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": one.quantities["max_range_MPa"]}
+    largest, mean = one.quantities["max_range_MPa"], one.quantities["mean_stress_MPa"]
+    if largest <= NEGLIGIBLE * abs(mean):  # a stress that stands still has no bandwidth and no bending ratio
+        values = {name: value for name, value in values.items() if name.startswith(_OF_STILL_STRESS)}
+    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": largest}
     return Row(f"{_place(key)}, event '{event.name}'", found, values, scale, is_bound)
 
 
