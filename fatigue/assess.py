@@ -12,21 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.body import Body, read_body, register_file
 from fatigue.case import Case
-from fatigue.checkpoint import Checkpoint, locked, state_key
-from fatigue.cycles import point_cycles
 from fatigue.errors import Problem
-from fatigue.event_block import EventLoad, assess_event_block
-from fatigue.events import event_loads, mission_plan
-from fatigue.folder import publish, refuse_foreign, result_log
 from fatigue.life.mission import Plan
-from fatigue.model import GROUP, Model, check_forces, solve_group, weld_groups
-from fatigue.provenance import provenance_record
-from fatigue.register import PointLives, excluded_rows, toe_faces, weld_rows, worst_points
+from fatigue.pipeline.body import Body, read_body, register_file
+from fatigue.pipeline.checkpoint import Checkpoint, locked, state_key
+from fatigue.pipeline.cycles import point_cycles
+from fatigue.pipeline.event_block import EventLoad, assess_event_block
+from fatigue.pipeline.events import event_loads, mission_plan
+from fatigue.pipeline.folder import publish, refuse_foreign, result_log
+from fatigue.pipeline.model import GROUP, Model, check_forces, solve_group, weld_groups
+from fatigue.pipeline.provenance import provenance_record
+from fatigue.pipeline.register import PointLives, excluded_rows, toe_faces, weld_rows, worst_points
+from fatigue.pipeline.rows import damage_rows, mission_block, node_rows, stress_rows
+from fatigue.pipeline.stations import BLOCK, Block, cut_blocks, shapes_of
+from fatigue.report.page import write_report
+from fatigue.report.vtp import write_vtp
 from fatigue.results import TableWriter, input_register, result_tables, software_versions, write_json
-from fatigue.stations import BLOCK, Block, cut_blocks, shapes_of
-from fatigue.tables import damage_rows, mission_block, node_rows, stress_rows
 
 log = logging.getLogger(__name__)
 
@@ -53,6 +55,7 @@ def assess(
     threads: int | None = None,
     strict: bool = False,
     force: bool = False,
+    report: bool = True,
     progress: Progress = lambda label, done, total: None,
 ) -> Assessment:
     """Fatigue life, in km, of every point of every weld of one flexible body.
@@ -64,6 +67,7 @@ def assess(
     threads : worker threads, by default one per processor core; the bytes of the tables do not depend on it
     strict : take unknown columns in the tables for errors
     force : overwrite files that fatigue did not write
+    report : write the report and the ParaView file as well
     progress : called with a label, blocks done and blocks in all
 
     Raises
@@ -96,6 +100,9 @@ def assess(
             log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
             warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
             write_json(unpublished / "provenance.json", provenance_record(body, plan, folder, inputs, warnings))
+            if report:
+                write_vtp(unpublished)
+                write_report(unpublished, case.path)
             publish(unpublished, folder)
             log.info("the result is complete")
     return Assessment(folder, done.fulfilled, warnings, done.blocks, state.reused)

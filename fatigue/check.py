@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from fatigue.body import read_body
 from fatigue.case import Case
 from fatigue.errors import Problem
-from fatigue.events import mission_plan
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rainflow import count_block
-from fatigue.model import solve_group, weld_groups
+from fatigue.pipeline.body import read_body
+from fatigue.pipeline.events import mission_plan
+from fatigue.pipeline.model import solve_group, weld_groups
 
 _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 

@@ -1,7 +1,6 @@
 """The diagnosis as a story: a finished result, its records once more, and what makes the damage, where and when."""
 
 import logging
-import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -10,36 +9,25 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
-import pyarrow.parquet as pq
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.attribute import Attribution, EventAttribution, attribute_event
-from fatigue.body import Body, read_body
 from fatigue.case import Case, load_case
-from fatigue.checkpoint import locked
-from fatigue.diagnosis_summary import Diagnosis, findings
-from fatigue.diagnosis_tables import (
-    ATTRIBUTION,
-    DIAGNOSIS,
-    LEVERS,
-    TRACK,
-    attribution_rows,
-    diagnosis_rows,
-    lever_rows,
-    track_rows,
-)
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.events import event_loads, mission_plan
-from fatigue.folder import result_log
-from fatigue.levers import best_levers
 from fatigue.life.mission import Plan
-from fatigue.model import weld_groups
-from fatigue.points import choose_points, gather_points
-from fatigue.results import _ARROW_TYPE, Column, read_provenance, read_table, sha256
+from fatigue.pipeline.body import Body, read_body
+from fatigue.pipeline.checkpoint import locked
+from fatigue.pipeline.events import event_loads, mission_plan
+from fatigue.pipeline.folder import move, result_log
+from fatigue.pipeline.model import weld_groups
+from fatigue.results import read_provenance, read_table, sha256, table_writer
 from fatigue.spectrum.bands import third_octaves
-from fatigue.verdicts import EventVerdicts, event_verdicts
+from fatigue.why.attribute import Attribution, EventAttribution, attribute_event
+from fatigue.why.findings import Diagnosis, findings
+from fatigue.why.levers import best_levers
+from fatigue.why.points import choose_points, gather_points
+from fatigue.why.rows import attribution_rows, diagnosis_rows, lever_rows, track_rows
+from fatigue.why.verdicts import EventVerdicts, event_verdicts
 
 log = logging.getLogger(__name__)
 
@@ -97,21 +85,24 @@ def diagnose(
         governing = attribution.event_share[worst].argmax(axis=1)
         assessed = assessed_rows(folder, np.flatnonzero(chosen), plan)
         verdicts: list[EventVerdicts] = []
-        for number, (load, event, rows) in enumerate(zip(loads, events, assessed, strict=True)):
-            verdicts.append(event_verdicts(body, load, points, event, rows, worst[governing == number]))
+        for number, (load, event, said) in enumerate(zip(loads, events, assessed, strict=True)):
+            verdicts.append(event_verdicts(body, load, points, event, said, worst[governing == number]))
         levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
         progress("diagnosis", len(loads), len(loads))
 
         tables = {
-            "attribution": (ATTRIBUTION, [attribution_rows(body.modes, attribution, event) for event in events]),
-            "track": (TRACK, [track_rows(points, event) for event in events]),
-            "diagnosis": (DIAGNOSIS, [diagnosis_rows(points, verdict) for verdict in verdicts]),
-            "levers": (LEVERS, [lever_rows(body.modes, plan, attribution, levers)]),
+            "attribution": [attribution_rows(body.modes, attribution, event) for event in events],
+            "track": [track_rows(points, event) for event in events],
+            "diagnosis": [diagnosis_rows(points, verdict) for verdict in verdicts],
+            "levers": [lever_rows(body.modes, plan, attribution, levers)],
         }
-        for name, (columns, pieces) in tables.items():
-            _write(staging / f"{name}.parquet", columns, pieces)
-        for name in tables:
-            (staging / f"{name}.parquet").replace(folder / f"{name}.parquet")
+        finished = staging / "tables"
+        finished.mkdir()
+        for name, pieces in tables.items():
+            with table_writer(finished, name) as table:
+                for rows in pieces:
+                    table.write(rows)
+        move(finished, folder)
     return findings(body, plan, attribution, levers, verdicts, which)
 
 
@@ -169,17 +160,3 @@ def _staging(folder: Path) -> Iterator[Path]:
         yield staging
     finally:
         shutil.rmtree(staging, ignore_errors=True)
-
-
-def _write(path: Path, columns: Sequence[Column], pieces: Sequence[Mapping[str, Any]]) -> None:
-    """Write a table, unit and meaning of every column beside its numbers, and force it to disk."""
-    schema = pa.schema(
-        [pa.field(c.name, _ARROW_TYPE[c.type], metadata={"unit": c.unit, "description": c.meaning}) for c in columns],
-        metadata={"program": "fatigue", "table": path.stem},
-    )
-    with pq.ParquetWriter(path, schema, compression="zstd") as writer:
-        for piece in pieces:
-            arrays = [pa.array(piece[f.name], type=f.type, from_pandas=True) for f in schema]
-            writer.write_table(pa.Table.from_arrays(arrays, schema=schema))
-    with path.open("rb+") as file:
-        os.fsync(file.fileno())

@@ -15,7 +15,7 @@ EXAMPLE = Path(__file__).parents[1] / "data" / "carbody"
 def small_result(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Result folder of the small case; read it, never write to it."""
     folder = tmp_path_factory.mktemp("small")
-    assess(load_case(small_case().write(folder / "case")), folder / "result", threads=2)
+    assess(load_case(small_case().write(folder / "case")), folder / "result", threads=2, report=False)
     return folder / "result"
 
 

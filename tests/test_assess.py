@@ -6,18 +6,20 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from fatigue.assess import assess
+from fatigue.assess import assess as assess_and_report
 from fatigue.case import load_case
 from fatigue.errors import DataError
 from fatigue.life.curves import catalogue
 from tests.small_case import BENDING, MEMBRANE, THICKNESS, sine_only, small_case
 
+assess = partial(assess_and_report, report=False)
 TABLES = ("nodes", "damage", "cycles", "structural_stress", "welds")
 
 
@@ -210,7 +212,7 @@ def test_order_of_rows_and_columns_does_not_matter(tmp_path, small_result):
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
 def test_groups_of_welds_do_not_change_a_number(tmp_path, small_result, monkeypatch, suffix):
     """Welds solved one after the other, their forces cut from a shuffled table, give the same rows."""
-    monkeypatch.setattr("fatigue.model.GROUP", 7)
+    monkeypatch.setattr("fatigue.pipeline.model.GROUP", 7)
     case = small_case()
     case.nodal_forces = case.nodal_forces.sample(frac=1.0, random_state=1)
     assess(load_case(case.write(tmp_path / "case", suffix)), tmp_path / "result", threads=2)
@@ -223,7 +225,7 @@ def test_groups_of_welds_do_not_change_a_number(tmp_path, small_result, monkeypa
 
 def test_a_mistake_in_the_forces_of_the_last_group_is_refused_at_once(tmp_path, monkeypatch):
     """Nothing is counted and nothing is left when a later group is wrong; the row is that of the file."""
-    monkeypatch.setattr("fatigue.model.GROUP", 7)
+    monkeypatch.setattr("fatigue.pipeline.model.GROUP", 7)
     case = small_case()
     row = int(np.flatnonzero(case.nodal_forces.weld == "B")[5])
     case.nodal_forces.loc[row, "mx_Nmm"] = np.inf

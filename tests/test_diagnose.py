@@ -8,18 +8,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import fatigue.points
+import fatigue.why.points
 from fatigue.assess import assess
-from fatigue.attribute import Attribution, attribute_event
 from fatigue.case import load_case
 from fatigue.diagnose import diagnose
-from fatigue.diagnosis_summary import Diagnosis
 from fatigue.errors import CaseError, DataError
-from fatigue.events import event_load, mission_plan
-from fatigue.model import read_model
-from fatigue.points import points_of
+from fatigue.pipeline.events import event_load, mission_plan
+from fatigue.pipeline.model import read_model
 from fatigue.results import json_ready
 from fatigue.spectrum.bands import third_octaves
+from fatigue.why.attribute import Attribution, attribute_event
+from fatigue.why.findings import Diagnosis
+from fatigue.why.points import points_of
 from tests.conftest import EXAMPLE
 from tests.small_case import SmallCase, sine_only, small_case
 
@@ -250,8 +250,8 @@ def test_summary_names_event_modes_bands_lever_and_verdict(small):
 
 def test_too_many_points_leave_the_worst_and_those_above_a_share(tmp_path, monkeypatch):
     """Where all points would take long the table says of every point why it is there."""
-    monkeypatch.setattr(fatigue.points, "MOST_SAMPLES", 0)
-    monkeypatch.setattr("fatigue.model.GROUP", 7)  # one weld at a time
+    monkeypatch.setattr(fatigue.why.points, "MOST_SAMPLES", 0)
+    monkeypatch.setattr("fatigue.pipeline.model.GROUP", 7)  # one weld at a time
     found = run(small_case(seconds=6.0), tmp_path, share_of_limit=0.5)
     toe = found.nodes[found.nodes.toe].set_index(POINT)
     chosen = found.attribution.drop_duplicates(POINT).set_index(POINT)["chosen"]

@@ -187,9 +187,7 @@ def convert(
     click.echo(
         f"{done.modes} modes, {done.force_rows} force rows, {len(assessed)} of {len(done.welds)} weld lines assessed"
     )
-    click.echo(
-        f"written to {done.folder}: edit case.toml and welds_register.csv, then `fatigue assess` the case"
-    )
+    click.echo(f"written to {done.folder}: edit case.toml and welds_register.csv, then `fatigue assess` the case")
 
 
 @cli.command()

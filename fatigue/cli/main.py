@@ -105,7 +105,7 @@ def assess(
     """
     from fatigue.assess import assess as run
     from fatigue.case import load_case
-    from fatigue.summary import result_summary
+    from fatigue.results.summary import result_summary
 
     case = load_case(case_file)
     with _progress(quiet=options["quiet"]) as progress:
@@ -133,13 +133,132 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
       fatigue show result --top 20
       fatigue show result --weld W1_roof_bracket_neg --json
     """
-    from fatigue.summary import result_summary
+    from fatigue.results.summary import result_summary
 
     found = result_summary(folder, top=top, only=welds)
     if as_json:
         print_json(found.as_record())
     else:
         click.echo(found.as_text())
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
+@click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (needs the extra `excel`).")
+@click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
+def report(folder: Path, pdf: bool, xlsx: bool, csv: bool) -> None:
+    r"""Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
+
+    \b
+    Example:
+      fatigue report result --pdf --xlsx
+    """
+    from fatigue.report.export import write_csv, write_xlsx
+    from fatigue.report.page import write_report
+    from fatigue.report.pdf import print_pdf
+    from fatigue.report.vtp import write_vtp
+    from fatigue.results import read_provenance
+
+    record = read_provenance(folder)
+    html = write_report(folder, folder / record["case_path"])
+    written = [html, write_vtp(folder)]
+    if xlsx:
+        written.append(write_xlsx(folder))
+    if csv:
+        written += write_csv(folder)
+    if pdf:
+        print_pdf(html, folder / "report.pdf")
+        written.append(folder / "report.pdf")
+    for path in written:
+        click.echo(path)
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--case", "case_file", type=_CASE, help="Case file, if it is not where the result says.")
+@click.option(
+    "--share-of-limit",
+    type=float,
+    default=0.1,
+    show_default=True,
+    help="Utilisation from which points are shared out, when not all can be.",
+)
+@click.option(
+    "--edges", default=None, metavar="HZ,HZ,...", help="Edges between frequency bands [Hz]; default: third octaves."
+)
+@click.option("--bin-km", type=float, default=0.1, show_default=True, help="Length of a piece of track [km].")
+@as_json
+@click.pass_obj
+def diagnose(
+    options: dict[str, bool],
+    folder: Path,
+    case_file: Path | None,
+    share_of_limit: float,
+    edges: str | None,
+    bin_km: float,
+    as_json: bool,
+) -> None:
+    r"""Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
+
+    Writes attribution, track, diagnosis and levers tables into DIR.
+
+    \b
+    Example:
+      fatigue diagnose result && fatigue report result
+    """
+    from fatigue.diagnose import diagnose as run
+
+    edges_hz = None if edges is None else _numbers(edges, "--edges")
+    with _progress(quiet=options["quiet"]) as progress:
+        found = run(
+            folder,
+            case_file=case_file,
+            share_of_limit=share_of_limit,
+            edges_hz=edges_hz,
+            bin_km=bin_km,
+            progress=progress,
+        )
+    if as_json:
+        print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+
+
+@cli.command()
+@click.option(
+    "--results", "folder", type=_FOLDER, metavar="DIR", help="Recount points of this result from its input files."
+)
+@click.option(
+    "--sample",
+    type=click.IntRange(min=1),
+    default=20,
+    show_default=True,
+    help="Points to recount beside each weld's worst.",
+)
+@click.option("--all", "every", is_flag=True, help="Recount all points.")
+@as_json
+def verify(folder: Path | None, sample: int, every: bool, as_json: bool) -> None:
+    r"""Check the installed program against closed forms and golden values, or recount a result independently.
+
+    The recount reads the input files itself, with dense line matrices and the `rainflow` package, and shares no code
+    with the assessment. Exit code 4 when a check fails.
+
+    \b
+    Examples:
+      fatigue verify
+      fatigue verify --results result --all
+    """
+    from fatigue.verify.recount import recount
+    from fatigue.verify.table import verification_table
+
+    found = verification_table() if folder is None else recount(folder, sample=None if every else sample)
+    if as_json:
+        print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+    if not found.passed:
+        raise SystemExit(4)
 
 
 @cli.command()
@@ -169,6 +288,13 @@ def schema() -> None:
     from fatigue.case import case_schema
 
     print_json(case_schema())
+
+
+def _numbers(text: str, option: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(number) for number in text.split(","))
+    except ValueError:
+        raise click.BadParameter(f"{text!r} is not a list of numbers such as 5,10,20", param_hint=option) from None
 
 
 @contextmanager

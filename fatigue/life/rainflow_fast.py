@@ -48,10 +48,10 @@ Numbers = NDArray[np.floating]  # single precision, or double where a point is c
 CHUNK = 8192  # samples of a block recovered at once
 PAD = 32  # room behind a row for vector instructions that write more than they keep
 RESIDUE = 1024  # reversals of a point that may wait for the next chunk
-FEW = 32  # reversals that are not worth another pass
+FEW = 64  # reversals that are not worth another pass
 
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
-FLAT = 8e-8  # 3 standard deviations of a rounding error per root of the number of modes, of a modal stress rms of 1
+FLAT = 4e-8  # doubt about a difference of stresses of rms 1, per root of the number of modes: 3 standard deviations
 CANCELLATION = 16.0  # modal stresses over their sum from which on single precision is not enough
 RATIO_DEGREE = 10
 POINTS = 128  # counted at a time, so that 256 rows of stress stay in the cache
@@ -64,13 +64,15 @@ class Record:
     Attributes
     ----------
     exact : (m, t) the modal coordinates as given
-    q : (m, t) the same without their mean, in single precision
+    q : (m, t) the same without their mean and over ``scale``, in single precision
+    scale : (m,) powers of 2 near the standard deviations
     mean : (m,) time mean
     covariance : (m, m)
     """
 
     exact: NDArray[np.floating]
     q: Singles
+    scale: Floats
     mean: Floats
     covariance: Floats
 
@@ -243,7 +245,8 @@ def write_reversals(
     for i in range(samples):
         ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
         step[i] = int(ds > 0) - int(ds < 0)
-        small_steps += int(abs(ds) <= flat) & int(m[i + 1] != m[i])
+        doubt = flat + flat * abs(m[i] + side * b[i])
+        small_steps += int(abs(ds) <= doubt) & int(m[i + 1] != m[i])
     reversals = 0
     direction = 2 * up - 1
     for i in range(samples):
@@ -273,7 +276,8 @@ def close_pass(room: _Room, n: int, cycles: int, flat: np.float32) -> tuple[int,
     close_calls = 0
     for i in range(n):
         after = int(z[i + 2] >= z[i])
-        close_calls += int(abs(z[i + 2] - z[i]) <= flat) & int(zm[i + 2] != zm[i])
+        doubt = flat + flat * abs(z[i])
+        close_calls += int(abs(z[i + 2] - z[i]) <= doubt) & int(zm[i + 2] != zm[i])
         was_taken, taken = taken, after & (1 - before)
         S[cycles] = z[i] + z[i + 1]
         dm[cycles] = zm[i] + zm[i + 1]
@@ -335,7 +339,7 @@ def close_on_stack(room: _Room, n: int, recurs: bool, cycles: int, flat: np.floa
         top += 1
         z[top], zm[top] = z[k], zm[k]
         while top - base >= 2:
-            close_call |= abs(z[top] - z[top - 2]) <= flat and zm[top] != zm[top - 2]
+            close_call |= abs(z[top] - z[top - 2]) <= flat + flat * abs(z[top]) and zm[top] != zm[top - 2]
             if z[top] < z[top - 2]:
                 break
             if top - base == 2 and not recurs:
@@ -479,13 +483,20 @@ def record_of(q: NDArray[np.floating]) -> Record:
         raise not_finite(f"sample {sample} of modal coordinate {mode}")
     mean = q.mean(axis=1, dtype=np.float64)
     covariance = np.zeros((len(q), len(q)))
-    single = np.empty(q.shape, np.float32)
-    for first in range(0, q.shape[1], CHUNK):
-        piece = slice(first, first + CHUNK)
+    pieces = [slice(first, first + CHUNK) for first in range(0, q.shape[1], CHUNK)]
+    for piece in pieces:
         centred = q[:, piece] - mean[:, None]
-        covariance += centred @ centred.T
-        single[:, piece] = centred
-    return Record(q, single, mean, covariance / max(q.shape[1], 1))
+        covariance += centred @ centred.T / q.shape[1]
+    scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
+    record = Record(q, np.empty(q.shape, np.float32), scale, mean, covariance)
+    for piece in pieces:
+        record.q[:, piece] = _centred(record, piece)
+    return record
+
+
+def _centred(record: Record, piece: slice) -> Floats:
+    """`Record.q` in double precision."""
+    return np.asarray((record.exact[:, piece] - record.mean[:, None]) / record.scale[:, None])
 
 
 def is_fast(law: DamageLaw, record: Record) -> bool:
@@ -558,8 +569,8 @@ def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
     modal = (S_m**2 + S_b**2) @ np.diagonal(record.covariance)
     scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])[:, None]
     return _Block(
-        membrane=S_m / scale,
-        bending=S_b / scale,
+        membrane=S_m * record.scale / scale,
+        bending=S_b * record.scale / scale,
         scale=scale,
         mean=np.stack([mean_m + mean_b, mean_m - mean_b], axis=1),
         variance=variance / scale**2,
@@ -582,7 +593,7 @@ def _count(block: _Block, wanted: NDArray[np.bool_], record: Record, rules: _Law
         stress = np.empty((len(weights), width), precision)
         piece_of_state = _State(*(a[piece] for a in state))
         for first, end in pairwise(edges):
-            q = record.q[:, first:end] if single else record.exact[:, first:end] - record.mean[:, None]
+            q = record.q[:, first:end] if single else _centred(record, slice(first, end))
             np.matmul(weights, q, out=stress[:, 1 : end - first + 1])
             stage = _Stage(first == 0, end == t, recurs, flat)
             count_chunk(stress, end - first, stage, rules, piece_of_state, room)
@@ -596,19 +607,20 @@ def _evaluated(
     k = float(law.slopes[0])
     to_damage = np.exp(k * np.log(block.scale * size[:, None]) - law.log_constants[0])
     I_same = damage.ratio_factor(same_ratio) if uses_bending_ratio else 1.0
+    samples, nan = record.q.shape[1], np.full(same_ratio.shape, np.nan)
     turning = state.first_up >= 0
     minimum, maximum = block.mean + block.scale * state.minimum, block.mean + block.scale * state.maximum
     return BlockCount(
         damage=to_damage * state.damage,
         damage_same_ratio=to_damage * I_same**-k * state.power_sum,
-        damage_mean_stress=np.full_like(minimum, np.nan),
+        damage_mean_stress=nan,
         cycles=state.cycles,
         power_sum=block.scale**k * state.power_sum,
         max_range=block.scale * (state.maximum - state.minimum),
-        r_largest=np.divide(minimum, maximum, out=np.full_like(minimum, np.nan), where=turning & (maximum != 0.0)),
+        r_largest=np.divide(minimum, maximum, out=nan.copy(), where=turning & (maximum != 0.0)),
         max_equivalent_range=block.scale * size[:, None] * state.largest ** (1.0 / k),
         mean=block.mean,
-        kurtosis=np.where(turning, state.fourth / (record.q.shape[1] * np.maximum(block.variance, 1e-300) ** 2), np.nan),
+        kurtosis=np.divide(state.fourth, samples * block.variance**2, out=nan.copy(), where=turning & (block.variance > 0.0)),
         histogram=np.zeros((len(size), 2, 0, 2)),
     )
 

@@ -74,6 +74,11 @@ class _Vector:
         lane_0 = ir.Constant(ir.VectorType(I32, self.size), [0] * self.size)
         return self.builder.shuffle_vector(one, ir.Constant(self.type, ir.Undefined), lane_0)
 
+    def doubt(self, flat: Any, s: Any) -> Any:
+        """Differences from stress s that rounding may have made."""
+        flat = self.everywhere(flat)
+        return self.builder.fadd(flat, self.builder.fmul(flat, self.absolute(s)))
+
     def absolute(self, number: Any) -> Any:
         zero = ir.Constant(self.type, [0.0] * self.size)
         return self.builder.select(self.builder.fcmp_ordered("<", number, zero), self.builder.fneg(number), number)
@@ -140,7 +145,7 @@ def _reversals_of_lanes(
         zero = ir.Constant(vector.type, [0.0] * vector.size)
         rises, level = vector.compare(">", step, zero), vector.compare("==", step, zero)
         small = builder.and_(
-            vector.compare("<=", vector.absolute(step), vector.everywhere(flat_)),
+            vector.compare("<=", vector.absolute(step), vector.doubt(flat_, s)),
             vector.compare("!=", next_membrane, membrane),
         )
 
@@ -181,7 +186,7 @@ def _cycles_of_lanes(
         after = vector.compare(">=", z2, z0)
         difference = vector.absolute(builder.fsub(z2, z0))
         close_calls = builder.and_(
-            builder.and_(vector.compare("<=", difference, vector.everywhere(flat_)), vector.compare("!=", m2, m0)), there
+            builder.and_(vector.compare("<=", difference, vector.doubt(flat_, z0)), vector.compare("!=", m2, m0)), there
         )
         take = builder.and_(after, builder.not_(builder.or_(builder.shl(after, one), before_)))
         take = builder.and_(take, there)

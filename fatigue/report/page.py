@@ -24,6 +24,7 @@ from fatigue.report.inputs import Inputs, find_inputs
 from fatigue.report.result import Result, read_result
 from fatigue.report.tables import Cell, Heading, Table
 from fatigue.report.variants import Assumptions, assumptions_of, damage_per_km, variants
+from fatigue.report.why import Why, band_shares, exponents, mode_shares, read_why
 
 MOST_DETAILED = 60  # welds with their own page of figures; the others have their rows and their lines
 WORST_POINTS = 100
@@ -41,6 +42,9 @@ class WeldPage:
     point: list[Shown]
     variants: Table
     events: Table
+    levers: Table | None
+    reasons: list[tuple[str, str, str]]
+    exponents: Mapping[str, float]
 
 
 def write_report(folder: Path, case_path: Path | None = None) -> Path:
@@ -66,6 +70,7 @@ def report_page(folder: Path, case_path: Path | None = None) -> str:
     missing: list[Problem] = []
     details, steps = _details(result, inputs, missing)
     body = _body(inputs, missing)
+    why = read_why(folder, result)
 
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     figs = Figures()
@@ -106,7 +111,8 @@ def report_page(folder: Path, case_path: Path | None = None) -> str:
         "events_figure": figs.add(
             "events-of-welds", _events_figure(result), "Share of each event in the damage of the worst points"
         ),
-        "pages": [_weld_page(result, weld, details.get(weld), figs, links[weld]) for weld in result.detailed],
+        "bands": _bands_figure(result, why, figs),
+        "pages": [_weld_page(result, weld, details.get(weld), why, figs, links[weld]) for weld in result.detailed],
         "undetailed": len(assessed) - len(result.detailed),
         **_domains(result, figs),
         "worst_points": tables.point_table(result.nodes, links, WORST_POINTS, "worst-points", "Find a point"),
@@ -231,7 +237,22 @@ def _event_shares(result: Result) -> pd.DataFrame:
     return table[total > 0.0].div(total[total > 0.0], axis=0)
 
 
-def _weld_page(result: Result, weld: str, detail: Detail | None, figs: Figures, id_: str) -> WeldPage:
+def _bands_figure(result: Result, why: Why | None, figs: Figures, most: int = 30) -> Shown | None:
+    """Map of welds over frequency bands; None without a diagnosis."""
+    if why is None:
+        return None
+    found = {weld: band_shares(why.of_weld(weld)) for weld in result.detailed[:most]}
+    found = {weld: bands for weld, bands in found.items() if len(bands) > 1}
+    if not found:
+        return None
+    shares = np.stack([bands["share"].to_numpy() for bands in found.values()])
+    fig = figures.bands_of_welds(list(found), np.nan_to_num(shares), next(iter(found.values())))
+    return figs.add("bands", fig, "Share of each frequency band in the damage of the worst points")
+
+
+def _weld_page(
+    result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str
+) -> WeldPage:
     row = result.welds.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
     points = result.nodes[result.nodes["weld"] == weld]
@@ -244,8 +265,11 @@ def _weld_page(result: Result, weld: str, detail: Detail | None, figs: Figures, 
     shown = [figs.add(f"{id_}-along", along, f"{wording.short(weld)}: life, load factor and stress along the weld")]
     if len(cycles) and cycles["range_MPa"].max() > 0.0:
         shown += _cycle_figures(result, weld, cycles, used, figs, id_)
+    of_weld = None if why is None else why.of_weld(weld)
     if detail is not None:
         shown += _signal_figures(result, detail, str(event), figs, id_)
+    if of_weld is not None:
+        shown += _why_figures(result, of_weld, str(event), figs, id_)
     return WeldPage(
         id=id_,
         name=weld,
@@ -255,6 +279,9 @@ def _weld_page(result: Result, weld: str, detail: Detail | None, figs: Figures, 
         point=shown[1:],
         variants=_variants_table(point, cycles, result, used, id_),
         events=_events_table(result, weld, id_),
+        levers=None if of_weld is None or of_weld.levers.empty else _levers_table(of_weld, id_),
+        reasons=[] if of_weld is None else [tuple(row) for row in of_weld.diagnosis[["event", "verdict", "reason"]].to_numpy()],
+        exponents={} if of_weld is None else exponents(of_weld),
     )
 
 
@@ -305,6 +332,53 @@ def _signal_figures(result: Result, detail: Detail, event: str, figs: Figures, i
         spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:4]), event)
         shown.append(figs.add(f"{id_}-psd", spectrum, "Stress spectrum, the leading normal modes, and where the variance lies"))
     return shown
+
+
+def _why_figures(result: Result, why: Why, event: str, figs: Figures, id_: str) -> list[Shown]:
+    """Modes, frequency bands and places that make the damage of a weld's worst point."""
+    names, natural = _mode_names(result.record["modes"])
+    shown = []
+    modes = mode_shares(why).head(8)
+    if modes["share"].notna().any():
+        bars = figures.shares([names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), "share of the damage, all events [%]")
+        shown.append(figs.add(f"{id_}-damage-modes", bars, "Damage by mode; a negative share relieves"))
+    bands = band_shares(why)
+    if len(bands) > 1 and bands["share"].notna().all():
+        marked = [natural[mode] for mode in modes["mode"][:4] if mode in natural]
+        shown.append(figs.add(f"{id_}-damage-bands", figures.damage_by_band(bands, marked), "Damage by frequency band; dotted: leading normal modes"))
+    track = why.track[why.track["event"] == event]
+    if len(track) > 1:
+        caption = f"Where in event {wording.short(event)} the damage is made"
+        shown.append(figs.add(f"{id_}-track", figures.damage_on_track(track), caption))
+    return shown
+
+
+def _levers_table(why: Why, id_: str) -> Table:
+    """Which mode, if 10 % smaller, buys most kilometres."""
+    rows = [
+        [
+            tables.integer(row.mode),
+            tables.num(row.frequency_hz),
+            Cell(row.kind),
+            tables.percent(row.share),
+            tables.num(row.life_exponent),
+            tables.num(row.life_km_estimated),
+            tables.num(row.life_km_counted),
+            tables.num(row.gain_km),
+        ]
+        for row in why.levers.sort_values("rank").itertuples()
+    ]
+    headings = (
+        Heading("mode"),
+        Heading("frequency", "Hz"),
+        Heading("kind", numeric=False),
+        Heading("share of damage", "%"),
+        Heading("d ln life / d ln amplitude", "-"),
+        Heading("life, estimated", "km"),
+        Heading("life, counted again", "km"),
+        Heading("gain", "km"),
+    )
+    return tables.plain_table(f"{id_}-levers", headings, rows)
 
 
 def _mode_names(modes: Mapping[str, Any]) -> tuple[dict[int, str], dict[int, float]]:

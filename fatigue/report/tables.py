@@ -156,7 +156,7 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
             text(row.surface),
             text(row.curve),
             text(row.survival),
-            Cell("plate thickness" if row.end_length_mm != row.end_length_mm else number(row.end_length_mm), 0.0),  # noqa: PLR0124
+            Cell("plate thickness" if row.end_length_mm != row.end_length_mm else number(row.end_length_mm), 0.0),
             *(num(getattr(row, name)) for name in LIFE_COLUMNS),
         )
         for row in welds.itertuples()

@@ -210,7 +210,7 @@ def diagnose(
 
 
 def sampling_loss(samples_per_peak: NDArray[np.float64], k: float) -> NDArray[np.float64]:
-    """Share of the damage that counting samples loses, ``k (pi / samples per peak)**2 / 6``: peaks fall between them."""
+    """Share of the damage lost because peaks fall between samples: ``k (pi / samples per peak)**2 / 6``."""
     return np.asarray(np.minimum(k * (np.pi / samples_per_peak) ** 2 / 6, 1.0))
 
 

@@ -36,9 +36,10 @@ def _valid(of: Diagnosis, i: int) -> str:
 
 def _sampling(of: Diagnosis, i: int) -> str:
     if of.samples_per_peak[i] < FEWEST_SAMPLES_PER_PEAK:
+        loss = sampling_loss(of.samples_per_peak[i], of.slope)
         return (
-            f"Only {of.samples_per_peak[i]:.1f} samples per peak: the rainflow count itself loses about "
-            f"{sampling_loss(of.samples_per_peak[i], of.slope):.0%} of the damage. Upsample the record or write it out more often, {FEWEST_SAMPLES_PER_PEAK:.0f} is the least."
+            f"Only {of.samples_per_peak[i]:.1f} samples per peak: the rainflow count itself loses about {loss:.0%} of "
+            f"the damage. Upsample the record or write it out more often, {FEWEST_SAMPLES_PER_PEAK:.0f} is the least."
         )
     return (
         f"Stress peaks come {of.peaks_over_top_mode[i]:.1f} times as often as the highest mode swings, more than "
@@ -104,6 +105,8 @@ def _band(of: Diagnosis, i: int) -> str:
 def _modulation(of: Diagnosis, i: int) -> str:
     if math.isnan(of.modulation_index[i]):
         return f"whether it is stationary is unknown ({of.segments} spectral segments, {FEWEST_PERIODS} are needed)"
+    if of.modulation_index[i] > of.modulation_high[i]:
+        return f"modulated over time, worth a factor of {of.modulation_factor[i]:.2f} in damage"
     return (
         f"stationary (modulation index {of.modulation_index[i]:.2f}, chance allows {of.modulation_low[i]:.2f} to "
         f"{of.modulation_high[i]:.2f})"

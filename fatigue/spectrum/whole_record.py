@@ -13,7 +13,7 @@ from fatigue.spectrum.moments import hann
 
 SLOWEST_HZ = 0.3
 SLOWEST_CYCLES = 10.0  # per record; fewer are an event, not a spectrum
-LINE_OVER_MEDIAN = 20.0  # a periodogram of noise exceeds its median so far once in a million bins
+LINE_OVER_MEDIAN = 30.0  # one bin of noise in a hundred thousand stands out so far
 LINE_BLOCK = 16  # bins of a local median: narrow against resonances, wide against the four bins of a tapered tone
 
 
@@ -27,14 +27,12 @@ class RecordMatrices:
     slow : part below ``slow_hz``
     lines : part in spectral lines, bins of the whole record's spectrum that stand out of their neighbours
     slow_hz : frequency below which the record holds too few cycles for a spectrum [Hz]
-    line_hz : (l,) frequencies of the lines [Hz]
     """
 
     covariance: NDArray[np.float64]
     slow: NDArray[np.float64]
     lines: NDArray[np.float64]
     slow_hz: float
-    line_hz: NDArray[np.float64]
 
 
 def record_matrices(history: ModalHistory, upper_hz: float) -> RecordMatrices:
@@ -62,7 +60,6 @@ def record_matrices(history: ModalHistory, upper_hz: float) -> RecordMatrices:
         slow=(slow_part @ slow_part.conj().T).real,
         lines=(line_part @ line_part.conj().T).real,
         slow_hz=slow_hz,
-        line_hz=np.asarray(frequency[lines], dtype=np.float64),
     )
 
 

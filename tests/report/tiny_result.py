@@ -355,7 +355,7 @@ def _provenance(recipe, passes, files):
             "yield_MPa": None,
             "bending_ratio": "of each cycle",
             "weld_ends": "mean over the plate thickness",
-            "residue": {event: "the record recurs: every cycle closes" for event in recipe.events},
+            "residue": dict.fromkeys(recipe.events, "the record recurs: every cycle closes"),
             "upsample": 1,
             "spectrum": {"segment_s": 2.0, "upper_hz": None, "window": "periodic Hann, 50 % overlap, constant detrend"},
         },

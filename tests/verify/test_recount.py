@@ -63,11 +63,12 @@ CASES = {
         by_element=True,
         welds=("angle", "square", "curved"),
     ),
-    "own curve in dS with scatter, a weld without forces": TinyCase(
+    "own curve in dS with scatter, a weld without forces, an event at rest": TinyCase(
         curve='name = "mine"\nsurvival = "mean-1sigma"',
         curves=SCATTERED_CURVE,
         welds=("curved", "ring", "short"),
         dead="ring",
+        still="smooth",
     ),
 }
 

@@ -28,7 +28,8 @@ class TinyCase:
     files: str = "parquet"
     welds: tuple[str, ...] = ("seam", "curved", "ring", "angle", "square", "short")
     samples: int = 400
-    dead: str = ""
+    dead: str = ""  # a weld without forces
+    still: str = ""  # an event in which nothing moves
 
 
 def write_case(folder: Path, tiny: TinyCase) -> Path:
@@ -60,7 +61,9 @@ def write_case(folder: Path, tiny: TinyCase) -> Path:
         ]
         _write(pd.DataFrame(rows).sample(frac=1.0, random_state=1), folder / f"nodal_forces.{tiny.files}")
     for name, seed in (("rough", 1), ("smooth", 2)):
-        _write(_history(np.random.default_rng(seed), forced, tiny), folder / f"q_{name}.{tiny.files}")
+        moves = 0.0 if name == tiny.still else 1.0
+        history = _history(np.random.default_rng(seed), forced, moves, tiny)
+        _write(history, folder / f"q_{name}.{tiny.files}")
     pd.DataFrame({"time_s": [0.0, 1.0]} | {f"q_{m}": [0.1 * i, 0.5 + i] for i, m in enumerate(forced)}).to_csv(
         folder / "q_load.csv", index=False
     )
@@ -113,15 +116,12 @@ per_1000_km = 1.5
 """
 
 
-def _history(rng: np.random.Generator, modes: np.ndarray, tiny: TinyCase) -> pd.DataFrame:
+def _history(rng: np.random.Generator, modes: np.ndarray, moves: float, tiny: TinyCase) -> pd.DataFrame:
+    """Make noisy sines of a few Hz about the dead load; ``moves`` of 0 keeps only the latter."""
     t = 3.0 + STEP * np.arange(tiny.samples)
-    q = np.stack(
-        [
-            np.sin(2 * np.pi * f * t + p)
-            for f, p in zip(3 + rng.random(len(modes)) * 9, rng.random(len(modes)), strict=True)
-        ]
-    )
-    q = 0.5 * q + 0.2 * rng.standard_normal(q.shape) + tiny.dead_load
+    frequency, phase = 3 + rng.random((len(modes), 1)) * 9, rng.random((len(modes), 1))
+    q = 0.5 * np.sin(2 * np.pi * frequency * t + phase)
+    q = moves * (q + 0.2 * rng.standard_normal(q.shape)) + tiny.dead_load * (1 + 0.1 * np.arange(len(modes))[:, None])
     return pd.DataFrame({"time_s": t} | {f"q_{m}": row for m, row in zip(modes, q, strict=True)})
 
 

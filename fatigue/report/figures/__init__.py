@@ -10,14 +10,18 @@ from fatigue.report.figures.overview import damage_by_event, shares, weld_lives,
 from fatigue.report.figures.records import stress_history, stress_spectrum
 from fatigue.report.figures.scene import Body, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
+from fatigue.report.figures.why import bands_of_welds, damage_by_band, damage_on_track
 
 __all__ = [
     "CONFIG",
     "TEMPLATE",
     "Body",
     "along_weld",
+    "bands_of_welds",
     "body_outline",
+    "damage_by_band",
     "damage_by_event",
+    "damage_on_track",
     "event_colours",
     "exceedance",
     "line_rows",

@@ -9,6 +9,7 @@ from fatigue.report.figures.style import (
     INK,
     QUIET,
     SEQUENTIAL,
+    Trace,
     axis,
     colour_bar,
     drawn_life,
@@ -20,6 +21,19 @@ from fatigue.report.figures.style import (
 from fatigue.report.wording import in_figure
 
 NAMED_POINTS = 20_000  # beyond, names at every point would outweigh the page
+VERDICTS = (
+    "valid",
+    "not_assessed",
+    "sampling",
+    "quasi_static",
+    "single_event",
+    "non_stationary",
+    "harmonic",
+    "non_gaussian",
+    "bandwidth",
+)
+TRUSTED = VERDICTS[:2]
+SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star")
 FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 
 
@@ -50,15 +64,30 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
         for factor, dash in FACTOR_BANDS
         for side in sorted({1 / factor, float(factor)})
     ]
+    verdict = shown["dirlik_verdict"].to_numpy()
+    points = [_points(shown[verdict == v], v, i) for i, v in enumerate(v for v in VERDICTS if (verdict == v).any())]
+    return figure(
+        [*bands, *points],
+        height=500,
+        margin={"l": 76, "r": 16, "t": 52, "b": 52},
+        xaxis=log_axis("life by rainflow, one bending ratio [km]", low, high),
+        yaxis=log_axis("life by Dirlik, one bending ratio [km]", low, high),
+    )
+
+
+def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
+    """Points of one verdict, in a symbol of its own."""
     few = len(shown) <= NAMED_POINTS
-    points = {
+    return {
         "type": "scattergl",
-        "x": single(x),
-        "y": single(y),
+        "x": single(drawn_life(shown["life_km_same_ratio"])),
+        "y": single(drawn_life(shown["life_km_dirlik"])),
         "mode": "markers",
-        "showlegend": False,
+        "name": f"{verdict.replace('_', ' ')} ({len(shown)})",
         "marker": {
-            "size": 6,
+            "size": 6 if verdict in TRUSTED else 9,
+            "symbol": SYMBOLS[number % len(SYMBOLS)],
+            "showscale": number == 0,
             "color": single(shown["kurtosis"].fillna(3.0)),
             "cmin": 2.0,
             "cmax": 6.0,
@@ -72,13 +101,6 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
         "hovertemplate": ("%{text}<br>" if few else "")
         + "rainflow %{x:.4g} km<br>Dirlik %{y:.4g} km<br>damage ratio %{customdata:.4g}<extra></extra>",
     }
-    return figure(
-        [*bands, points],
-        height=500,
-        margin={"l": 76, "r": 16, "t": 34, "b": 52},
-        xaxis=log_axis("life by rainflow, one bending ratio [km]", low, high),
-        yaxis=log_axis("life by Dirlik, one bending ratio [km]", low, high),
-    )
 
 
 def ratio_histogram(nodes: pd.DataFrame) -> go.Figure:

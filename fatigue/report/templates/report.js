@@ -3,21 +3,35 @@
   const read = (id) => JSON.parse(document.getElementById(id).textContent);
   const config = read("plot-config");
   const template = read("plot-template");
-  const PAPER_WIDTH = 680; // px of the type area of A4 at 96 px per inch
+  const PAPER = { wide: [920, 0.74], half: [480, 0.69] }; // width drawn [px] and scale on A4
   let onPaper = location.hash === "#print";
 
+  // plotly.js is text until the page has been painted: taking it in costs more than all the rest.
+  const start = () => {
+    if (window.Plotly) return;
+    const script = document.createElement("script");
+    script.textContent = document.getElementById("plotly-source").textContent;
+    document.head.append(script);
+  };
+
   // Figures are drawn when they come into view, all at once for paper.
+  const forPaper = (plot) => !plot.closest(".screen");
+  const fit = (plot) => {
+    const figure = plot.closest("figure");
+    const [width, zoom] = PAPER[figure.parentElement.classList.contains("pair") && !figure.classList.contains("wide") ? "half" : "wide"];
+    plot.style.zoom = zoom;
+    return width;
+  };
   const draw = (plot) => {
     if (plot.dataset.drawn) return;
     plot.dataset.drawn = "yes";
     const { data, layout } = read("json-" + plot.dataset.figure);
     layout.template = template;
-    if (onPaper) layout.width = PAPER_WIDTH;
+    if (onPaper) layout.width = fit(plot);
     Plotly.newPlot(plot, data, layout, onPaper ? { ...config, staticPlot: true } : config);
     if (plot.dataset.figure === "scene") probe(plot);
   };
   const plots = [...document.querySelectorAll(".plot")];
-  const forPaper = (plot) => !plot.closest(".screen");
   const watcher = new IntersectionObserver(
     (seen) => seen.filter((s) => s.isIntersecting).forEach((s) => draw(s.target)),
     { rootMargin: "400px" },
@@ -180,18 +194,25 @@
   };
   addEventListener("hashchange", open);
   const prepare = () => {
+    start();
     onPaper = true;
     document.querySelectorAll("details").forEach((d) => { d.open = true; });
-    plots.filter(forPaper).forEach((plot) => (plot.dataset.drawn ? Plotly.relayout(plot, { width: PAPER_WIDTH }) : draw(plot)));
+    plots.filter(forPaper).forEach((plot) => (plot.dataset.drawn ? Plotly.relayout(plot, { width: fit(plot) }) : draw(plot)));
   };
-  addEventListener("beforeprint", prepare);
+  addEventListener("beforeprint", () => { if (!onPaper) prepare(); });
   addEventListener("afterprint", () => {
     onPaper = false;
-    plots.filter((plot) => plot.dataset.drawn).forEach((plot) => Plotly.relayout(plot, { width: null, autosize: true }));
+    plots.filter((plot) => plot.dataset.drawn).forEach((plot) => {
+      plot.style.zoom = "";
+      Plotly.relayout(plot, { width: null, autosize: true });
+    });
   });
   if (onPaper) prepare();
   else {
-    plots.forEach((plot) => watcher.observe(plot));
     open();
+    requestAnimationFrame(() => setTimeout(() => {
+      start();
+      plots.forEach((plot) => watcher.observe(plot));
+    }));
   }
 })();

@@ -1,0 +1,1 @@
+"""From a case to finished blocks of damage and the rows of its tables."""

@@ -1,0 +1,69 @@
+"""The body of a case as its small files describe it: modes, welds, lines, curves, mesh; forces are read later."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from fatigue.case import Case, check_files
+from fatigue.errors import Problem
+from fatigue.pipeline.rated_curves import RatedCurve, curves_of_case, rated_curves
+from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
+from fatigue.weld.line import WeldLine
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """One body under one case.
+
+    ``lines`` has one line per weld, in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve
+    a weld asks for; ``mesh`` serves the balance check and pictures; ``excluded`` are the lines the weld register lists
+    as not assessed; ``warnings`` are the doubts about these files.
+    """
+
+    case: Case
+    modes: Modes
+    welds: tuple[Weld, ...]
+    lines: tuple[WeldLine, ...]
+    curves: Mapping[str, RatedCurve]
+    mesh: Mesh | None
+    excluded: tuple[RegisterRow, ...]
+    strict: bool
+    warnings: tuple[Problem, ...]
+
+    def curve_of(self, weld: Weld) -> str:
+        """Key of the curve of a weld: its own, else that of the case."""
+        return weld.curve or self.case.curve.name
+
+
+def read_body(case: Case, *, strict: bool) -> Body:
+    """Read and check the small files of a case.
+
+    Raises
+    ------
+    CaseError, DataError : with every mistake found in the file at fault
+    """
+    check_files(case)
+    files = case.body
+    known_curves = curves_of_case(case)
+    modes, warnings = read_modes(case.resolve(files.modes), files.ignore_modes, strict=strict)
+    welds, doubts = read_welds(case.resolve(files.welds), known_curves, strict=strict)
+    warnings += doubts
+    curves = rated_curves(case, known_curves, welds)
+    lines, doubts = read_weld_nodes(case.resolve(files.weld_nodes), welds, strict=strict)
+    warnings += doubts
+    mesh: Mesh | None = None
+    if files.nodes:
+        elements = case.resolve(files.elements) if files.elements else None
+        mesh, doubts = read_mesh(case.resolve(files.nodes), elements, strict=strict)
+        warnings += doubts
+    register = register_file(case)
+    rows = read_register(register).values() if register else ()
+    excluded = tuple(row for row in rows if row.status != "assess")
+    return Body(case, modes, welds, lines, curves, mesh, excluded, strict, tuple(warnings))
+
+
+def register_file(case: Case) -> Path | None:
+    """Find the register that `fatigue convert` wrote beside the welds; None where there is none."""
+    path = case.resolve(case.body.welds).parent / REGISTER
+    return path if path.exists() else None

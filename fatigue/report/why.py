@@ -1,0 +1,61 @@
+"""What a diagnosis, where one was made, says of the points shown in detail: modes, bands, track, levers, verdicts."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+
+from fatigue.report.result import POINT, Result
+
+TABLES = ("attribution", "track", "diagnosis", "levers")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Why:
+    """Rows of the diagnosis for the worst points of the detailed welds; an empty table where there is none."""
+
+    attribution: pd.DataFrame
+    track: pd.DataFrame
+    diagnosis: pd.DataFrame
+    levers: pd.DataFrame
+
+    def of_weld(self, weld: str) -> "Why":
+        """Keep the rows of one weld."""
+        return Why(*(rows[rows["weld"] == weld] for rows in (self.attribution, self.track, self.diagnosis, self.levers)))
+
+
+def read_why(folder: Path, result: Result) -> Why | None:
+    """Read the tables of a diagnosis; None where the result was not diagnosed."""
+    if not all((folder / f"{name}.parquet").is_file() for name in TABLES):
+        return None
+    welds = result.welds[result.welds["weld"].isin(result.detailed)]
+    worst = welds[["weld", "worst_part", "worst_order", "worst_surface"]].set_axis(list(POINT), axis=1)
+    wanted = pc.field("weld").isin(pa.array(result.detailed, pa.string()))
+    tables = (pq.read_table(folder / f"{name}.parquet", filters=wanted).to_pandas() for name in TABLES)
+    return Why(*(table.merge(worst, on=list(POINT)) for table in tables))
+
+
+def mode_shares(why: Why) -> pd.DataFrame:
+    """Share of each mode in the damage over all events, largest first: ``mode``, ``share``, ``resonant_share``."""
+    modes = why.attribution[why.attribution["kind"] == "mode"]
+    shares = modes.groupby("mode")[["share", "resonant_share"]].sum(min_count=1).reset_index()
+    order = np.argsort(-shares["share"].abs().to_numpy(), kind="stable")
+    return shares.iloc[order].astype({"mode": int})
+
+
+def band_shares(why: Why) -> pd.DataFrame:
+    """Share of each frequency band in the damage over all events: ``low_hz``, ``high_hz`` (NaN: no end), ``share``."""
+    bands = why.attribution[why.attribution["kind"] == "band"]
+    return bands.groupby(["low_hz", "high_hz"], dropna=False, sort=True)["share"].sum().reset_index()
+
+
+def exponents(why: Why) -> Mapping[str, float]:
+    """Give d ln(life) / d ln of load, plate thickness through its stress, and thickness through the rule."""
+    rows: Any = why.attribution[why.attribution["kind"].isin(["load", "thickness", "thickness_rule"])]
+    return {str(kind): float(total) for kind, total in rows.groupby("kind")["life_exponent"].sum().items()}

@@ -1,0 +1,318 @@
+"""The data dictionary: every column of every result table with its type, unit and meaning."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+ColumnType = Literal["text", "int", "flag", "float"]
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column of a result table: name, type, unit and meaning, written into the file beside the numbers."""
+
+    name: str
+    type: ColumnType
+    unit: str
+    meaning: str
+
+
+_POINT = (
+    Column("weld", "text", "-", "weld line"),
+    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
+    Column("node", "int", "-", "FE node id"),
+    Column("order", "int", "-", "position along the weld line, as given"),
+    Column("surface", "text", "-", "top (side of the plate normal) or bottom face of the assessed plate"),
+)
+
+NODES = (
+    *_POINT,
+    Column("toe", "flag", "-", "the face carries a weld toe; a face without one never governs"),
+    Column("arc_length_mm", "float", "mm", "distance along the part from its first node"),
+    Column("x_mm", "float", "mm", "position"),
+    Column("y_mm", "float", "mm", "position"),
+    Column("z_mm", "float", "mm", "position"),
+    Column("thickness_mm", "float", "mm", "thickness of the assessed plate"),
+    Column("damage_per_km", "float", "1/km", "Miner sum per km of the mission, rainflow, bending ratio of each cycle"),
+    Column("life_km", "float", "km", "damage limit / damage_per_km; infinite where nothing damages"),
+    Column("life_years", "float", "a", "life_km / km_per_year of the mission"),
+    Column("utilisation", "float", "-", "Miner sum at target_km / damage limit"),
+    Column("fulfilled", "flag", "-", "utilisation <= 1"),
+    Column("load_factor", "float", "-", "scale on all stresses that just meets the target"),
+    Column(
+        "life_km_dirlik",
+        "float",
+        "km",
+        "life by Dirlik's formula with one bending ratio per event, events with a spectrum",
+    ),
+    Column("life_km_tb", "float", "km", "life by Tovo-Benasciutti 2005 with one bending ratio per event, same events"),
+    Column("life_km_same_ratio", "float", "km", "rainflow life with the same one bending ratio per event, same events"),
+    Column("dirlik_ratio", "float", "-", "D_dirlik / D_rainflow at the same bending ratio"),
+    Column(
+        "dirlik_verdict",
+        "text",
+        "-",
+        "may the frequency domain be trusted here: not_assessed, valid, or the first reason why not (sampling, "
+        "quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth), of the event with the largest "
+        "share of the damage",
+    ),
+    Column("max_range_MPa", "float", "MPa", "largest structural stress range of all events"),
+    Column(
+        "equivalent_range_2e6_MPa",
+        "float",
+        "MPa",
+        "structural stress range that does the same in 2e6 cycles over target_km",
+    ),
+    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress in the governing event"),
+    Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all events"),
+    Column(
+        "damage_factor_if_mean_stress",
+        "float",
+        "-",
+        "damage with the ASME mean-stress factor / without; 1 where it is on",
+    ),
+    Column("shear_ratio", "float", "-", "rms shear stress / rms structural stress in the governing event"),
+    Column("damage_factor_if_shear", "float", "-", "damage with shear combined as in ASME VIII-2 5.5.5.3 / without"),
+    Column("governing_event", "text", "-", "event with the largest share of the damage"),
+    Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) in the governing event"),
+    Column("life_km_raw_end", "float", "km", "life without the end treatment"),
+    Column("at_end", "flag", "-", "inside the treated zone of a weld end, or the end node itself"),
+    Column("at_corner", "flag", "-", "at a kink of the weld line above 30 degrees"),
+    Column(
+        "screened", "text", "-", "empty: counted exactly; else the tier of the proven bound that stands for counting"
+    ),
+)
+
+DAMAGE = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column("damage_per_km", "float", "1/km", "Miner sum per km of this event; empty for an event counted by number"),
+    Column("damage_per_pass", "float", "-", "Miner sum of one pass of the simulated record"),
+    Column("damage_dirlik_per_km", "float", "1/km", "Dirlik's estimate with the one bending ratio"),
+    Column("damage_tb_per_km", "float", "1/km", "Tovo-Benasciutti 2005 with the one bending ratio"),
+    Column("damage_same_ratio_per_km", "float", "1/km", "rainflow with the one bending ratio"),
+    Column("damage_dirlik_per_pass", "float", "-", "Dirlik's estimate of one pass; empty without a spectrum"),
+    Column("damage_tb_per_pass", "float", "-", "Tovo-Benasciutti 2005 of one pass; empty without a spectrum"),
+    Column("damage_same_ratio_per_pass", "float", "-", "rainflow with the one bending ratio of one pass"),
+    Column("cycles_per_km", "float", "1/km", "counted cycles per km"),
+    Column("cycles_per_pass", "float", "-", "counted cycles of one pass"),
+    Column("max_range_MPa", "float", "MPa", "largest structural stress range"),
+    Column(
+        "max_equivalent_range_dS",
+        "float",
+        "MPa mm^-0.222",
+        "largest equivalent range (MPa on curves in structural stress)",
+    ),
+    Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) over the kept samples"),
+    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress"),
+    Column("kurtosis", "float", "-", "Pearson kurtosis of the structural stress, 3 for a Gaussian record"),
+    Column("irregularity", "float", "-", "alpha_2 = zero up-crossings / peaks, from the spectral moments"),
+    Column("peaks_per_s", "float", "1/s", "nu_p = sqrt(m4 / m2)"),
+    Column("samples_per_peak", "float", "-", "sampling rate of the counted record / nu_p"),
+    Column(
+        "verdict",
+        "text",
+        "-",
+        "may the frequency domain be trusted in this event: see dirlik_verdict of the nodes table",
+    ),
+)
+
+CYCLES = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column("start_s", "float", "s", "file time of the first reversal"),
+    Column("end_s", "float", "s", "file time of the second reversal; before start_s: the cycle wraps past the end"),
+    Column("range_MPa", "float", "MPa", "structural stress range"),
+    Column("mean_MPa", "float", "MPa", "mean of the two reversals"),
+    Column("count", "float", "-", "1: cycle, 0.5: half cycle"),
+    Column("membrane_range_MPa", "float", "MPa", "membrane stress range between the same two instants"),
+    Column("bending_range_MPa", "float", "MPa", "bending stress range between the same two instants"),
+    Column("bending_ratio", "float", "-", "bending / (membrane + bending) range"),
+    Column("equivalent_range_dS", "float", "MPa mm^-0.222", "equivalent range (MPa on curves in structural stress)"),
+    Column("damage", "float", "-", "count / cycles to failure at this range"),
+)
+
+_COMPONENTS = (
+    ("membrane_MPa", "membrane stress"),
+    ("bending_MPa", "bending stress of the top face"),
+    ("in_plane_shear_MPa", "in-plane shear stress, mean"),
+    ("twist_shear_MPa", "in-plane shear stress of the top face from the twisting moment"),
+    ("transverse_shear_MPa", "transverse shear stress, mean"),
+)
+
+STRUCTURAL_STRESS = (
+    Column("weld", "text", "-", "weld line"),
+    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
+    Column("order", "int", "-", "position along the weld line, as given"),
+    Column("node", "int", "-", "FE node id"),
+    Column("mode", "int", "-", "mode id"),
+    *(
+        Column(name, "float", "MPa", f"{meaning}, per unit modal coordinate, ends treated")
+        for name, meaning in _COMPONENTS
+    ),
+    *(
+        Column(name.replace("_MPa", "_raw_MPa"), "float", "MPa", f"{meaning}, per unit modal coordinate, as solved")
+        for name, meaning in _COMPONENTS
+    ),
+)
+
+WELDS = (
+    Column("weld", "text", "-", "weld line"),
+    Column("status", "text", "-", "assessed, or excluded"),
+    Column("reason", "text", "-", "why a weld is excluded"),
+    Column("description", "text", "-", "as given"),
+    Column("closed", "flag", "-", "the line closes on itself"),
+    Column("parts", "int", "-", "straight parts after splitting at kinks"),
+    Column("nodes", "int", "-", "nodes on the line"),
+    Column("length_mm", "float", "mm", "length of the line"),
+    Column("thickness_min_mm", "float", "mm", "smallest plate thickness"),
+    Column("thickness_max_mm", "float", "mm", "largest plate thickness"),
+    Column("surface", "text", "-", "faces that carry a weld toe"),
+    Column("curve", "text", "-", "S-N curve"),
+    Column("survival", "text", "-", "survival level of the curve"),
+    Column("end_length_mm", "float", "mm", "length of the end treatment; empty: plate thickness"),
+    Column("life_km", "float", "km", "shortest life of the weld's toe points"),
+    Column("life_years", "float", "a", "the same in years"),
+    Column("utilisation", "float", "-", "largest utilisation of the weld's toe points"),
+    Column("fulfilled", "flag", "-", "every toe point meets the target"),
+    Column("load_factor", "float", "-", "load factor of the worst point"),
+    Column("worst_part", "int", "-", "worst point: part"),
+    Column("worst_order", "int", "-", "worst point: position"),
+    Column("worst_node", "int", "-", "worst point: FE node"),
+    Column("worst_surface", "text", "-", "worst point: face"),
+    Column("worst_arc_length_mm", "float", "mm", "worst point: distance along the part"),
+    Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
+)
+
+_CHOSEN = Column(
+    "chosen",
+    "text",
+    "-",
+    "why the point is in this table: all points are, or it is the worst of its weld, or above a share of the limit",
+)
+
+ATTRIBUTION = (
+    *_POINT,
+    _CHOSEN,
+    Column("event", "text", "-", "event of the mission; every column of numbers adds up over the events"),
+    Column(
+        "kind",
+        "text",
+        "-",
+        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses; thickness: "
+        "the plate through its stress, at constant line force and moment; thickness_rule: the plate through the rule",
+    ),
+    Column("mode", "int", "-", "mode id, for kind mode"),
+    Column("low_hz", "float", "Hz", "lower edge, for kind band"),
+    Column("high_hz", "float", "Hz", "upper edge, for kind band; empty: no upper edge"),
+    Column(
+        "damage_per_km",
+        "float",
+        "1/km",
+        "damage owed to it per km of the mission, below 0 where it relieves; empty for load and thickness",
+    ),
+    Column("share", "float", "-", "the same over the damage of the point in all events"),
+    Column(
+        "resonant_share",
+        "float",
+        "-",
+        "part of share in resonance, within f (1 +- 2 zeta) of the mode; empty without damping ratio",
+    ),
+    Column(
+        "life_exponent",
+        "float",
+        "-",
+        "d ln(life) / d ln of the amplitude, the number of passes of the event, the load or the thickness",
+    ),
+)
+
+TRACK = (
+    *_POINT,
+    _CHOSEN,
+    Column("event", "text", "-", "event of the mission"),
+    Column("start_km", "float", "km", "from the first kept sample; empty for an event counted by number"),
+    Column("end_km", "float", "km", "end of the bin; empty for an event counted by number"),
+    Column("start_s", "float", "s", "file time at the start of the bin"),
+    Column("end_s", "float", "s", "file time at the end of the bin"),
+    Column("damage_per_km", "float", "1/km", "damage of the bin per km of the mission; half a cycle at either instant"),
+    Column("share", "float", "-", "the same over the damage of the point in this event"),
+    Column("intensity", "float", "-", "share over the part of the event that the bin is long; 1: as the average"),
+)
+
+DIAGNOSIS = (
+    *_POINT,
+    _CHOSEN,
+    Column("event", "text", "-", "event of the mission"),
+    Column(
+        "verdict",
+        "text",
+        "-",
+        "may the frequency domain be trusted in this event: not_assessed, valid, or why not, first hit (sampling, "
+        "quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth)",
+    ),
+    Column("reason", "text", "-", "the verdict in words, with its numbers"),
+    Column("record_too_short", "flag", "-", "the damage scatters by more than 25 % from record to record, or unknown"),
+    Column(
+        "damage_cov", "float", "-", "coefficient of variation of the damage from one record of this length to the next"
+    ),
+    Column("dirlik_ratio", "float", "-", "D_dirlik / D_rainflow of the event, one bending ratio in both"),
+    Column("tb_ratio", "float", "-", "D_tovo_benasciutti / D_rainflow"),
+    Column("ratio_low", "float", "-", "from here on the ratio means agreement"),
+    Column("ratio_high", "float", "-", "up to here the ratio means agreement"),
+    Column(
+        "segmentwise_ratio", "float", "-", "Dirlik summed over periods / D_rainflow, where the event is not stationary"
+    ),
+    Column(
+        "formula_error", "float", "-", "A of the ratio A B: Dirlik / rainflow of Gaussian surrogates; governing points"
+    ),
+    Column("process_error", "float", "-", "B of the ratio A B: rainflow of the surrogates / of the record"),
+    Column("split_standard_error", "float", "-", "of ln A and of ln B"),
+    Column("explained_share", "float", "-", "share of ln B that the modulation and the tones found explain"),
+    Column("alpha2", "float", "-", "irregularity m2 / sqrt(m0 m4)"),
+    Column("samples_per_peak", "float", "-", "sampling rate of the counted record over the rate of peaks"),
+    Column("peaks_over_top_mode", "float", "-", "rate of peaks over the highest frequency of a normal mode"),
+    Column("slow_share", "float", "-", "of the variance, slower than the record can hold ten cycles of"),
+    Column("top_cycle_share", "float", "-", "of the damage, in the one most damaging cycle"),
+    Column("top_cycle_limit", "float", "-", "share that chance allows"),
+    Column("modulation_index", "float", "-", "scatter of the variance over time / scatter by chance"),
+    Column("modulation_low", "float", "-", "below, the stress is steadier than chance"),
+    Column("modulation_high", "float", "-", "above, the stress is not stationary"),
+    Column("modulation_factor", "float", "-", "damage that the modulation found adds"),
+    Column("line_share", "float", "-", "of the variance, in tones"),
+    Column("line_factor", "float", "-", "damage of tones plus noise / of noise of the same variance"),
+    Column("kurtosis", "float", "-", "Pearson kurtosis of the stress, 3 for a Gaussian record"),
+    Column("expected_kurtosis", "float", "-", "of a Gaussian record with the modulation found"),
+    Column("kurtosis_tolerance", "float", "-", "difference that chance allows"),
+    Column("bandwidth_hz", "float", "Hz", "statistical bandwidth: the variance over T scatters by 1 / sqrt(T B)"),
+    Column("relative_bandwidth", "float", "-", "the same over the rate of zero crossings"),
+)
+
+LEVERS = (
+    *_POINT,
+    _CHOSEN,
+    Column("rank", "int", "-", "1: buys most"),
+    Column("mode", "int", "-", "mode id"),
+    Column("frequency_hz", "float", "Hz", "natural frequency of the mode"),
+    Column("kind", "text", "-", "normal, interface or rigid"),
+    Column("share", "float", "-", "share of the damage owed to the mode"),
+    Column("life_exponent", "float", "-", "d ln(life) / d ln(amplitude of the mode in all events)"),
+    Column("life_km", "float", "km", "life as it is"),
+    Column("life_km_estimated", "float", "km", "life with the mode 10 % smaller, by the exponent"),
+    Column("life_km_counted", "float", "km", "the same with all cycles counted again"),
+    Column("gain_km", "float", "km", "life_km_counted - life_km"),
+)
+
+
+ASSESSED: dict[str, tuple[Column, ...]] = {
+    "nodes": NODES,
+    "damage": DAMAGE,
+    "cycles": CYCLES,
+    "structural_stress": STRUCTURAL_STRESS,
+    "welds": WELDS,
+}
+DIAGNOSED: dict[str, tuple[Column, ...]] = {
+    "attribution": ATTRIBUTION,
+    "track": TRACK,
+    "diagnosis": DIAGNOSIS,
+    "levers": LEVERS,
+}
+TABLES = ASSESSED | DIAGNOSED

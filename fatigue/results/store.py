@@ -1,0 +1,178 @@
+"""Result tables and records on disk: Parquet with unit and meaning of every column, JSON, hashes."""
+
+import hashlib
+import json
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from fatigue import __version__
+from fatigue.errors import DataError, Problem
+from fatigue.results.columns import ASSESSED, TABLES, ColumnType
+
+_ARROW_TYPE: dict[ColumnType, pa.DataType] = {
+    "text": pa.string(),
+    "int": pa.int64(),
+    "flag": pa.bool_(),
+    "float": pa.float64(),
+}
+_ROWS_PER_GROUP = 65_536
+
+
+def schema(table: str) -> pa.Schema:
+    """Arrow schema of a result table with unit and meaning of every column in its field metadata."""
+    return pa.schema(
+        [
+            pa.field(c.name, _ARROW_TYPE[c.type], metadata={"unit": c.unit, "description": c.meaning})
+            for c in TABLES[table]
+        ],
+        metadata={"program": "fatigue", "table": table},
+    )
+
+
+class TableWriter:
+    """Writes one result table in row groups of a fixed size, whatever the size of the pieces it is given."""
+
+    def __init__(self, table: str, writer: pq.ParquetWriter) -> None:
+        self._table = table
+        self._schema = schema(table)
+        self._writer = writer
+        self._waiting: list[pa.Table] = []
+        self._rows = 0
+
+    def write(self, columns: Mapping[str, Any]) -> None:
+        """Append rows; every column of the table must be there, NaN in a float column meaning "not available"."""
+        arrays = [pa.array(columns[f.name], type=f.type, from_pandas=True) for f in self._schema]
+        self._waiting.append(pa.Table.from_arrays(arrays, schema=self._schema))
+        self._rows += len(arrays[0])
+        if self._rows >= _ROWS_PER_GROUP:
+            self.flush()
+
+    def flush(self) -> None:
+        """Write what is waiting."""
+        if self._waiting:
+            self._writer.write_table(pa.concat_tables(self._waiting), row_group_size=_ROWS_PER_GROUP)
+            self._waiting, self._rows = [], 0
+
+
+@contextmanager
+def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
+    """Open ``<table>.parquet`` in a folder for writing, piece by piece."""
+    with pq.ParquetWriter(folder / f"{table}.parquet", schema(table), compression="zstd") as writer:
+        pieces = TableWriter(table, writer)
+        yield pieces
+        pieces.flush()
+
+
+@contextmanager
+def result_tables(folder: Path) -> Iterator[dict[str, TableWriter]]:
+    """Open all tables of an assessment in a folder for writing, by name."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with ExitStack() as stack:
+        yield {table: stack.enter_context(table_writer(folder, table)) for table in ASSESSED}
+
+
+def read_table(folder: Path, table: str, columns: Sequence[str] | None = None) -> pa.Table:
+    """Read a result table.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    path = folder / f"{table}.parquet"
+    try:
+        return pq.read_table(path, columns=None if columns is None else list(columns))
+    except FileNotFoundError:
+        problem = Problem(
+            "no_result", str(path), "no such result table", "Run `fatigue assess CASE -o DIR` first and give its DIR"
+        )
+    except (pa.ArrowInvalid, OSError) as error:
+        detail = str(error).splitlines()[0] if str(error) else type(error).__name__
+        problem = Problem(
+            "damaged_result", str(path), f"the table cannot be read ({detail})", "Run the assessment again"
+        )
+    raise DataError(problem)
+
+
+def read_provenance(folder: Path) -> dict[str, Any]:
+    """Read ``provenance.json`` of a result folder.
+
+    Raises
+    ------
+    DataError : the folder holds no finished result
+    """
+    path = folder / "provenance.json"
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        problem = Problem(
+            "no_result",
+            str(folder),
+            "no finished result in this folder",
+            "Run `fatigue assess CASE -o DIR` first and give its DIR",
+        )
+        raise DataError(problem) from None
+    except (json.JSONDecodeError, UnicodeDecodeError, OSError) as error:
+        problem = Problem("damaged_result", str(path), f"cannot be read ({error})", "Run the assessment again")
+        raise DataError(problem) from None
+    if not isinstance(record, dict) or record.get("program") != "fatigue":
+        raise DataError(
+            Problem("no_result", str(path), "was not written by fatigue", "Give a folder that `fatigue assess` wrote")
+        )
+    return record
+
+
+def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:
+    """Name, size and SHA-256 of every input file, so that a result can be traced to its inputs."""
+    return [{"file": _relative(path, root), "bytes": path.stat().st_size, "sha256": sha256(path)} for path in paths]
+
+
+def sha256(path: Path) -> str:
+    """SHA-256 of a file's content."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def software_versions() -> dict[str, str]:
+    """Versions of the program and of what its numbers rest on."""
+    packages = ("numpy", "scipy", "numba", "pyarrow", "pandas", "rainflow")
+    found = {"fatigue": __version__, "python": platform.python_version()}
+    for package in packages:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:  # an optional peer that is not installed has no say in the numbers
+            continue
+    return found
+
+
+def write_json(path: Path, record: Mapping[str, Any]) -> None:
+    """Write a record as UTF-8 JSON; infinite and missing numbers become null."""
+    text = json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def json_ready(value: Any) -> Any:
+    """Turn numpy scalars, arrays and non-finite numbers into what JSON can say (null for infinite life)."""
+    if isinstance(value, Mapping):
+        return {str(k): json_ready(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | list | tuple):
+        return [json_ready(v) for v in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value
+
+
+def _relative(path: Path, root: Path) -> str:
+    try:
+        return path.resolve().relative_to(root.resolve()).as_posix()
+    except ValueError:  # an input elsewhere on the disk keeps its full path
+        return path.as_posix()

@@ -1,0 +1,1 @@
+"""What makes the damage: modes, bands, events, places; and what would help."""

@@ -1,0 +1,209 @@
+"""Whose damage it is: that of every point and event, shared out to modes, frequency bands and places on the track.
+
+One pass over the records. Cycles are counted as in the assessment, so the parts add up to the damage of the result; see
+`fatigue.life.attribution` for the method. Everything is weighted with the mission: damages are per km, and the sum over
+the events is the ``damage_per_km`` of a point.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.attribution import Credit, DamageRule, credit
+from fatigue.life.history import Residue
+from fatigue.life.mission import Pass
+from fatigue.life.rainflow import rainflow
+from fatigue.pipeline.event_block import EventLoad
+from fatigue.readers.body import Modes
+from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
+from fatigue.why.points import Points
+
+Floats = NDArray[np.float64]
+
+TIME_BINS = 40  # of an event that has no distance
+_SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a piece of points: 8 MB
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EventAttribution:
+    """The damage of one event at p points, per km of the mission [1/km]; a slope is a derivative of that damage.
+
+    Attributes
+    ----------
+    event : name
+    damage : (p,) Miner sum
+    top_cycle_share : (p,) share of ``damage`` that the one most damaging cycle has; NaN where nothing damages
+    load_slope : (p,) by ln(load), all stresses of the event scaled
+    thickness_slope : (p,) by ln(t) through the stress: membrane ~ 1/t, bending ~ 1/t^2 at constant line load
+    rule_slope : (p,) by ln(t) through the thickness rule of the curve
+    mode, mode_slope : (p, m) damage owed to each mode, below 0 where it relieves; slope by ln(amplitude) of the mode
+    resonant : (p, m) part of ``mode`` in resonance, within f (1 +- 2 zeta) of the mode; NaN without damping
+    band, band_slope : (p, b) the same for the frequency bands
+    edges_hz : (b + 1,) edges of the bands; one band from 0 to infinity for a record too short to have a spectrum
+    place : (p, x) damage credited half and half to the two instants of each cycle, per bin of the track
+    place_s : (x + 1,) file time of the edges of the bins [s]
+    place_km : (x + 1,) distance from the first kept sample of the same edges [km]; NaN for an event counted by number
+    """
+
+    event: str
+    damage: Floats
+    top_cycle_share: Floats
+    load_slope: Floats
+    thickness_slope: Floats
+    rule_slope: Floats
+    mode: Floats
+    mode_slope: Floats
+    resonant: Floats
+    band: Floats
+    band_slope: Floats
+    edges_hz: Floats
+    place: Floats
+    place_s: Floats
+    place_km: Floats
+
+    @property
+    def has_bands(self) -> bool:
+        """Whether the record is long enough for frequency bands."""
+        return len(self.edges_hz) > 2
+
+    @property
+    def place_length(self) -> Floats:
+        """Part of the event that each bin is long, (x,)."""
+        length = np.diff(self.place_s)
+        return np.asarray(length / length.sum())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attribution:
+    """The damage of some points shared out, event by event."""
+
+    points: Points
+    events: tuple[EventAttribution, ...]
+
+    @property
+    def damage(self) -> Floats:
+        """Miner sum of every point per km of the mission, (p,) [1/km]."""
+        return np.asarray(sum(event.damage for event in self.events))
+
+    def share(self, part: Floats) -> Floats:
+        """Divide damages or slopes (p, ...) by the damage of their point; 0 where nothing damages."""
+        damage = self.damage.reshape(-1, *[1] * (part.ndim - 1))
+        return np.divide(part, damage, out=np.zeros_like(part), where=damage > 0.0)
+
+    @property
+    def event_share(self) -> Floats:
+        """Share of every event, (p, e)."""
+        return self.share(np.stack([event.damage for event in self.events], axis=1))
+
+    @property
+    def mode_share(self) -> Floats:
+        """Share of every mode over all events, (p, m); below 0 where a mode relieves."""
+        return self.share(np.asarray(sum(event.mode for event in self.events)))
+
+    @property
+    def resonant_share(self) -> Floats:
+        """Part of `mode_share` that each mode makes in its own resonance, (p, m); NaN without damping."""
+        return self.share(np.asarray(sum(event.resonant for event in self.events)))
+
+    @property
+    def mode_exponent(self) -> Floats:
+        """Exponents d ln(life) / d ln(amplitude) of every mode in all events, (p, m)."""
+        return -self.share(np.asarray(sum(event.mode_slope for event in self.events)))
+
+    @property
+    def band_share(self) -> Floats:
+        """Share of every frequency band, (p, b + 1); the last column is what events too short for bands make."""
+        resolved = [event.band for event in self.events if event.has_bands]
+        short = sum((event.damage for event in self.events if not event.has_bands), np.zeros(len(self.points)))
+        return self.share(np.column_stack([np.asarray(sum(resolved)), short] if resolved else [short]))
+
+
+def attribute_event(
+    points: Points, load: EventLoad, one_pass: Pass, modes: Modes, edges_hz: Sequence[float] | Floats, bin_km: float
+) -> EventAttribution:
+    """Share out the damage of one event at some points.
+
+    ``edges_hz`` are ascending edges between frequency bands, ``bin_km`` the length of a bin of the track [km].
+    """
+    q, residue = load.counted.q, load.residue
+    frequency = coefficient_frequencies(q.shape[1], load.counted.step, residue)
+    inner = np.asarray(edges_hz if load.moments is not None else (), dtype=np.float64)
+    bands = band_slices(frequency, inner)
+    Q = coefficients(q, residue)
+    place_s, place_km = _place_edges(load, one_pass, bin_km)
+    time = load.counted.start + load.counted.step * np.arange(q.shape[1])
+    bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
+
+    rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # of the record only: the numbers are the same on every machine
+    pieces = []
+    for first in range(0, len(points), rows):
+        some = points.of(slice(first, first + rows))
+        shapes_m, shapes_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
+        sigma_m, sigma_b = shapes_m @ q, shapes_b @ q
+        counted = [
+            count_credit(m, b, side, rule, residue)
+            for m, b, side, rule in zip(sigma_m, sigma_b, some.side, some.rule, strict=True)
+        ]
+        share = coefficients(np.stack([c.share for c in counted]), residue)
+        by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
+        shapes = shapes_m + some.side[:, None] * shapes_b
+        owed = shapes[:, :, None] * band_products(share, Q, bands)
+        slope = shapes_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
+        slope += shapes_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
+        load_slope = np.array([c.slope for c in counted])
+        pieces.append(
+            {
+                "damage": np.array([c.damage for c in counted]),
+                "top_cycle": np.array([c.top_cycle for c in counted]),
+                "load_slope": load_slope,
+                "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
+                "rule_slope": load_slope * some.rule_exponent,
+                "mode": owed.sum(axis=2),
+                "mode_slope": slope.sum(axis=2),
+                "resonant": shapes * _resonant_products(share, Q, frequency, modes),
+                "band": owed.sum(axis=1),
+                "band_slope": slope.sum(axis=1),
+                "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in counted]),
+            }
+        )
+    per_pass = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    damage, top_cycle = per_pass["damage"], per_pass.pop("top_cycle")
+    return EventAttribution(
+        event=one_pass.event,
+        top_cycle_share=np.divide(top_cycle, damage, out=np.full_like(damage, np.nan), where=damage > 0.0),
+        edges_hz=np.array([0.0, *inner, np.inf]),
+        place_s=place_s,
+        place_km=place_km,
+        **{name: one_pass.passes_per_km * value for name, value in per_pass.items()},
+    )
+
+
+def count_credit(sigma_m: Floats, sigma_b: Floats, side: float, rule: DamageRule, residue: Residue) -> Credit:
+    """Count one face of one station, side +1 or -1, and lay its damage on the instants of its cycles."""
+    cycles = rainflow(sigma_m + side * sigma_b, residue)
+    return credit(cycles.start, cycles.end, cycles.count, sigma_m, sigma_b, side, rule)
+
+
+def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:
+    """Products of the share vectors (p, t) with each mode's coordinate in its own resonance: (p, m)."""
+    half_width = 2.0 * modes.damping_ratio * modes.frequency
+    products = np.full((len(share), len(Q)), np.nan)
+    for k in np.flatnonzero(np.isfinite(half_width)):
+        low, high = modes.frequency[k] + half_width[k] * np.array([-1.0, 1.0])
+        own = slice(*np.searchsorted(frequency, [low, high]).tolist())
+        products[:, k] = share[:, own] @ Q[k, own]
+    return products
+
+
+def _place_edges(load: EventLoad, one_pass: Pass, bin_km: float) -> tuple[Floats, Floats]:
+    """Edges of the bins of the track in file time [s] and in distance [km]."""
+    if one_pass.length is None:
+        bins = min(TIME_BINS, load.counted.q.shape[1])
+        parts, distance = np.linspace(0.0, 1.0, bins + 1), np.full(bins + 1, np.nan)
+    else:
+        bins = max(1, int(np.ceil(one_pass.length / bin_km - 1e-9)))
+        distance = np.append(bin_km * np.arange(bins), one_pass.length)
+        parts = distance / one_pass.length
+    return load.counted.start + parts * load.duration, distance

@@ -1,0 +1,266 @@
+"""What a diagnosis says in words: at each weld's worst point event, band, modes, place and lever."""
+
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.mission import Plan, life_km
+from fatigue.pipeline.body import Body
+from fatigue.pipeline.rows import FACES
+from fatigue.readers.body import Modes
+from fatigue.why.attribute import Attribution
+from fatigue.why.levers import SMALLER, Levers
+from fatigue.why.verdicts import EventVerdicts
+
+LONGEST_LIFE_KM = 1e12
+WIDTH = 110
+NAMED = 3  # modes and bands, the second and third only if they have
+WORTH_NAMING = 0.01  # of the damage
+FAR_ABOVE = 3.0  # a mode at three times the frequency answers by 1 / (1 - 1/9), 12 % more than at 0 Hz
+HALF = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class ModeFinding:
+    """A mode and what it has to do with the damage of a point; see `fatigue.why.attribute.Attribution`."""
+
+    mode: int
+    kind: str
+    frequency_hz: float
+    share: float
+    resonant_share: float | None
+    life_exponent: float
+
+
+@dataclass(frozen=True, slots=True)
+class BandFinding:
+    """A frequency band and its share of the damage; no upper edge: None."""
+
+    low_hz: float
+    high_hz: float | None
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class LeverFinding:
+    """What a mode buys if it is 10 % smaller: life by its exponent, and counted again [km]."""
+
+    mode: int
+    life_km_estimated: float
+    life_km_counted: float
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What makes the damage at the worst point of a weld.
+
+    ``modes`` and ``bands`` are those with the largest shares, no bands where no record is long enough for a spectrum;
+    ``relieving_share`` is what all relieving modes take off; ``half_damage_part`` is the smallest part of the governing
+    event that holds half of its damage, and its worst bin begins at ``place_km`` (None for an event counted by number)
+    and ``place_s``; ``verdict`` and the split of the Dirlik ratio into errors of formula and process, None where it was
+    not made, are those of the governing event.
+    """
+
+    weld: str
+    part: int
+    order: int
+    node: int
+    surface: str
+    life_km: float
+    event: str
+    event_share: float
+    modes: tuple[ModeFinding, ...]
+    relieving_share: float
+    bands: tuple[BandFinding, ...]
+    half_damage_part: float
+    place_km: float | None
+    place_s: float
+    place_intensity: float
+    levers: tuple[LeverFinding, ...]
+    verdict: str
+    reason: str
+    formula_error: float | None
+    process_error: float | None
+
+    def as_text(self) -> str:
+        """For people: a heading and a line for each question."""
+        modes = ", ".join(f"{self._mode(m)} {_percent(m.share)}" for m in self.modes)
+        bands = ", ".join(f"{_band(b)} {_percent(b.share)}" for b in self.bands)
+        place = f"km {self.place_km:.1f} of the record" if self.place_km is not None else f"{self.place_s:.1f} s"
+        best = self.levers[0]
+        gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
+        lines = {
+            "event": f"{self.event} {_percent(self.event_share)}",
+            "bands": bands or "not available: no record is long enough for a spectrum",
+            "modes": f"{modes}; relieving modes {_percent(self.relieving_share)}",
+            "place": f"half of the damage of {self.event} on {_percent(self.half_damage_part)} of it, most at {place}, "
+            f"{self.place_intensity:.1f} times the average",
+            "lever": f"mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
+            "Dirlik": f"{self.verdict}: {self.reason}",
+        }
+        if self.formula_error is not None and self.process_error is not None:
+            lines["Dirlik"] += f" Ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)."
+        heading = f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}"
+        return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
+
+    def _mode(self, mode: ModeFinding) -> str:
+        """Name a mode; one far above the band it damages in follows its load and does not swing."""
+        high = self.bands[0].high_hz if self.bands else None
+        follows = high is not None and mode.frequency_hz > FAR_ABOVE * high
+        return f"{mode.mode} ({mode.kind}, {mode.frequency_hz:.4g} Hz{', quasi-static' if follows else ''})"
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """What makes the damage of a result: a finding per damaged weld, worst first, and what could not be had."""
+
+    title: str
+    points: str
+    findings: tuple[Finding, ...]
+    notes: tuple[str, ...]
+
+    def as_record(self) -> dict[str, Any]:
+        """For machines."""
+        return asdict(self)
+
+    def as_text(self) -> str:
+        """For people."""
+        notes = [_wrapped("  ", note) for note in self.notes]
+        return "\n\n".join(
+            [
+                f"{self.title}: what makes the damage, of {self.points}",
+                *(finding.as_text() for finding in self.findings),
+                *(["\n".join(["Not available, or to be read with care:", *notes])] if notes else []),
+            ]
+        )
+
+
+def findings(
+    body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], points: str
+) -> Diagnosis:
+    """Sum up a diagnosis; there is a finding for every point the levers were sought at."""
+    found = [_finding(body.modes, plan, attribution, levers, verdicts, row) for row in range(len(levers.point))]
+    return Diagnosis(
+        title=body.case.title,
+        points=points,
+        findings=tuple(sorted(found, key=lambda finding: finding.life_km)),
+        notes=tuple(_notes(body, attribution)),
+    )
+
+
+def _finding(
+    modes: Modes, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], row: int
+) -> Finding:
+    point, points = int(levers.point[row]), attribution.points
+    event_share = attribution.event_share[point]
+    governing = int(event_share.argmax())
+    event, verdict = attribution.events[governing], verdicts[governing]
+    share, resonant = attribution.mode_share[point], attribution.resonant_share[point]
+    intensity = event.place[point] / event.damage[point] / event.place_length
+    hottest = int(intensity.argmax())
+    return Finding(
+        weld=str(points.weld[point]),
+        part=int(points.part[point]),
+        order=int(points.order[point]),
+        node=int(points.node[point]),
+        surface=FACES[points.face[point]],
+        life_km=float(life_km(attribution.damage[[point]], plan.damage_limit)[0]),
+        event=event.event,
+        event_share=float(event_share.max()),
+        modes=tuple(
+            ModeFinding(
+                mode=int(modes.mode[k]),
+                kind=modes.kind[k],
+                frequency_hz=float(modes.frequency[k]),
+                share=float(share[k]),
+                resonant_share=_or_none(resonant[k]),
+                life_exponent=float(attribution.mode_exponent[point, k]),
+            )
+            for k in _largest(share)
+        ),
+        relieving_share=float(share[share < 0.0].sum()),
+        bands=_largest_bands(attribution, point),
+        half_damage_part=_part_that_holds(HALF, intensity, event.place_length),
+        place_km=_or_none(event.place_km[hottest]),
+        place_s=float(event.place_s[hottest]),
+        place_intensity=float(intensity[hottest]),
+        levers=tuple(
+            LeverFinding(int(modes.mode[k]), float(estimated), float(counted))
+            for k, estimated, counted in zip(
+                levers.mode[row], levers.life_estimated[row], levers.life_counted[row], strict=True
+            )
+        ),
+        verdict=str(verdict.verdict[point]),
+        reason=str(verdict.reason[point]),
+        formula_error=_or_none(verdict.formula[point]),
+        process_error=_or_none(verdict.process[point]),
+    )
+
+
+def _largest_bands(attribution: Attribution, point: int) -> tuple[BandFinding, ...]:
+    """Take the bands with the largest shares; none where no event is long enough for bands."""
+    edges = next((event.edges_hz for event in attribution.events if event.has_bands), None)
+    if edges is None:
+        return ()
+    share = attribution.band_share[point, :-1]
+    return tuple(BandFinding(float(edges[b]), _or_none(edges[b + 1]), float(share[b])) for b in _largest(share))
+
+
+def _largest(share: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Index of the largest shares, first the largest, leaving out what is not worth naming."""
+    order = np.argsort(-share, kind="stable")[:NAMED]
+    return np.asarray(order[(share[order] >= WORTH_NAMING) | (order == order[0])])
+
+
+def _part_that_holds(share: float, intensity: NDArray[np.float64], length: NDArray[np.float64]) -> float:
+    """Smallest part of an event that holds a share of its damage, its bins cut where needed."""
+    order = np.argsort(-intensity, kind="stable")
+    held, covered = np.cumsum((intensity * length)[order]), np.cumsum(length[order])
+    return float(np.interp(share, np.append(0.0, held), np.append(0.0, covered)))
+
+
+def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
+    damping = body.modes.damping_ratio
+    if np.isnan(damping).any():
+        without = (
+            "no mode has" if np.isnan(damping).all() else f"{np.count_nonzero(np.isnan(damping))} modes do not have"
+        )
+        yield f"{without} a damping ratio, so it is not said what such a mode does in resonance"
+    for event in attribution.events:
+        if not event.has_bands:
+            yield (
+                f"event '{event.event}': the record is shorter than one spectral segment, so its damage is not shared "
+                "out to frequency bands; it is one band from 0 Hz up"
+            )
+        if np.isnan(event.place_km).any():
+            yield f"event '{event.event}' is counted by number, so its damage has an instant but no place on the track"
+    if any(rated.law.cutoff > 0.0 for rated in body.curves.values()):
+        yield (
+            "a curve with a cut-off: damage jumps there, and life exponents do not see cycles that cross it; the lives "
+            "counted again do"
+        )
+
+
+def _band(band: BandFinding) -> str:
+    return f"above {band.low_hz:.3g} Hz" if band.high_hz is None else f"{band.low_hz:.3g}-{band.high_hz:.3g} Hz"
+
+
+def _or_none(value: float) -> float | None:
+    """Turn what is infinite or not a number into None."""
+    return float(value) if np.isfinite(value) else None
+
+
+def _wrapped(first: str, text: str) -> str:
+    return textwrap.fill(text, WIDTH, initial_indent=first, subsequent_indent=" " * len(first))
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.3g} %"
+
+
+def _km(value: float) -> str:
+    return "> 1e12 km" if value > LONGEST_LIFE_KM else f"{value:.4g} km"

@@ -1,0 +1,171 @@
+"""May the frequency domain be trusted, point by point and event by event: verdict, reason, and the ratio split."""
+
+from dataclasses import dataclass, fields, replace
+from functools import partial
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fatigue.life.attribution import DamageRule
+from fatigue.life.damage import ratio_factor
+from fatigue.life.history import ModalHistory
+from fatigue.pipeline.body import Body
+from fatigue.pipeline.event_block import EventLoad
+from fatigue.spectrum.diagnosis import VERDICTS, Diagnosis, diagnosis_matrices
+from fatigue.spectrum.diagnosis import diagnose as spectral_diagnosis
+from fatigue.spectrum.methods import dirlik_damage_rate
+from fatigue.spectrum.moments import point_moments, segment_spectra
+from fatigue.spectrum.reasons import reason
+from fatigue.spectrum.stationarity import damage_rate_by_period
+from fatigue.spectrum.surrogates import RatioSplit, explained_share, ratio_split
+from fatigue.why.attribute import EventAttribution, count_credit
+from fatigue.why.points import Points
+
+Floats = NDArray[np.float64]
+
+NO_SPECTRUM = "The record is shorter than one spectral segment, so there is no frequency-domain estimate to judge."
+MEASURED = tuple(
+    field.name for field in fields(Diagnosis) if field.name not in {"verdict", "slope", "slow_hz", "segments"}
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EventVerdicts:
+    """Verdicts on one event at p points; every array is (p,), NaN where a number could not be had.
+
+    Attributes
+    ----------
+    event : name
+    verdict, reason : one of `fatigue.spectrum.diagnosis.VERDICTS`, and the same in words with its numbers
+    measured : the numbers of `fatigue.spectrum.diagnosis.Diagnosis` by name
+    segmentwise_ratio : Dirlik summed over the periods of the record, over rainflow; where the event is not stationary
+    formula, process, standard_error : the split of Dirlik over rainflow, see `RatioSplit`; where it was asked for
+    explained : share of ln(process) that the modulation and the tones found explain
+    """
+
+    event: str
+    verdict: NDArray[np.object_]
+    reason: NDArray[np.object_]
+    measured: dict[str, Floats]
+    segmentwise_ratio: Floats
+    formula: Floats
+    process: Floats
+    standard_error: Floats
+    explained: Floats
+
+
+def event_verdicts(
+    body: Body,
+    load: EventLoad,
+    points: Points,
+    attribution: EventAttribution,
+    assessed: pd.DataFrame,
+    split_at: NDArray[np.int64],
+) -> EventVerdicts:
+    """Judge one event at some points.
+
+    ``assessed`` has the rows of ``damage.parquet`` of these points in this event; ``split_at`` are the points whose
+    ratio is split by counting Gaussian surrogates.
+    """
+    nothing = np.full(len(points), np.nan)
+    found = EventVerdicts(
+        event=attribution.event,
+        verdict=np.full(len(points), VERDICTS[0], dtype=object),
+        reason=np.full(len(points), NO_SPECTRUM, dtype=object),
+        measured={name: nothing.copy() for name in MEASURED},
+        segmentwise_ratio=nothing.copy(),
+        formula=nothing.copy(),
+        process=nothing.copy(),
+        standard_error=nothing.copy(),
+        explained=nothing.copy(),
+    )
+    if load.moments is None:
+        return found
+
+    spectra = segment_spectra(load.counted, body.case.spectrum.segment_s, load.moments.upper_hz)
+    matrices = diagnosis_matrices(load.counted, spectra)
+    normal = [f for f, kind in zip(body.modes.frequency, body.modes.kind, strict=True) if kind == "normal"]
+    shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
+    one_ratio = _one_ratio_rules(points, assessed)
+    for law in {id(rule.law): rule.law for rule in points.rule}.values():
+        at = np.flatnonzero([rule.law is law for rule in points.rule])
+        here = assessed.iloc[at]
+        same_ratio = here["damage_same_ratio_per_pass"].to_numpy()
+        diagnosis = spectral_diagnosis(
+            shapes[at],
+            point_moments(shapes[at], load.moments),
+            matrices,
+            slope=_slope_of_damage(attribution, at, float(law.slopes[0])),
+            dirlik_ratio=_quotient(here["damage_dirlik_per_pass"].to_numpy(), same_ratio),
+            tb_ratio=_quotient(here["damage_tb_per_pass"].to_numpy(), same_ratio),
+            kurtosis=here["kurtosis"].to_numpy(),
+            top_cycle_share=attribution.top_cycle_share[at],
+            samples_per_peak=here["samples_per_peak"].to_numpy(),
+            top_mode_hz=float(max(normal)) if normal else None,
+        )
+        found.verdict[at] = np.array(VERDICTS, dtype=object)[diagnosis.verdict]
+        found.reason[at] = [reason(diagnosis, i) for i in range(len(at))]
+        for name in MEASURED:
+            found.measured[name][at] = getattr(diagnosis, name)
+        changing = at[found.verdict[at] == "non_stationary"]
+        to_equivalent = np.array([one_ratio[i].size for i in changing])
+        rate = damage_rate_by_period(
+            shapes[changing] * to_equivalent[:, None], spectra, partial(dirlik_damage_rate, law=law)
+        )
+        counted = assessed["damage_same_ratio_per_pass"].to_numpy()[changing]
+        found.segmentwise_ratio[changing] = _quotient(load.duration * rate, counted)
+
+    damaged = split_at[assessed["damage_same_ratio_per_pass"].to_numpy()[split_at] > 0.0]
+    if len(damaged):
+        split = _split(
+            load, points.of(damaged), one_ratio[damaged], assessed.iloc[damaged], body.case.spectrum.segment_s
+        )
+        found.formula[damaged], found.process[damaged] = split.formula, split.process
+        found.standard_error[damaged] = split.standard_error
+        factors = found.measured["modulation_factor"][damaged] * found.measured["line_factor"][damaged]
+        found.explained[damaged] = explained_share(split, factors)
+    return found
+
+
+def _split(
+    load: EventLoad, points: Points, rules: NDArray[np.object_], assessed: pd.DataFrame, segment_s: float
+) -> RatioSplit:
+    """Split Dirlik over rainflow at some points by Gaussian surrogates of the event.
+
+    The surrogates are those of the few stresses, not of the many modal coordinates: both have the same spectra.
+    """
+    shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
+    stresses = replace(load.counted, mode=np.arange(len(shapes)), q=shapes @ load.counted.q)
+
+    def damage_rate(surrogate: ModalHistory) -> Floats:
+        nothing = np.zeros(surrogate.q.shape[1])  # with one bending ratio only the sum of membrane and bending counts
+        counted = [count_credit(s, nothing, 1.0, rule, "repeat") for s, rule in zip(surrogate.q, rules, strict=True)]
+        return np.array([c.damage for c in counted]) / surrogate.duration
+
+    return ratio_split(
+        stresses,
+        damage_rate,
+        dirlik_rate=assessed["damage_dirlik_per_pass"].to_numpy() / load.duration,
+        rainflow_rate=assessed["damage_same_ratio_per_pass"].to_numpy() / load.duration,
+        segment_s=segment_s,
+    )
+
+
+def _one_ratio_rules(points: Points, assessed: pd.DataFrame) -> NDArray[np.object_]:
+    """Rules with the one bending ratio of the event in place of that of each cycle, and without mean stress."""
+    rules = np.empty(len(points), dtype=object)
+    factor = ratio_factor(np.nan_to_num(assessed["bending_ratio"].to_numpy()))
+    for i, (rule, I) in enumerate(zip(points.rule, factor, strict=True)):  # noqa: E741 - the symbol of the standard
+        rules[i] = DamageRule(rule.law, rule.size / (I if rule.uses_bending_ratio else 1.0), False, None)
+    return rules
+
+
+def _slope_of_damage(attribution: EventAttribution, at: NDArray[np.int64], otherwise: float) -> float:
+    """Find the slope k on which most points have their damage."""
+    damage, slope = attribution.damage[at], attribution.load_slope[at]
+    return float(np.median(slope[damage > 0.0] / damage[damage > 0.0])) if (damage > 0.0).any() else otherwise
+
+
+def _quotient(a: Floats, b: Floats) -> Floats:
+    return np.divide(a, b, out=np.full_like(b, np.nan), where=b > 0.0)

@@ -1,0 +1,124 @@
+"""The fast counter against the double precision one, the `rainflow` package and its own plain loops."""
+
+import importlib.util
+from collections.abc import Callable
+from types import FunctionType
+
+import numpy as np
+import pytest
+import rainflow as oracle
+from numba import njit
+from numpy.typing import NDArray
+
+from fatigue.errors import CaseError, NumericalError
+from fatigue.life import rainflow_fast
+from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
+from fatigue.life.rainflow import BlockCount, count_block
+from fatigue.life.rainflow_fast import count_block_fast, record_of
+
+Floats = NDArray[np.float64]
+
+STEEL = damage_law(catalogue()["master-steel"], "mean-2sigma", "none", 1e7)
+ALUMINIUM = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7)
+HAIBACH = damage_law(catalogue()["master-steel"], "mean-2sigma", "haibach", 1e7)
+PLAIN_CUBE = damage_law(user_curve("class", (3.0,), (), 90.0, "structural", "test"), None, "none", 1e7)
+STEEP = damage_law(user_curve("class", (15.0,), (), 90.0, "structural", "test"), None, "none", 1e7)
+
+RESIDUES = ("half", "repeat")
+simd = pytest.mark.skipif(
+    importlib.util.find_spec("fatigue.life.rainflow_simd") is None, reason="without vector instructions"
+)
+
+
+KINDS = (
+    *("ties", "held", "clipped", "growing", "decaying", "zigzag", "wrapping plateau", "constant", "spike", "tiny"),
+    *("huge", "far from zero", "flat extremes", "sine", "noise"),
+)
+
+
+def adversarial(rng: np.random.Generator, kind: str, t: int) -> Floats:
+    """Draw one history of a kind that counters fail on."""
+    integers = rng.integers(-4, 5, t).astype(float)
+    time = np.arange(t)
+    return {
+        "ties": integers,
+        "held": np.repeat(integers, rng.integers(1, 4, t))[:t],
+        "clipped": np.clip(np.cumsum(rng.integers(-2, 3, t)), -5, 5).astype(float),
+        "growing": rng.normal(size=t) * np.linspace(0, 1, t),
+        "decaying": np.cos(1.3 * time) * np.exp(-2.0 * time / t),
+        "zigzag": (time + 1.0) * (-1.0) ** time,
+        "wrapping plateau": np.where(time < t // 3, 5.0, np.where(time > t - t // 4, 5.0, integers)),
+        "constant": np.full(t, 3.7),
+        "spike": np.where(time == t // 2, 1e3, 1e-3 * rng.normal(size=t)),
+        "tiny": 1e-30 * rng.normal(size=t),
+        "huge": 1e12 * rng.normal(size=t),
+        "far from zero": 1e4 + np.round(rng.normal(size=t), 2),
+        "flat extremes": np.sin(0.01 * time) + 1e-9 * rng.normal(size=t),
+        "sine": 10.0 * np.sin(2 * np.pi * time / 40),
+        "noise": rng.normal(size=t),
+    }[kind]
+
+
+def block_of(rng: np.random.Generator, kind: str, points: int, t: int) -> tuple[Floats, Floats, Floats]:
+    """Shapes and modal coordinates of points each of which has a membrane and a bending history of its own."""
+    histories = [adversarial(rng, kind, t) for _ in range(2 * points)]
+    both = np.eye(2 * points)
+    return both[:points], both[points:], np.array(histories)
+
+
+def modal_block(seed: int, points: int = 40, modes: int = 12, t: int = 3000) -> tuple[Floats, Floats, Floats]:
+    """Shapes and smooth modal coordinates of resonances, some points with nearly cancelling faces."""
+    rng = np.random.default_rng(seed)
+    spectrum = rng.normal(size=(modes, t // 2 + 1)) + 1j * rng.normal(size=(modes, t // 2 + 1))
+    f = np.fft.rfftfreq(t)
+    q = np.fft.irfft(spectrum / (1 - (f / np.linspace(0.01, 0.18, modes)[:, None]) ** 2 + 0.06j) * (f < 0.25), t)
+    q = q / q.std(axis=1, keepdims=True) + rng.normal(size=(modes, 1))
+    S_m = rng.normal(size=(points, modes)) * np.exp(2 * rng.normal(size=(points, 1)))
+    S_b = rng.normal(size=(points, modes)) * np.exp(2 * rng.normal(size=(points, 1)))
+    S_b[:3] = -S_m[:3] * (1 + 1e-3 * rng.normal(size=(3, modes)))
+    S_b[3], S_m[4], S_b[5] = 0.0, 0.0, S_m[5]
+    S_m[6] = S_b[6] = 0.0
+    return S_m, S_b, q
+
+
+def both_counts(
+    S_m: Floats, S_b: Floats, q: NDArray[np.floating], law: DamageLaw = ALUMINIUM, **choices: object
+) -> tuple[BlockCount, BlockCount]:
+    """Count fast and in double precision."""
+    rules = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False} | choices
+    rng = np.random.default_rng(len(S_m))
+    size, ratio = rng.uniform(1, 2, len(S_m)), rng.uniform(0, 1, (len(S_m), 2))
+    fast = count_block_fast(S_m, S_b, record_of(q), size, ratio, law, **rules)
+    return fast, count_block(S_m @ q, S_b @ q, size, ratio, law, **rules)
+
+
+def assert_same(fast: BlockCount, exact: BlockCount, rtol: float = 1e-6) -> None:
+    """Every field agrees, and is NaN at the same places."""
+    for name in BlockCount.__slots__:
+        a, b = getattr(fast, name), getattr(exact, name)
+        scale = np.abs(exact.max_range) + np.abs(exact.mean) if name in ("mean", "max_range") else 0.0
+        limit = rtol * (np.abs(b) + scale)
+        bad = ~((np.abs(a - b) <= limit) | (np.isnan(a) & np.isnan(b)))
+        if name == "r_largest":  # the quotient of two stresses is only as good as the smaller one
+            bad &= np.abs(a - b) > rtol * (1.0 + np.abs(b)) ** 2
+        assert not bad.any(), (name, a[bad][:3], b[bad][:3])
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_adversarial_histories_count_as_in_double_precision(kind: str, residue: str) -> None:
+    """Every field, in some hundred blocks of histories of 2 to 400 samples."""
+    rng = np.random.default_rng(KINDS.index(kind))
+    for t in (2, 3, 4, 5, 7, 16, 17, 33, 64, 150, 400):
+        for _ in range(3):
+            assert_same(*both_counts(*block_of(rng, kind, 20, t), residue=residue))
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("law", [STEEL, ALUMINIUM, PLAIN_CUBE])
+def test_modal_stress_counts_as_in_double_precision(law: DamageLaw, residue: str) -> None:
+    """Smooth stress of resonances, whose extremes single precision alone cannot always tell."""
+    for seed in range(5):
+        S_m, S_b, q = modal_block(seed)
+        choices = {"residue": residue, "uses_bending_ratio": law is not PLAIN_CUBE, "yield_MPa": 1e9}
+        assert_same(*both_counts(S_m, S_b, q.astype(np.float32), law, **choices))

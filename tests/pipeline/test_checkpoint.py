@@ -1,0 +1,93 @@
+"""What a run leaves behind for the next one."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from fatigue.errors import DataError
+from fatigue.pipeline.checkpoint import Checkpoint, locked, replacing, state_key
+from fatigue.pipeline.event_block import EventBlock
+
+
+def part(value=1.0):
+    """A finished part."""
+    return EventBlock(**{f.name: np.full((2, 2), value) for f in fields(EventBlock)})
+
+
+def test_a_saved_part_is_read_back_bit_for_bit(tmp_path):
+    """Whole parts are reused and counted."""
+    with pytest.raises(KeyboardInterrupt), Checkpoint(tmp_path, "key") as state:
+        state.save("a", part(np.pi))
+        raise KeyboardInterrupt
+    again = Checkpoint(tmp_path, "key").__enter__()
+    assert again.has("a")
+    assert not again.has("b")
+    assert again.reused == 1
+    assert np.array_equal(again.load("a").damage, part(np.pi).damage)
+
+
+def test_the_state_goes_after_success_and_when_it_is_empty(tmp_path):
+    """Nothing hidden is left without need."""
+    with Checkpoint(tmp_path, "key") as state:
+        state.save("a", part())
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(DataError), Checkpoint(tmp_path, "key"):
+        raise DataError
+    assert not list(tmp_path.iterdir())
+
+
+def test_parts_of_other_inputs_are_dropped(tmp_path):
+    """Another key finds nothing and cleans up."""
+    with pytest.raises(KeyboardInterrupt), Checkpoint(tmp_path, "one") as state:
+        state.save("a", part())
+        raise KeyboardInterrupt
+    other = Checkpoint(tmp_path, "two").__enter__()
+    assert not other.has("a")
+    assert [p.name for p in (tmp_path / ".fatigue-state").iterdir()] == ["two"]
+
+
+@pytest.mark.parametrize("keep", [0, 10, 300, -1])
+def test_a_part_cut_short_is_not_used(tmp_path, keep):
+    """Wherever a file ends too early, it is as if it were not there."""
+    state = Checkpoint(tmp_path, "key").__enter__()
+    state.save("a", part())
+    path = state.folder / "a.npz"
+    path.write_bytes(path.read_bytes()[:keep])
+    assert not state.has("a")
+
+
+def test_keys_depend_on_content_not_on_order():
+    """The same record in another order is the same run."""
+    assert state_key({"a": 1, "b": [2]}) == state_key({"b": [2], "a": 1})
+    assert state_key({"a": 1}) != state_key({"a": 2})
+
+
+def test_replacing_is_all_or_nothing(tmp_path):
+    """An error while writing leaves the old file and no half one."""
+    final = tmp_path / "x"
+    final.write_text("old")
+    with pytest.raises(ValueError, match="stop"), replacing(final) as unfinished:
+        unfinished.write_text("half")
+        raise ValueError("stop")
+    assert [p.name for p in tmp_path.iterdir()] == ["x"]
+    assert final.read_text() == "old"
+
+
+def test_lock_is_exclusive_and_goes_away(tmp_path):
+    """One run at a time; the folder is free again afterwards, and gone if it was made for nothing."""
+    folder = tmp_path / "result"
+    with locked(folder), pytest.raises(DataError, match="another run is writing to this folder"), locked(folder):
+        pass
+    assert not folder.exists()
+    folder.mkdir()
+    with locked(folder):
+        pass
+    assert folder.exists()
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+    """The parent is a file."""
+    (tmp_path / "file").write_text("")
+    with pytest.raises(DataError, match="cannot be written"), locked(tmp_path / "file" / "result"):
+        pass

@@ -1,0 +1,31 @@
+"""What is printed of a result."""
+
+import pytest
+
+from fatigue.errors import DataError
+from fatigue.results.summary import result_summary
+
+
+def test_worst_first_and_only_toes(small_result):
+    """Welds and points by utilisation; a face without toe is not among the worst points."""
+    found = result_summary(small_result, top=100)
+    assert found.welds.utilisation.is_monotonic_decreasing
+    assert found.points.utilisation.is_monotonic_decreasing
+    assert len(found.points) == 14 + 7
+    assert not found.fulfilled
+
+
+def test_text_has_units_verdict_and_assumptions(small_result):
+    """No table without the rules it rests on."""
+    text = result_summary(small_result, top=3).as_text()
+    assert text.startswith("small case: 2 of 2 welds miss their target of 1e+06 km")
+    assert "Curve master-aluminium (mean-2sigma); thickness actual; no knee; mean stress none; damage limit 1" in text
+    assert "life_km" in text
+    assert "The 3 worst points" in text
+
+
+def test_only_some_welds(small_result):
+    """Filtered, or refused with the names there are."""
+    assert set(result_summary(small_result, top=5, only=["A"]).points.weld) == {"A"}
+    with pytest.raises(DataError, match=r"there is no weld 'Z'\. Choose of A, B"):
+        result_summary(small_result, top=5, only=["Z"])
