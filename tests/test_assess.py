@@ -426,6 +426,7 @@ def test_killed_between_any_two_blocks(tmp_path):
         str(tmp_path / "result"),
         "--threads",
         "1",
+        "--no-report",
     ]
     for parts in (1, 3):
         process = subprocess.Popen(command, cwd=Path(__file__).parents[1], stdout=subprocess.DEVNULL)

@@ -34,6 +34,11 @@ def fatigue(*arguments, cwd=None):
     )
 
 
+def assess(*arguments):
+    """Assess without the report, which has tests of its own."""
+    return fatigue("assess", *arguments, "--no-report")
+
+
 COMMANDS = sorted(cli.commands)
 
 
@@ -82,18 +87,18 @@ def test_missing_case_file_is_3(tmp_path):
 def test_missed_target_is_1_unless_told_otherwise(tmp_path):
     """The small case fails its target: 1, the verdict on stdout; --exit-zero: 0."""
     path = small_case().write(tmp_path / "case")
-    done = fatigue("assess", path, "-o", tmp_path / "result")
+    done = assess(path, "-o", tmp_path / "result")
     assert done.returncode == 1
     assert "2 of 2 welds miss their target of 1e+06 km" in done.stdout
     assert "master-aluminium (mean-2sigma); thickness actual; no knee; mean stress none" in done.stdout
-    assert fatigue("assess", path, "-o", tmp_path / "result", "--exit-zero").returncode == 0
+    assert assess(path, "-o", tmp_path / "result", "--exit-zero").returncode == 0
 
 
 def test_fulfilled_is_0(tmp_path):
     """A target that is met."""
     case = sine_only()
     case.mission["target_km"] = 1.0
-    done = fatigue("-q", "assess", case.write(tmp_path / "case"), "-o", tmp_path / "result")
+    done = fatigue("-q", "assess", case.write(tmp_path / "case"), "-o", tmp_path / "result", "--no-report")
     assert done.returncode == 0
     assert "every weld meets its target of 1 km" in done.stdout
     assert done.stderr == ""
@@ -105,7 +110,7 @@ def test_bad_data_is_3_with_one_line_each(tmp_path):
     case.events[0]["share"] = 0.5
     case.curve["name"] = "master-alu"
     path = case.write(tmp_path / "case")
-    done = fatigue("assess", path, "-o", tmp_path / "result")
+    done = assess(path, "-o", tmp_path / "result")
     assert done.returncode == 3
     assert done.stdout == ""
     assert all(line.startswith("error: case.toml") for line in done.stderr.splitlines())
@@ -118,7 +123,7 @@ def test_json_is_json_with_null_for_infinite_life(tmp_path):
     case = sine_only()
     case.histories["sine"]["q_1"] = 0.0
     path = case.write(tmp_path / "case")
-    done = fatigue("assess", path, "-o", tmp_path / "result", "--json")
+    done = assess(path, "-o", tmp_path / "result", "--json")
     assert done.returncode == 0
     record = json.loads(done.stdout)
     assert record["fulfilled"] is True
@@ -165,7 +170,7 @@ def test_show_without_result_is_3(tmp_path):
 def test_show_of_a_damaged_table_is_3(tmp_path):
     """A truncated Parquet file in the result folder is named."""
     path = small_case().write(tmp_path / "case")
-    fatigue("assess", path, "-o", tmp_path / "result")
+    assess(path, "-o", tmp_path / "result")
     table = tmp_path / "result" / "nodes.parquet"
     table.write_bytes(table.read_bytes()[:1000])
     done = fatigue("show", tmp_path / "result")
@@ -176,7 +181,7 @@ def test_show_of_a_damaged_table_is_3(tmp_path):
 def test_show_only_one_weld(tmp_path):
     """--weld filters; an unknown weld is refused with those there are."""
     path = small_case().write(tmp_path / "case")
-    fatigue("assess", path, "-o", tmp_path / "result")
+    assess(path, "-o", tmp_path / "result")
     points = json.loads(fatigue("show", tmp_path / "result", "--weld", "B", "--json").stdout)["points"]
     assert {p["weld"] for p in points} == {"B"}
     done = fatigue("show", tmp_path / "result", "--weld", "C")
@@ -188,7 +193,7 @@ def test_ctrl_c_is_130_and_the_next_run_goes_on(tmp_path):
     """SIGINT in the middle: one line, 130, finished blocks kept."""
     path = small_case(seconds=300.0).write(tmp_path / "case")
     result = tmp_path / "result"
-    command = [sys.executable, "-m", "fatigue", "assess", str(path), "-o", str(result), "--threads", "1"]
+    command = [sys.executable, "-m", "fatigue", "assess", str(path), "-o", str(result), "--threads", "1", "--no-report"]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and not list(result.rglob("*.npz")):
         time.sleep(0.0005)
@@ -198,7 +203,7 @@ def test_ctrl_c_is_130_and_the_next_run_goes_on(tmp_path):
     assert out == ""
     assert err.splitlines()[-1] == "interrupted: the same command goes on from here"
     assert "Traceback" not in err
-    assert fatigue("-q", "assess", path, "-o", result).returncode == 1
+    assert fatigue("-q", "assess", path, "-o", result, "--no-report").returncode == 1
     assert " 0 of " not in (result / "fatigue.log").read_text().splitlines()[-2]
 
 
@@ -206,9 +211,19 @@ def test_ctrl_c_is_130_and_the_next_run_goes_on(tmp_path):
 def test_progress_bar_only_on_a_terminal(tmp_path):
     """On a terminal a bar with percentage on stderr; in a pipe or with -q none."""
     path = small_case().write(tmp_path / "case")
-    assert "%" not in fatigue("assess", path, "-o", tmp_path / "piped").stderr.replace("% low", "")
+    assert "%" not in assess(path, "-o", tmp_path / "piped").stderr.replace("% low", "")
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "fatigue", "assess", str(path), "-o", str(tmp_path / "shown"), "--exit-zero"]
+    command = [
+        sys.executable,
+        "-m",
+        "fatigue",
+        "assess",
+        str(path),
+        "-o",
+        str(tmp_path / "shown"),
+        "--exit-zero",
+        "--no-report",
+    ]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=theirs) as process:
         os.close(theirs)
         shown = b""

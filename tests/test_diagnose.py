@@ -42,7 +42,7 @@ class Diagnosed:
 
 def run(case: SmallCase, folder: Path, **options: object) -> Diagnosed:
     """Assess and diagnose a case; read all tables."""
-    assess(load_case(case.write(folder / "case")), folder / "result", threads=1)
+    assess(load_case(case.write(folder / "case")), folder / "result", threads=1, report=False)
     summary = diagnose(folder / "result", **options)
     names = (*TABLES, "nodes", "damage")
     return Diagnosed(
@@ -52,7 +52,7 @@ def run(case: SmallCase, folder: Path, **options: object) -> Diagnosed:
 
 def lives(case: SmallCase, folder: Path) -> pd.Series:
     """Assess a case; life of every point by its key."""
-    assess(load_case(case.write(folder / "case")), folder / "result", threads=1)
+    assess(load_case(case.write(folder / "case")), folder / "result", threads=1, report=False)
     return pd.read_parquet(folder / "result" / "nodes.parquet").set_index(POINT)["life_km"]
 
 
@@ -320,7 +320,7 @@ def test_refuses_bands_and_bins_that_make_no_sense(tmp_path):
 
 def test_refuses_changed_and_missing_inputs(tmp_path):
     """Records that changed or went since the assessment would explain another result."""
-    assess(load_case(sine_only().write(tmp_path / "case")), tmp_path / "result")
+    assess(load_case(sine_only().write(tmp_path / "case")), tmp_path / "result", report=False)
     with (tmp_path / "case" / "sine.csv").open("a") as file:
         file.write("\n")
     (tmp_path / "case" / "modes.csv").unlink()
@@ -331,7 +331,7 @@ def test_refuses_changed_and_missing_inputs(tmp_path):
 def test_finds_the_case_elsewhere_or_says_so(tmp_path):
     """The case is where the result says, or where the caller says."""
     path = sine_only().write(tmp_path / "case")
-    assess(load_case(path), tmp_path / "result")
+    assess(load_case(path), tmp_path / "result", report=False)
     (tmp_path / "case").rename(tmp_path / "moved")
     with pytest.raises(DataError, match="not there any more"):
         diagnose(tmp_path / "result")
@@ -340,7 +340,7 @@ def test_finds_the_case_elsewhere_or_says_so(tmp_path):
 
 def test_refuses_other_points(tmp_path):
     """A table of nodes that does not belong to the case."""
-    assess(load_case(sine_only().write(tmp_path / "case")), tmp_path / "result")
+    assess(load_case(sine_only().write(tmp_path / "case")), tmp_path / "result", report=False)
     path = tmp_path / "result" / "nodes.parquet"
     pd.read_parquet(path).iloc[2:].to_parquet(path)
     with pytest.raises(DataError, match="has other points than the case from row 1 on"):

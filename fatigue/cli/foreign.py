@@ -118,7 +118,7 @@ def convert(
     candidates: bool,
     as_json: bool,
 ) -> None:
-    r"""Turn FE results and simulation exports into a neutral folder with a first case.toml.
+    """Turn FE results and simulation exports into a neutral folder with a first case.toml.
 
     The audit of signs, balance and completeness is printed; a red light stops the conversion. Formats are recognised by
     content.
@@ -216,7 +216,7 @@ def welds(
     candidates: bool,
     as_json: bool,
 ) -> None:
-    r"""Find the weld lines of a mesh; list them, write the register to edit, and a picture of them.
+    """Find the weld lines of a mesh; list them, write the register to edit, and a picture of them.
 
     \b
     Example:

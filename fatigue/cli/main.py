@@ -35,7 +35,7 @@ strict = click.option("--strict", is_flag=True, help="Take unknown columns in th
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no log on stderr; errors only.")
 @click.option("-v", "--verbose", is_flag=True, help="Log what is done on stderr, and tracebacks of program errors.")
 def cli(quiet: bool, verbose: bool) -> None:
-    r"""Weld fatigue life, in km, of a flexible body from a multibody simulation.
+    """Weld fatigue life, in km, of a flexible body from a multibody simulation.
 
     \b
     Examples:
@@ -57,7 +57,7 @@ def cli(quiet: bool, verbose: bool) -> None:
 @strict
 @as_json
 def check(case_file: Path, strict: bool, as_json: bool) -> None:
-    r"""Read and check a case and all its files; print sizes and the estimated time.
+    """Read and check a case and all its files; print sizes and the estimated time.
 
     \b
     Example:
@@ -81,6 +81,7 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
 )
 @click.option("--threads", type=click.IntRange(min=1), default=None, help="Threads; default: one per processor core.")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue did not write.")
+@click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
 @strict
 @as_json
@@ -91,11 +92,12 @@ def assess(
     output: Path,
     threads: int | None,
     force: bool,
+    no_report: bool,
     exit_zero: bool,
     strict: bool,
     as_json: bool,
 ) -> None:
-    r"""Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
+    """Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
 
     An interrupted run goes on where it was when the same command is given again.
 
@@ -109,7 +111,7 @@ def assess(
 
     case = load_case(case_file)
     with _progress(quiet=options["quiet"]) as progress:
-        done = run(case, output, threads=threads, strict=strict, force=force, progress=progress)
+        done = run(case, output, threads=threads, strict=strict, force=force, report=not no_report, progress=progress)
     _print_warnings(done.warnings)
     found = result_summary(output, top=10)
     if as_json:
@@ -126,7 +128,7 @@ def assess(
 @click.option("--weld", "welds", multiple=True, help="Only this weld; may be given several times.")
 @as_json
 def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
-    r"""Print the welds and the worst points of a result folder.
+    """Print the welds and the worst points of a result folder.
 
     \b
     Examples:
@@ -148,7 +150,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (needs the extra `excel`).")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
 def report(folder: Path, pdf: bool, xlsx: bool, csv: bool) -> None:
-    r"""Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
+    """Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
 
     \b
     Example:
@@ -199,7 +201,7 @@ def diagnose(
     bin_km: float,
     as_json: bool,
 ) -> None:
-    r"""Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
+    """Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
 
     Writes attribution, track, diagnosis and levers tables into DIR.
 
@@ -237,9 +239,10 @@ def diagnose(
     help="Points to recount beside each weld's worst.",
 )
 @click.option("--all", "every", is_flag=True, help="Recount all points.")
+@click.option("--case", "case_file", type=_CASE, help="Case file, if it is not where the result says.")
 @as_json
-def verify(folder: Path | None, sample: int, every: bool, as_json: bool) -> None:
-    r"""Check the installed program against closed forms and golden values, or recount a result independently.
+def verify(folder: Path | None, sample: int, every: bool, case_file: Path | None, as_json: bool) -> None:
+    """Check the installed program against closed forms and golden values, or recount a result independently.
 
     The recount reads the input files itself, with dense line matrices and the `rainflow` package, and shares no code
     with the assessment. Exit code 4 when a check fails.
@@ -249,10 +252,14 @@ def verify(folder: Path | None, sample: int, every: bool, as_json: bool) -> None
       fatigue verify
       fatigue verify --results result --all
     """
-    from fatigue.verify.recount import recount
+    from fatigue.verify.check import VerificationTable
+    from fatigue.verify.recount import Recount, recount
     from fatigue.verify.table import verification_table
 
-    found = verification_table() if folder is None else recount(folder, sample=None if every else sample)
+    if folder is None:
+        found: VerificationTable | Recount = verification_table()
+    else:
+        found = recount(folder, sample=None if every else sample, case_file=case_file)
     if as_json:
         print_json(found.as_record())
     else:
@@ -265,7 +272,7 @@ def verify(folder: Path | None, sample: int, every: bool, as_json: bool) -> None
 @click.argument("folder", metavar="DIR", type=_FOLDER)
 @click.option("--force", is_flag=True, help="Overwrite files of the same names.")
 def example(folder: Path, force: bool) -> None:
-    r"""Write the shipped car body, a case in two variants, to DIR.
+    """Write the shipped car body, a case in two variants, to DIR.
 
     \b
     Example:
@@ -279,7 +286,7 @@ def example(folder: Path, force: bool) -> None:
 
 @cli.command()
 def schema() -> None:
-    r"""Print the JSON Schema of case.toml, for editors that complete and check it.
+    """Print the JSON Schema of case.toml, for editors that complete and check it.
 
     \b
     Example:

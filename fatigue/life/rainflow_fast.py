@@ -52,7 +52,8 @@ FEW = 64  # reversals that are not worth another pass
 
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
 FLAT = 4e-8  # doubt about a difference of stresses of rms 1, per root of the number of modes: 3 standard deviations
-CANCELLATION = 16.0  # modal stresses over their sum from which on single precision is not enough
+SHORTEST = 512  # samples; a few cycles do not average rounding errors out
+CANCELLATION = 8.0  # modal stresses over their sum from which on single precision is not enough
 RATIO_DEGREE = 10
 POINTS = 128  # counted at a time, so that 256 rows of stress stay in the cache
 
@@ -89,13 +90,14 @@ class _Law(NamedTuple):
 class _State(NamedTuple):
     """What the counter knows of each point and surface (n, 2) between two chunks, and what it has summed up.
 
-    ``start`` are membrane and bending of the first sample. ``first_up`` and ``up`` are the directions of the first step
+    ``mean`` is that of the normalised stress, 0 in single precision. ``start`` are membrane and bending of the first sample. ``first_up`` and ``up`` are the directions of the first step
     and of the last one, -1 before there is any; ``plateau_m`` is the membrane stress before the first step. The first
     ``waiting`` of the reversals ``z``, ``m`` have not closed a cycle. The sums are those of `BlockCount` for normalised
     stress. ``doubtful``: rounding may have decided; ``crowded``: there was no room for all that waits.
     """
 
     wanted: NDArray[np.bool_]
+    mean: Numbers
     start: Numbers
     plateau_m: Numbers
     first_up: NDArray[np.int64]
@@ -109,23 +111,22 @@ class _State(NamedTuple):
     power_sum: Floats
     damage: Floats
     largest: Floats
+    second: Floats
     fourth: Floats
     maximum: Floats
     minimum: Floats
 
 
 class _Block(NamedTuple):
-    """Shapes of a block over ``scale`` [MPa], and mean [MPa] and normalised variance of its stress.
+    """Shapes of a block over ``scale`` [MPa], and the mean of its stress [MPa].
 
-    ``membrane`` and ``bending`` (n, m); ``scale`` (n, 1); ``mean``, ``variance`` and ``trusted`` (n, 2), where single
-    precision is enough.
+    ``membrane`` and ``bending`` (n, m); ``scale`` (n, 1); ``mean`` and ``trusted`` (n, 2): single precision is enough.
     """
 
     membrane: Floats
     bending: Floats
     scale: Floats
     mean: Floats
-    variance: Floats
     trusted: NDArray[np.bool_]
 
 
@@ -220,16 +221,15 @@ def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, float
 
 
 @compiled("reassoc", "nsz", "nnan", "contract")
-def fourth_powers(m: Numbers, b: Numbers) -> tuple[float, float]:
-    """Sums of (m + b)^4 and (m - b)^4."""
-    top = _ZERO
-    bottom = _ZERO
+def add_powers(m: Numbers, b: Numbers, side: np.float32, mean: np.floating) -> tuple[float, float]:
+    """Sums of the second and fourth powers of the stress of one surface without its mean."""
+    second = _ZERO
+    fourth = _ZERO
     for i in range(m.size):
-        square = (m[i] + b[i]) * (m[i] + b[i])
-        top += square * square
-        square = (m[i] - b[i]) * (m[i] - b[i])
-        bottom += square * square
-    return top, bottom
+        square = (m[i] + side * b[i] - mean) ** 2
+        second += square
+        fourth += square * square
+    return second, fourth
 
 
 @compiled()
@@ -452,9 +452,6 @@ def count_chunk(stress: Numbers, samples: int, stage: _Stage, law: _Law, state: 
         if stage.begins:
             m[0], b[0] = m[1], b[1]
             state.start[row, 0], state.start[row, 1] = m[1], b[1]
-        top, bottom = fourth_powers(m[1 : samples + 1], b[1 : samples + 1])
-        state.fourth[row, 0] += top
-        state.fourth[row, 1] += bottom
         steps = samples
         if stage.ends and stage.recurs:  # and the step from the last sample to the first one
             steps += 1
@@ -463,6 +460,11 @@ def count_chunk(stress: Numbers, samples: int, stage: _Stage, law: _Law, state: 
             m[i], b[i] = m[steps], b[steps]  # level, so that nothing turns here
         for surface in range(2):
             if state.wanted[row, surface]:
+                second, fourth = add_powers(
+                    m[1 : samples + 1], b[1 : samples + 1], np.float32(1 - 2 * surface), state.mean[row, surface]
+                )
+                state.second[row, surface] += second
+                state.fourth[row, surface] += fourth
                 count_side(m, b, steps, (row, surface), stage, law, state, room)
         m[0], b[0] = m[samples], b[samples]
 
@@ -490,18 +492,13 @@ def record_of(q: NDArray[np.floating]) -> Record:
     scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
     record = Record(q, np.empty(q.shape, np.float32), scale, mean, covariance)
     for piece in pieces:
-        record.q[:, piece] = _centred(record, piece)
+        record.q[:, piece] = (q[:, piece] - mean[:, None]) / scale[:, None]
     return record
 
 
-def _centred(record: Record, piece: slice) -> Floats:
-    """`Record.q` in double precision."""
-    return np.asarray((record.exact[:, piece] - record.mean[:, None]) / record.scale[:, None])
-
-
 def is_fast(law: DamageLaw, record: Record) -> bool:
-    """Whether `count_block_fast` counts itself: a law of one slope, not too steep, and more than one sample."""
-    return law.is_straight and float(law.slopes[0]) <= STEEPEST and record.q.shape[1] > 1
+    """Whether `count_block_fast` counts itself: a law of one slope, not too steep, and a record not too short."""
+    return law.is_straight and float(law.slopes[0]) <= STEEPEST and record.q.shape[1] >= SHORTEST
 
 
 def count_block_fast(
@@ -546,8 +543,10 @@ def count_block_fast(
     if rows.size:
         wanted = doubtful[rows]
         again = _count(_Block(*(a[rows] for a in block)), wanted, record, rules, residue == "repeat", np.float64)
-        for old, new in zip(state, again, strict=True):
-            old[doubtful] = new[wanted]
+        for name in ("first_up", "cycles", "power_sum", "damage", "largest", "second", "fourth", "crowded"):
+            getattr(state, name)[doubtful] = getattr(again, name)[wanted]
+        state.maximum[doubtful] = (again.maximum - again.mean)[wanted]
+        state.minimum[doubtful] = (again.minimum - again.mean)[wanted]
     count = _evaluated(state, block, record, size, same_ratio, law, uses_bending_ratio)
     unsuited = state.crowded
     if yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
@@ -573,7 +572,6 @@ def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
         bending=S_b * record.scale / scale,
         scale=scale,
         mean=np.stack([mean_m + mean_b, mean_m - mean_b], axis=1),
-        variance=variance / scale**2,
         trusted=variance * CANCELLATION**2 >= modal[:, None],
     )
 
@@ -587,13 +585,15 @@ def _count(block: _Block, wanted: NDArray[np.bool_], record: Record, rules: _Law
     width = max(end - first for first, end in pairwise(edges)) + 1 + PAD
     room = _room(width, precision)
     state = _fresh_state(wanted, precision)
+    if not single:
+        state.mean[:] = block.mean / block.scale
     for first_point in range(0, points, POINTS):
         piece = slice(first_point, first_point + POINTS)
         weights = np.concatenate([block.membrane[piece], block.bending[piece]]).astype(precision)
         stress = np.empty((len(weights), width), precision)
         piece_of_state = _State(*(a[piece] for a in state))
         for first, end in pairwise(edges):
-            q = record.q[:, first:end] if single else _centred(record, slice(first, end))
+            q = record.q[:, first:end] if single else record.exact[:, first:end] / record.scale[:, None]
             np.matmul(weights, q, out=stress[:, 1 : end - first + 1])
             stage = _Stage(first == 0, end == t, recurs, flat)
             count_chunk(stress, end - first, stage, rules, piece_of_state, room)
@@ -620,7 +620,7 @@ def _evaluated(
         r_largest=np.divide(minimum, maximum, out=nan.copy(), where=turning & (maximum != 0.0)),
         max_equivalent_range=block.scale * size[:, None] * state.largest ** (1.0 / k),
         mean=block.mean,
-        kurtosis=np.divide(state.fourth, samples * block.variance**2, out=nan.copy(), where=turning & (block.variance > 0.0)),
+        kurtosis=np.divide(samples * state.fourth, state.second**2, out=nan.copy(), where=turning),
         histogram=np.zeros((len(size), 2, 0, 2)),
     )
 
@@ -629,7 +629,7 @@ def _fresh_state(wanted: NDArray[np.bool_], precision: type[np.floating]) -> _St
     """Nothing counted yet."""
     shape = wanted.shape
     kinds = {
-        "wanted": (shape, np.bool_), "start": (shape, precision), "plateau_m": (shape, precision), "first_up": (shape, np.int64),
+        "wanted": (shape, np.bool_), "mean": (shape, precision), "start": (shape, precision), "plateau_m": (shape, precision), "first_up": (shape, np.int64),
         "up": (shape, np.int64), "waiting": (shape, np.int64), "z": ((*shape, RESIDUE), precision), "m": ((*shape, RESIDUE), precision),
         "doubtful": (shape, np.bool_), "crowded": (shape, np.bool_),
     }

@@ -103,8 +103,10 @@ def prepare_event(
 ) -> EventLoad:
     """Compute once per event what all stations share, from its kept record."""
     q = history.q.astype(np.float64)
-    mean = q.mean(axis=1)
-    centred = q - mean[:, None]
+    centred = q - q[:, :1]  # from the first sample, so that a record at rest has exactly no variance
+    offset = centred.mean(axis=1)
+    mean = q[:, 0] + offset
+    centred -= offset[:, None]
     return EventLoad(
         counted=upsampled(history, upsample, residue),
         residue=residue,

@@ -125,8 +125,8 @@ def _record_warnings(body: Body, event: Event, history: ModalHistory) -> list[Pr
             Problem(
                 "no_spectrum",
                 where,
-                f"the record of {history.duration:g} s is shorter than one spectral segment of {segment_s:g} s, so "
-                "there is no frequency-domain estimate",
+                f"the record of {history.duration:g} s has no spectral segment of {segment_s:g} s (at least four "
+                "samples), so there is no frequency-domain estimate",
                 "Record longer or shorten segment_s if you need one",
             )
         ]

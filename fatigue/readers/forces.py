@@ -56,7 +56,10 @@ def read_nodal_forces(
         force[slot[used], axis] = table.numbers(name)[used]
     table.refuse()
     by_mode = force.reshape(-1, modes.mode.size, 6)
-    by_mode *= _factor(modes, convention)[:, np.newaxis].astype(dtype)
+    factor = _factor(modes, convention)[:, np.newaxis]
+    if not np.isin(factor, (-1.0, 1.0)).all():
+        by_mode = by_mode.astype(np.float64)  # a product in single precision would cost the last digits
+    by_mode *= factor.astype(by_mode.dtype)
     return tuple(np.split(by_mode, np.cumsum(sizes)[:-1])), table.warnings
 
 
@@ -78,7 +81,9 @@ def read_element_forces(
     force = np.column_stack([table.numbers(name) for name in COMPONENTS])
     table.refuse()
     used = column >= 0
-    force = force[used] * _factor(modes, convention)[column[used], np.newaxis].astype(force.dtype)
+    factor = _factor(modes, convention)[column[used], np.newaxis]
+    exact = np.isin(factor, (-1.0, 1.0)).all()
+    force = force[used] * (factor.astype(force.dtype) if exact else factor)
     return ElementForces(mode[used], node[used], element[used], force), table.warnings
 
 

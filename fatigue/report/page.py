@@ -27,7 +27,7 @@ from fatigue.report.variants import Assumptions, assumptions_of, damage_per_km, 
 from fatigue.report.why import Why, band_shares, exponents, mode_shares, read_why
 
 MOST_DETAILED = 60  # welds with their own page of figures; the others have their rows and their lines
-WORST_POINTS = 100
+WORST_POINTS = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,7 +267,7 @@ def _weld_page(
         shown += _cycle_figures(result, weld, cycles, used, figs, id_)
     of_weld = None if why is None else why.of_weld(weld)
     if detail is not None:
-        shown += _signal_figures(result, detail, str(event), figs, id_)
+        shown += _signal_figures(result, detail, str(event), figs, id_, modes_too=of_weld is None)
     if of_weld is not None:
         shown += _why_figures(result, of_weld, str(event), figs, id_)
     return WeldPage(
@@ -310,8 +310,10 @@ def _survival(used: Assumptions, level: str) -> Survival | None:
     return level if used.curve.has_scatter else None  # type: ignore[return-value]
 
 
-def _signal_figures(result: Result, detail: Detail, event: str, figs: Figures, id_: str) -> list[Shown]:
-    """Figures of the records; none where nothing varies."""
+def _signal_figures(
+    result: Result, detail: Detail, event: str, figs: Figures, id_: str, *, modes_too: bool
+) -> list[Shown]:
+    """Figures of the records, none where nothing varies; with the modes' shares of the variance if asked."""
     colours = figures.event_colours([e["event"] for e in result.events])
     names, natural = _mode_names(result.record["modes"])
     shown = []
@@ -323,6 +325,7 @@ def _signal_figures(result: Result, detail: Detail, event: str, figs: Figures, i
     if detail.variance_share is not None and np.isfinite(detail.variance_share).all():
         leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:8]
         parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}
+    if parts and modes_too:
         title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
         bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
         shown.append(figs.add(f"{id_}-modes", bars, "Modes in the stress of the worst point"))

@@ -138,6 +138,7 @@ def windowed_segment(history: ModalHistory, start: int, window: NDArray[np.float
     The mean goes in double precision: gravity can be a thousand times what is left.
     """
     segment = history.q[:, start : start + len(window)].astype(np.float64)
+    segment -= segment[:, :1]  # a record at rest then has exactly no spectrum
     segment -= segment.mean(axis=1, keepdims=True)
     segment *= window
     return segment

@@ -27,7 +27,7 @@ from fatigue.spectrum.moments import (
 FEWEST_PERIODS = 8  # below, a scatter between periods says nothing
 MOST_PERIODS = 32  # into which a long record is cut: more would cost time and tell no more
 LONGEST_LAG = 0.4  # of the segment an autocovariance comes from: beyond, its taper leaves too little
-NEGLIGIBLE = 0.02  # share of the scatter energy the principal spectra may miss, 1 % of the scatter of a point
+NEGLIGIBLE = 0.01  # share of the scatter energy the principal spectra may miss: a few per cent at a single point
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,7 +13,7 @@ from fatigue.spectrum.moments import hann
 
 SLOWEST_HZ = 0.3
 SLOWEST_CYCLES = 10.0  # per record; fewer are an event, not a spectrum
-LINE_OVER_MEDIAN = 30.0  # one bin of noise in a hundred thousand stands out so far
+LINE_OVER_MEDIAN = 20.0  # one bin of noise in a million stands out so far
 LINE_BLOCK = 16  # bins of a local median: narrow against resonances, wide against the four bins of a tapered tone
 
 
@@ -70,10 +70,11 @@ def _line_amplitudes(q: NDArray[np.floating], taper: NDArray[np.float64]) -> NDA
 
 
 def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Bins far above the median of their block; the last, incomplete block takes the median of the one before it."""
+    """Bins far above the medians of their block and of those beside it, so that the edge of a band is no tone."""
     blocks = len(power) // LINE_BLOCK
     if blocks == 0:
         return np.zeros(len(power), dtype=np.bool_)
-    median = np.median(power[: blocks * LINE_BLOCK].reshape(blocks, LINE_BLOCK), axis=1)
-    block = np.minimum(np.arange(len(power)) // LINE_BLOCK, blocks - 1)
-    return np.asarray(power > LINE_OVER_MEDIAN * median[block])
+    median = np.pad(np.median(power[: blocks * LINE_BLOCK].reshape(blocks, LINE_BLOCK), axis=1), 1, mode="edge")
+    around = np.maximum(np.maximum(median[:-2], median[1:-1]), median[2:])
+    block = np.minimum(np.arange(len(power)) // LINE_BLOCK, blocks - 1)  # the last, incomplete one joins its neighbour
+    return np.asarray(power > LINE_OVER_MEDIAN * around[block])

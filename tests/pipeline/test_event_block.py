@@ -117,11 +117,14 @@ def test_without_shear_shapes_shear_changes_nothing():
 
 def test_a_constant_record_does_nothing():
     """No variation: no damage in either domain, no NaN in a damage, no ratio made up."""
-    history = ModalHistory("e", np.arange(4), np.full((4, 600), 3.0), STEP, 0.0)
+    rest = np.random.default_rng(5).normal(0.0, 100.0, (4, 1))
+    history = ModalHistory("e", np.arange(4), np.tile(rest, 600), STEP, 0.0)
     found = assess_event_block(shapes(), load(history), None, mean_stress=False)
     for name in ("damage", "damage_same_ratio", "damage_dirlik", "damage_tb", "damage_shear", "cycles", "max_range"):
         assert (getattr(found, name) == 0.0).all(), name
-    assert np.isnan(found.bending_ratio).all()
+    for name in ("bending_ratio", "shear_ratio", "irregularity", "peaks_per_s", "kurtosis"):
+        assert np.isnan(getattr(found, name)).all(), name
+    assert (found.verdict == 0).all()
 
 
 def test_a_record_without_spectrum_has_no_estimate():

@@ -37,7 +37,7 @@ def test_lines_listed_but_not_assessed_keep_a_row_with_the_reason(tmp_path):
         RegisterRow("edge", "line_3", "candidate", "", "flat", "3/4", 3, 5, 40.0, 4.0),
     ]
     (case.parent / REGISTER).write_text(register_text(rows))
-    assess(load_case(case), tmp_path / "result")
+    assess(load_case(case), tmp_path / "result", report=False)
     welds = pd.read_parquet(tmp_path / "result" / "welds.parquet").set_index("weld")
     assert welds.status.to_dict() == {"A": "assessed", "B": "assessed", "seam": "excluded", "edge": "excluded"}
     assert welds.loc["seam", "reason"] == "no weld, bent sheet"

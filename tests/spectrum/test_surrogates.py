@@ -95,7 +95,7 @@ def test_the_split_is_exact_and_reproducible():
         (stationary, 1.07, 1.00),
         (speed_steps, 1.07, 0.74),
         (sine(0.9), 1.05, 1.42),
-        (curves, 1.5, 0.65),
+        (curves, 1.2, 0.8),
     ],
 )
 def test_split_of_known_records(kind, formula, process):

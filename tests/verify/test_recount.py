@@ -75,7 +75,7 @@ CASES = {
 
 def assessed(folder: Path, tiny: TinyCase) -> Path:
     """Assess a tiny case; return its result folder."""
-    assess(load_case(write_case(folder / "case", tiny)), folder / "result", threads=1)
+    assess(load_case(write_case(folder / "case", tiny)), folder / "result", threads=1, report=False)
     return folder / "result"
 
 

@@ -14,6 +14,7 @@ from fatigue.report.figures.style import (
     INK,
     QUIET,
     SEQUENTIAL,
+    SHARES,
     Trace,
     axis,
     colour_bar,
@@ -162,8 +163,7 @@ def sn_with_spectrum(
             "marker": {
                 "size": 9,
                 "color": single(100.0 * damage / damage.sum() if damage.sum() > 0.0 else damage),
-                "colorscale": SEQUENTIAL,
-                "reversescale": True,
+                "colorscale": SHARES,
                 "cmin": 0,
                 "line": {"width": 0.6, "color": INK},
                 "colorbar": colour_bar("share of the damage [%]"),

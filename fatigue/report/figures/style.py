@@ -29,6 +29,7 @@ DASHES = ("solid", "dash", "dot", "dashdot")
 # Okabe and Ito's colours for colour-blind readers, without the yellow that paper swallows.
 SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#5c6773")
 SEQUENTIAL = "Viridis"  # perceptually uniform and safe for colour-blind readers; dark is the small end
+SHARES = [[0.0, "#ffffff"], [0.5, "#5b9bbd"], [1.0, "#083a59"]]  # of damage: white is none
 
 _AXIS = {
     "showline": True,
@@ -40,7 +41,7 @@ _AXIS = {
     "gridcolor": GRID,
     "zeroline": False,
     "title": {"standoff": 8, "font": {"size": 12}},
-    "exponentformat": "power",
+    "exponentformat": "none",
 }
 TEMPLATE = go.layout.Template(
     layout={

@@ -7,7 +7,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from fatigue.report.figures.style import ACCENT, QUIET, SEQUENTIAL, across, axis, colour_bar, figure, log_axis, single, upright
+from fatigue.report.figures.style import ACCENT, QUIET, SHARES, across, axis, colour_bar, figure, log_axis, single, upright
 from fatigue.report.wording import in_figure, share
 
 
@@ -58,8 +58,7 @@ def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: pd.
         "z": single(100.0 * shares),
         "zmin": 0,
         "zmax": 100,
-        "colorscale": SEQUENTIAL,
-        "reversescale": True,
+        "colorscale": SHARES,
         "ygap": 3,
         "colorbar": colour_bar("share of the damage [%]"),
         "hovertemplate": "%{x:.3g} Hz: %{z:.3g} %<extra></extra>",
