@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case
-from fatigue.errors import Problem
+from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
 from fatigue.pipeline.body import Body, read_body, register_file
 from fatigue.pipeline.checkpoint import Checkpoint, locked, state_key
@@ -150,7 +150,12 @@ def count_group(
 
     def count(block: Block, load: EventLoad, part: str) -> Block:
         shapes = shapes_of(model.stations, block, model.curves, curve.thickness_rule)
-        state.save(part, assess_event_block(shapes, load, curve.yield_MPa, curve.mean_stress == "asme"))
+        try:
+            with np.errstate(over="raise"):
+                result = assess_event_block(shapes, load, curve.yield_MPa, curve.mean_stress == "asme")
+        except FloatingPointError:
+            raise NumericalError(_overflow(model, block, load)) from None
+        state.save(part, result)
         return block
 
     waiting = []
@@ -163,6 +168,16 @@ def count_group(
     for finished in as_completed(waiting):
         done.finished(finished.result())
     return parts
+
+
+def _overflow(model: Model, block: Block, load: EventLoad) -> Problem:
+    welds = sorted({model.welds[i].name for i in model.stations.weld[block.rows]})
+    return Problem(
+        "overflow",
+        f"event '{load.counted.event}', welds {welds[0]} to {welds[-1]}",
+        "stresses or damage exceed what double precision can hold",
+        "Check the units of forces and modal coordinates, and look for a value that is far too large",
+    )
 
 
 def write_group(

@@ -15,7 +15,7 @@ import pytest
 
 from fatigue.assess import assess as assess_and_report
 from fatigue.case import load_case
-from fatigue.errors import DataError
+from fatigue.errors import DataError, NumericalError
 from fatigue.life.curves import catalogue
 from tests.small_case import BENDING, MEMBRANE, THICKNESS, sine_only, small_case
 
@@ -398,6 +398,17 @@ def test_foreign_files_are_not_overwritten(tmp_path):
     assert (tmp_path / "result" / "nodes.parquet").read_text() == "mine"
     assess(case, tmp_path / "result", force=True)
     assess(case, tmp_path / "result")  # our own result may be replaced
+
+
+@pytest.mark.parametrize(("size", "place"), [(1e200, "noise.csv"), (1e90, "event 'noise', welds A to B")])
+def test_numbers_beyond_double_precision_are_a_numerical_failure(tmp_path, size, place):
+    """A coordinate of 1e200, or a damage of 1e300: exit code 4 and where to look, not infinity in a table."""
+    case = small_case()
+    case.histories["noise"].loc[500, "q_1"] = size
+    with pytest.raises(NumericalError, match=place) as error:
+        assess(load_case(case.write(tmp_path / "case")), tmp_path / "result", threads=1)
+    assert error.value.exit_code == 4
+    assert "far too large" in str(error.value)
 
 
 def test_a_bad_case_leaves_nothing_behind(tmp_path):

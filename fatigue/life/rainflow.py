@@ -2,7 +2,7 @@
 
 Each row goes through three plain loops: `turning_points` finds its reversals, `close_cycles` pairs them, `tally` reads
 membrane and bending stress at the two instants of every cycle and sums the damage, all in float64 and with the exact
-ranges. `count_block` is the seam for a faster kernel. All numba code of the package is in this file.
+ranges. `count_block` is the seam for a faster kernel.
 """
 
 import math
@@ -201,6 +201,7 @@ def _buffers(samples: int) -> _Buffers:
 
 
 def not_finite(where: str) -> NumericalError:
+    """Refusal of a signal or a block with a sample that is NaN or infinite."""
     return NumericalError(
         Problem("not_finite", where, "the stress is NaN or infinite", "Look for such values in the input")
     )

@@ -1,4 +1,4 @@
-"""The two inner loops of `rainflow_fast` in vector instructions of x86-64 processors, up to 16 samples at a time.
+"""The two inner loops of `rainflow_loops` in vector instructions of x86-64 processors, up to 16 samples at a time.
 
 Both steps select: turning points among samples, closed ranges among turning points. A comparison of vectors gives one
 bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would decide one after the
@@ -6,7 +6,8 @@ other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2
 numbers). The results are bit for bit those of the plain loops, which run instead where this file says so or is missing.
 """
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, cast
 
 import numpy as np
 from llvmlite import binding, ir
@@ -24,8 +25,9 @@ I1, I8, I32, I64 = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64)
 
 def vector_bits() -> int:
     """Width of the vectors of the processor that numba compiles for: 512 with AVX-512, 256 with AVX2, 0 otherwise."""
-    if config.CPU_NAME or config.CPU_FEATURES is not None:
-        named = (config.CPU_FEATURES or "").split(",")
+    chosen = vars(config)  # by environment variables, for another processor than this one
+    if chosen["CPU_NAME"] or chosen["CPU_FEATURES"] is not None:
+        named = (chosen["CPU_FEATURES"] or "").split(",")
         return 512 if "+avx512f" in named else 256 if "+avx2" in named else 0
     has = binding.get_host_cpu_features()
     return 512 if has.get("avx512f") else 256 if has.get("avx2") else 0
@@ -41,8 +43,7 @@ def lanes(array_type: Any) -> int:
     return 8 if WIDTH == 512 else 0
 
 
-@intrinsic
-def lanes_of(typing: Any, array: Any) -> Any:
+def _lanes_of(typing: Any, array: Any) -> Any:
     """Give `lanes` to compiled code."""
     return types.int64(array), lambda *_: ir.Constant(I64, lanes(array))
 
@@ -126,11 +127,10 @@ class _Vector:
         return variable
 
 
-@intrinsic
 def _reversals_of_lanes(
     typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, z: Any, zm: Any, n: Any
 ) -> Any:
-    """Do what `rainflow_fast.write_reversals` does for the samples i to i + lanes - 1."""
+    """Do what `rainflow_loops.write_reversals` does for the samples i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         m_, b_, side_, flat_, i_, up_, z_, zm_, n_ = args
@@ -164,14 +164,24 @@ def _reversals_of_lanes(
 
     integer = types.int64
     arguments = (m, b, types.float32, types.float32, integer, integer, z, zm, integer)
-    return types.UniTuple(integer, 3)(*arguments), generate
+    return types.Tuple((integer,) * 3)(*arguments), generate
 
 
-@intrinsic
 def _cycles_of_lanes(
-    typing: Any, z: Any, zm: Any, S: Any, dm: Any, i: Any, n: Any, before: Any, taken: Any, kept: Any, cycles: Any, flat: Any
+    typing: Any,
+    z: Any,
+    zm: Any,
+    S: Any,
+    dm: Any,
+    i: Any,
+    n: Any,
+    before: Any,
+    taken: Any,
+    kept: Any,
+    cycles: Any,
+    flat: Any,
 ) -> Any:
-    """Do what `rainflow_fast.close_pass` does for the reversals i to i + lanes - 1."""
+    """Do what `rainflow_loops.close_pass` does for the reversals i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_, flat_ = args
@@ -209,30 +219,35 @@ def _cycles_of_lanes(
         return context.make_tuple(builder, signature.return_type, results)
 
     integer = types.int64
-    return types.UniTuple(integer, 5)(z, zm, S, dm, *(integer,) * 6, types.float32), generate
+    return types.Tuple((integer,) * 5)(z, zm, S, dm, *(integer,) * 6, types.float32), generate
+
+
+lanes_of = cast(Callable[[Numbers], int], intrinsic(_lanes_of))
+reversals_of_lanes = cast(Callable[..., tuple[int, int, int]], intrinsic(_reversals_of_lanes))
+cycles_of_lanes = cast(Callable[..., tuple[int, int, int, int, int]], intrinsic(_cycles_of_lanes))
 
 
 @compiled()
 def write_reversals(
     m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
 ) -> tuple[int, int, bool]:
-    """Do what `rainflow_fast.write_reversals` does."""
+    """Do what `rainflow_loops.write_reversals` does."""
     small_steps = 0
     for i in range(0, samples, lanes_of(m)):
-        n, up, small = _reversals_of_lanes(m, b, side, flat, i, up, room.z, room.m, n)
+        n, up, small = reversals_of_lanes(m, b, side, flat, i, up, room.z, room.m, n)
         small_steps |= small
     return n, up, small_steps != 0
 
 
 @compiled()
 def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
-    """Do what `rainflow_fast.close_pass` does."""
+    """Do what `rainflow_loops.close_pass` does."""
     z, zm, S, dm = room.z, room.m, room.S, room.dm
     z[n] = z[n + 1] = -np.inf
     kept = 0
     before, taken = 1, 0
     close_calls = 0
     for i in range(0, n, lanes_of(z)):
-        kept, cycles, before, taken, close = _cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles, flat)
+        kept, cycles, before, taken, close = cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles, flat)
         close_calls |= close
     return kept, cycles, close_calls != 0

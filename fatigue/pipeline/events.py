@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from fatigue.case import Event, check_distance, event_length_km
-from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
+from fatigue.errors import CaseError, DataError, FatigueError, NumericalError, Problem, refuse
 from fatigue.life.history import ModalHistory, kept
 from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.body import Body
@@ -69,10 +69,19 @@ def event_load(body: Body, event: Event, upsample: int) -> EventLoad:
     history, _ = _record(body, event)
     if upsample > 1:
         log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
-    residue = body.case.residue(event)
-    return prepare_event(
-        history, residue, event.stress_factor, upsample, event_spectra(body, history), top_mode_hz(body)
-    )
+    try:
+        with np.errstate(over="raise"):
+            spectra = event_spectra(body, history)
+            residue = body.case.residue(event)
+            return prepare_event(history, residue, event.stress_factor, upsample, spectra, top_mode_hz(body))
+    except FloatingPointError:
+        problem = Problem(
+            "overflow",
+            event.history,
+            f"modal coordinates of event '{event.name}' are so large that their squares exceed double precision",
+            "Look for a value that is far too large",
+        )
+        raise NumericalError(problem) from None
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
@@ -84,9 +93,9 @@ def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
 
 
 def top_mode_hz(body: Body) -> float | None:
-    """Highest frequency of a normal mode [Hz]; None where there is none."""
+    """Highest frequency of a normal mode [Hz]; None where there is none above 0."""
     frequencies = zip(body.modes.frequency, body.modes.kind, strict=True)
-    return max((float(f) for f, kind in frequencies if kind == "normal"), default=None)
+    return max((float(f) for f, kind in frequencies if kind == "normal" and f > 0.0), default=None)
 
 
 def upper_hz(body: Body, history: ModalHistory) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import Case
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, NumericalError, Problem
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.pipeline.stations import Stations, stations_of
@@ -115,7 +115,7 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     body = groups.body
     welds = body.welds[groups.groups[number]]
     lines, forces, warnings = _forces(groups, number)
-    solved = tuple(assess_line(line, force) for line, force in zip(lines, forces, strict=True))
+    solved = tuple(_solved(line, force) for line, force in zip(lines, forces, strict=True))
     for line, force, result in zip(lines, forces, solved, strict=True):
         where = f"{body.case.body.weld_nodes}: weld {line.weld}"
         warnings += edge_type_warnings(line, force, where) + _end_warnings(result, where)
@@ -126,6 +126,20 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
         stations=stations_of(solved, [weld.name for weld in welds]),
         warnings=tuple(warnings),
     )
+
+
+def _solved(line: WeldLine, force: NDArray[np.floating]) -> LineStress:
+    try:
+        with np.errstate(over="raise", divide="raise"):
+            return assess_line(line, force)
+    except FloatingPointError:
+        problem = Problem(
+            "overflow",
+            f"weld {line.weld}",
+            "the structural stress per unit modal coordinate exceeds what double precision can hold",
+            "Check forces, coordinates and thickness of the weld for a value that is far too large or small",
+        )
+        raise NumericalError(problem) from None
 
 
 def _open_groups(body: Body, groups: tuple[slice, ...], scratch: Path) -> WeldGroups:

@@ -48,7 +48,12 @@ def write_xlsx(folder: Path) -> Path:
             )
         )
     path = folder / WORKBOOK
-    options = {"constant_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    options = {
+        "constant_memory": True,
+        "strings_to_formulas": False,
+        "strings_to_urls": False,
+        "strings_to_numbers": False,
+    }
     with xlsxwriter.Workbook(str(path), options) as book:
         book.set_properties({"title": record["title"], "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
         formats = {name: book.add_format(look) for name, look in _FORMATS.items()}
@@ -81,7 +86,13 @@ def _write_sheet(sheet, frame: pd.DataFrame, columns: tuple[Column, ...], format
         for i, value in enumerate(values):
             if value is None:
                 continue
-            write = sheet.write_string if isinstance(value, str) else sheet.write_boolean if isinstance(value, bool) else sheet.write_number
+            write = (
+                sheet.write_string
+                if isinstance(value, str)
+                else sheet.write_boolean
+                if isinstance(value, bool)
+                else sheet.write_number
+            )
             write(row, i, value, looks[i])
     sheet.freeze_panes(1, 1)
     sheet.autofilter(0, 0, len(frame), len(columns) - 1)

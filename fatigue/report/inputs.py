@@ -56,7 +56,12 @@ class Inputs:
     def _unchanged(self, name: str) -> Path:
         if self.root is None:
             raise DataError(
-                Problem("missing_case", name, "the case file is not where it was, or has changed", "Name the case file as well")
+                Problem(
+                    "missing_case",
+                    name,
+                    "the case file is not where it was, or has changed",
+                    "Name the case file as well",
+                )
             )
         path = self.root / name
         if not path.is_file():

@@ -52,7 +52,10 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             "not in the headline life; the factor it would bring is given for every point",
             "ASME VIII-2 5.5.5.3",
         ),
-        *(Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85") for words in _unique(chosen["residue"].values())),
+        *(
+            Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85")
+            for words in _unique(chosen["residue"].values())
+        ),
         Rule("Upsampling before counting", str(chosen["upsample"]), "case file: counting.upsample"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(

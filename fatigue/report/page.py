@@ -123,7 +123,9 @@ def report_page(folder: Path, case_path: Path | None = None) -> str:
         "checks": _checks(result),
         "inputs": _inputs_table(result.record),
         "config": embedded(figures.CONFIG),
-        "template": embedded(json.loads(go.Figure(layout={"template": figures.TEMPLATE}).to_json())["layout"]["template"]),
+        "template": embedded(
+            json.loads(go.Figure(layout={"template": figures.TEMPLATE}).to_json())["layout"]["template"]
+        ),
         "plotly": Markup(get_plotlyjs()),
     }
     return _environment().get_template("report.html").render(context)
@@ -222,7 +224,9 @@ def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, link
 def _events_figure(result: Result, most: int = 20) -> go.Figure:
     shares = _event_shares(result).head(most)
     weights = {
-        e["event"]: f"{wording.share(e['share'])} of km" if e["share"] is not None else f"{wording.number(e['per_1000_km'])} in 1000 km"
+        e["event"]: f"{wording.share(e['share'])} of km"
+        if e["share"] is not None
+        else f"{wording.number(e['per_1000_km'])} in 1000 km"
         for e in result.events
     }
     return figures.damage_by_event(list(shares.index), shares.reset_index(drop=True), weights)
@@ -250,9 +254,7 @@ def _bands_figure(result: Result, why: Why | None, figs: Figures, most: int = 30
     return figs.add("bands", fig, "Share of each frequency band in the damage of the worst points")
 
 
-def _weld_page(
-    result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str
-) -> WeldPage:
+def _weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
     row = result.welds.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
     points = result.nodes[result.nodes["weld"] == weld]
@@ -260,7 +262,10 @@ def _weld_page(
     used = assumptions_of(result.record, row["curve"])
     event = row["governing_event"]
     along = figures.along_weld(
-        points, result.target_km, detail.deviation if detail and detail.deviation else None, wording.in_figure(str(event))
+        points,
+        result.target_km,
+        detail.deviation if detail and detail.deviation else None,
+        wording.in_figure(str(event)),
     )
     shown = [figs.add(f"{id_}-along", along, f"{wording.short(weld)}: life, load factor and stress along the weld")]
     if len(cycles) and cycles["range_MPa"].max() > 0.0:
@@ -280,7 +285,9 @@ def _weld_page(
         variants=_variants_table(point, cycles, result, used, id_),
         events=_events_table(result, weld, id_),
         levers=None if of_weld is None or of_weld.levers.empty else _levers_table(of_weld, id_),
-        reasons=[] if of_weld is None else [tuple(row) for row in of_weld.diagnosis[["event", "verdict", "reason"]].to_numpy()],
+        reasons=[]
+        if of_weld is None
+        else [tuple(row) for row in of_weld.diagnosis[["event", "verdict", "reason"]].to_numpy()],
         exponents={} if of_weld is None else exponents(of_weld),
     )
 
@@ -296,8 +303,15 @@ def _cycle_figures(
     unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
     name = wording.short(weld)
     return [
-        figs.add(f"{id_}-matrix", figures.rainflow_matrices(cycles, per_km), f"{name}: rainflow matrix and damage matrix", wide=True),
-        figs.add(f"{id_}-exceedance", figures.exceedance(cycles, result.passes_per_km), f"{name}: stress ranges in 1e6 km"),
+        figs.add(
+            f"{id_}-matrix",
+            figures.rainflow_matrices(cycles, per_km),
+            f"{name}: rainflow matrix and damage matrix",
+            wide=True,
+        ),
+        figs.add(
+            f"{id_}-exceedance", figures.exceedance(cycles, result.passes_per_km), f"{name}: stress ranges in 1e6 km"
+        ),
         figs.add(
             f"{id_}-sn",
             figures.sn_with_spectrum(cycles, per_km * result.target_km, laws, used.survival, unit),
@@ -333,7 +347,9 @@ def _signal_figures(
         drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:6]
         marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
         spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:4]), event)
-        shown.append(figs.add(f"{id_}-psd", spectrum, "Stress spectrum, the leading normal modes, and where the variance lies"))
+        shown.append(
+            figs.add(f"{id_}-psd", spectrum, "Stress spectrum, the leading normal modes, and where the variance lies")
+        )
     return shown
 
 
@@ -343,12 +359,20 @@ def _why_figures(result: Result, why: Why, event: str, figs: Figures, id_: str) 
     shown = []
     modes = mode_shares(why).head(8)
     if modes["share"].notna().any():
-        bars = figures.shares([names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), "share of the damage, all events [%]")
+        bars = figures.shares(
+            [names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), "share of the damage, all events [%]"
+        )
         shown.append(figs.add(f"{id_}-damage-modes", bars, "Damage by mode; a negative share relieves"))
     bands = band_shares(why)
     if len(bands) > 1 and bands["share"].notna().all():
         marked = [natural[mode] for mode in modes["mode"][:4] if mode in natural]
-        shown.append(figs.add(f"{id_}-damage-bands", figures.damage_by_band(bands, marked), "Damage by frequency band; dotted: leading normal modes"))
+        shown.append(
+            figs.add(
+                f"{id_}-damage-bands",
+                figures.damage_by_band(bands, marked),
+                "Damage by frequency band; dotted: leading normal modes",
+            )
+        )
     track = why.track[why.track["event"] == event]
     if len(track) > 1:
         caption = f"Where in event {wording.short(event)} the damage is made"
@@ -518,7 +542,11 @@ def _checks(result: Result) -> list[tuple[str, str, bool]]:
         summed = float((of_weld["damage_per_pass"] * of_weld["event"].map(result.passes_per_km)).sum())
         from_events.append(abs(summed / point["damage_per_km"] - 1.0))
     return [
-        ("damage per km from the listed cycles and the S-N curve", wording.number(max(from_cycles)), max(from_cycles) < 1e-6),
+        (
+            "damage per km from the listed cycles and the S-N curve",
+            wording.number(max(from_cycles)),
+            max(from_cycles) < 1e-6,
+        ),
         ("damage per km from the damage of every event", wording.number(max(from_events)), max(from_events) < 1e-6),
     ]
 
@@ -526,7 +554,11 @@ def _checks(result: Result) -> list[tuple[str, str, bool]]:
 def _inputs_table(record: Mapping[str, Any]) -> Table:
     headings = (Heading("file", numeric=False), Heading("size"), Heading("SHA-256", numeric=False))
     rows = [
-        [Cell(entry["file"]), Cell(wording.size(entry["bytes"]), float(entry["bytes"])), Cell(entry["sha256"], mark="hash")]
+        [
+            Cell(entry["file"]),
+            Cell(wording.size(entry["bytes"]), float(entry["bytes"])),
+            Cell(entry["sha256"], mark="hash"),
+        ]
         for entry in record["inputs"]
     ]
     return tables.plain_table("inputs", headings, rows)

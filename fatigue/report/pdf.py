@@ -52,7 +52,9 @@ def print_pdf(html: Path, pdf: Path) -> None:
             said = [f"not done after {TIME_LIMIT_S:g} s"]
         if not printed.is_file():
             raise DataError(
-                Problem("no_pdf", str(browser), f"could not print the page ({said[0]})", f"Open {html} and print it there")
+                Problem(
+                    "no_pdf", str(browser), f"could not print the page ({said[0]})", f"Open {html} and print it there"
+                )
             )
         shutil.copyfile(printed, pdf)
 

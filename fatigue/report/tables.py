@@ -41,7 +41,11 @@ class Table:
     label: str = ""
 
 
-WELD, FACE, EVENT = Heading("weld", numeric=False), Heading("face", numeric=False), Heading("governing event", numeric=False)
+WELD, FACE, EVENT = (
+    Heading("weld", numeric=False),
+    Heading("face", numeric=False),
+    Heading("governing event", numeric=False),
+)
 LIFE = (Heading("life", "km"), Heading("life", "years"), Heading("utilisation", "-"), Heading("load factor", "-"))
 LIFE_COLUMNS = ("life_km", "life_years", "utilisation", "load_factor")
 
@@ -220,7 +224,9 @@ def mode_table(modes: Mapping[str, Any]) -> Table:
         (integer(mode), num(frequency), text(kind))
         for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True)
     )
-    return Table("modes", (Heading("mode"), Heading("frequency", "Hz"), Heading("kind", numeric=False)), rows, "Find a mode")
+    return Table(
+        "modes", (Heading("mode"), Heading("frequency", "Hz"), Heading("kind", numeric=False)), rows, "Find a mode"
+    )
 
 
 def plain_table(id_: str, headings: Sequence[Heading], rows: Iterable[Sequence[Cell]]) -> Table:

@@ -126,7 +126,12 @@ def _point_variants(point: pd.Series) -> Iterator[tuple[str, str, bool, float]]:
         if pd.notna(point[column]):
             yield assumption, choice, False, float(point[column])
     if point["at_end"] and np.isfinite(point["life_km"]) and point["life_km_raw_end"] > 0.0:
-        yield "weld end", "line force as solved, end not treated", False, float(point["life_km"] / point["life_km_raw_end"])
+        yield (
+            "weld end",
+            "line force as solved, end not treated",
+            False,
+            float(point["life_km"] / point["life_km_raw_end"]),
+        )
 
 
 def _replaced(assumptions: Assumptions, survival: str | None = None, extension: Extension | None = None) -> Assumptions:

@@ -27,7 +27,9 @@ class Why:
 
     def of_weld(self, weld: str) -> "Why":
         """Keep the rows of one weld."""
-        return Why(*(rows[rows["weld"] == weld] for rows in (self.attribution, self.track, self.diagnosis, self.levers)))
+        return Why(
+            *(rows[rows["weld"] == weld] for rows in (self.attribution, self.track, self.diagnosis, self.levers))
+        )
 
 
 def read_why(folder: Path, result: Result) -> Why | None:

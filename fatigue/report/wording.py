@@ -81,7 +81,9 @@ def in_figure(name: str, longest: int = 36) -> str:
 
     Plotly takes ``<b>`` or ``<a href>`` in texts for markup and ``%{...}`` in templates for a variable.
     """
-    plain = short(name, longest).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("%{", "%&#123;")
+    plain = (
+        short(name, longest).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("%{", "%&#123;")
+    )
     return plain if name.isascii() else f"\u2068{plain}\u2069"
 
 

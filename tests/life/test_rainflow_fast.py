@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, NumericalError
-from fatigue.life import rainflow_fast
+from fatigue.life import rainflow_fast, rainflow_loops
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.rainflow import BlockCount, count_block
 from fatigue.life.rainflow_fast import count_block_fast, record_of
@@ -133,3 +133,143 @@ def test_modal_stress_counts_as_in_double_precision(law: DamageLaw, residue: str
         S_m, S_b, q = modal_block(seed)
         choices = {"residue": residue, "uses_bending_ratio": law is not PLAIN_CUBE, "yield_MPa": 1e9}
         assert_same(*both_counts(S_m, S_b, q.astype(np.float32), law, **choices))
+
+
+def test_a_thousand_points_of_one_event() -> None:
+    """Largest and median error of the damage, over points whose stresses differ by orders of magnitude."""
+    S_m, S_b, q = modal_block(11, points=1000, t=2048)
+    fast, exact = both_counts(S_m, S_b, q.astype(np.float32))
+    error = np.abs(fast.damage / np.maximum(exact.damage, 1e-300) - 1.0)[exact.damage > 0.0]
+    assert error.max() < 1e-6
+    assert np.median(error) < 1e-7
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("kind", ["ties", "held", "growing", "zigzag", "wrapping plateau", "constant", "noise"])
+def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Chunks of 7 samples, and no room for long residues, count what one chunk counts."""
+    monkeypatch.setattr(rainflow_fast, "SHORTEST", 2)
+    monkeypatch.setattr(rainflow_fast, "CHUNK", 7)
+    monkeypatch.setattr(rainflow_fast, "RESIDUE", 80)
+    rng = np.random.default_rng(KINDS.index(kind))
+    for t in (2, 3, 8, 50, 400):
+        fast, exact = both_counts(*block_of(rng, kind, 20, t), residue=residue)
+        np.testing.assert_array_equal(fast.cycles, exact.cycles)
+        np.testing.assert_allclose(fast.damage, exact.damage, rtol=2e-5, atol=1e-12 * exact.damage.max())
+
+
+def test_the_number_of_points_does_not_matter() -> None:
+    """The bytes of a row are the same alone and among others, whatever was counted again."""
+    S_m, S_b, q = modal_block(3, points=300, t=600)
+    size, ratio = np.ones(300), np.full((300, 2), 0.3)
+    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
+    record = record_of(q.astype(np.float32))
+    whole = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    part = slice(128, 256)
+    alone = count_block_fast(S_m[part], S_b[part], record, size[part], ratio[part], ALUMINIUM, **choices)
+    assert alone.damage.tobytes() == whole.damage[part].tobytes()
+
+
+@pytest.mark.parametrize("kind", ["noise", "growing", "sine"])
+def test_half_is_the_damage_of_the_rainflow_package(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sum of n S^3 without bending, against an independent counter."""
+    monkeypatch.setattr(rainflow_fast, "SHORTEST", 2)
+    rng = np.random.default_rng(1)
+    for t in (50, 333):
+        s = adversarial(rng, kind, t)
+        fast, _ = both_counts(np.ones((1, 1)), np.zeros((1, 1)), s[None], PLAIN_CUBE, residue="half")
+        cycles = list(oracle.extract_cycles(s.tolist()))
+        assert fast.cycles[0, 0] == sum(n for _, _, n, _, _ in cycles)
+        assert fast.power_sum[0, 0] == pytest.approx(sum(n * S**3 for S, _, n, _, _ in cycles), rel=2e-6)
+
+
+@pytest.mark.parametrize("law", [HAIBACH, STEEP])
+def test_laws_with_knees_and_very_steep_ones_are_counted_in_double_precision(law: DamageLaw) -> None:
+    """Byte for byte."""
+    fast, exact = both_counts(*modal_block(1, points=20, t=600), law)
+    for name in BlockCount.__slots__:
+        np.testing.assert_array_equal(getattr(fast, name), getattr(exact, name))
+
+
+@pytest.mark.parametrize("mean_stress", [False, True])
+def test_points_in_high_mean_tension_have_the_mean_stress_factor(mean_stress: bool) -> None:
+    """Where a cycle may reach the tension at which f_M begins; elsewhere both damages are the same."""
+    S_m, S_b, q = modal_block(2, points=20, t=600)
+    fast, exact = both_counts(S_m, S_b, q + 3.0, yield_MPa=30.0, mean_stress=mean_stress)
+    assert_same(fast, exact)
+    assert (exact.damage_mean_stress > 1.01 * exact.damage).any() != mean_stress
+    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": True}
+    with pytest.raises(CaseError, match="f_M needs the yield stress"):
+        count_block_fast(S_m, S_b, record_of(q), np.ones(20), np.zeros((20, 2)), STEEL, **rules)
+
+
+def test_what_is_not_finite_is_refused() -> None:
+    """A sample of a modal coordinate, and a stress shape."""
+    S_m, S_b, q = modal_block(1, points=20, t=600)
+    spoilt = q.copy()
+    spoilt[2, 17] = np.nan
+    with pytest.raises(NumericalError, match="sample 17 of modal coordinate 2"):
+        record_of(spoilt)
+    S_b[3, 0] = np.inf
+    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": False}
+    with pytest.raises(NumericalError, match="row 3 of the block: the stress is NaN or infinite"):
+        count_block_fast(S_m, S_b, record_of(q), np.ones(20), np.zeros((20, 2)), STEEL, **rules)
+
+
+# ------------------------------------------------------------------------------------------------ vectors
+
+
+def room_for(samples: int, precision: type[np.floating]) -> rainflow_loops.Room:
+    """Work space filled with numbers that must not be read."""
+    room = rainflow_loops.room_for(samples, 0, precision)
+    for array in room:
+        array[:] = 7
+    return room
+
+
+@simd
+@pytest.mark.parametrize(("width", "precision"), [(512, np.float32), (512, np.float64), (256, np.float32)])
+def test_vector_instructions_do_what_the_plain_loops_do(
+    width: int, precision: type[np.floating], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Reversals, closed ranges and doubts, bit for bit, for every kind of history and both surfaces."""
+    from fatigue.life import rainflow_simd  # noqa: PLC0415
+
+    if width > rainflow_simd.vector_bits():
+        pytest.skip("not on this processor")
+    monkeypatch.setattr(rainflow_simd, "WIDTH", width)
+
+    def compiled_now(function: Callable[..., object]) -> Callable[..., object]:
+        plain: FunctionType = function.py_func  # type: ignore[attr-defined]
+        return njit(plain)
+
+    write, close = compiled_now(rainflow_simd.write_reversals), compiled_now(rainflow_simd.close_pass)
+    rng = np.random.default_rng(5)
+    flat = np.float32(1e-3)
+    for kind in KINDS:
+        for t in (2, 9, 17, 40, 333):
+            m, b = (np.pad(adversarial(rng, kind, t), (0, rainflow_loops.PAD), "edge").astype(precision) for _ in "mb")
+            for side in (np.float32(1.0), np.float32(-1.0)):
+                rooms = [room_for(t, precision) for _ in range(2)]
+                found = [
+                    f(m, b, side, flat, t, 1, r, 0)
+                    for f, r in zip((rainflow_loops.write_reversals, write), rooms, strict=True)
+                ]
+                assert found[0] == found[1]
+                n = found[0][0]
+                closed = [f(r, n, 0, flat) for f, r in zip((rainflow_loops.close_pass, close), rooms, strict=True)]
+                assert closed[0] == closed[1]
+                left, cycles, _ = closed[0]
+                for name, length in (("z", left), ("m", left), ("S", cycles), ("dm", cycles)):
+                    a, c = (getattr(room, name)[:length] for room in rooms)
+                    np.testing.assert_array_equal(a.view(np.uint8), c.view(np.uint8))
+
+
+@simd
+def test_the_plain_loops_are_used_where_there_are_no_vectors(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the processor numba compiles for, not of the one it runs on."""
+    from fatigue.life import rainflow_simd  # noqa: PLC0415
+
+    for features, bits in (("", 0), ("+sse2", 0), ("+avx2,+fma", 256), ("+avx2,+avx512f", 512)):
+        monkeypatch.setattr(rainflow_simd.config, "CPU_FEATURES", features)
+        assert rainflow_simd.vector_bits() == bits

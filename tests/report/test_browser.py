@@ -77,40 +77,46 @@ def test_every_figure_on_screen_is_drawn(opened):
         "[...document.querySelectorAll('.plot')].filter((p) => p.offsetParent).map((p) => "
         "[p.dataset.figure, p.querySelectorAll('.xy .trace, .xy .heatmaplayer, .barlayer .bars, .gl-container canvas').length])"
     )
-    assert len(drawn) > 20
+    assert len(drawn) == 20
     assert [name for name, count in drawn if not count] == []
 
 
 def test_there_is_no_upload_button(opened):
     """No mode bar offers to share, to upload or to edit in a cloud."""
-    titles = opened.evaluate("[...document.querySelectorAll('.modebar-btn')].map((b) => b.dataset.title || b.ariaLabel || '')")
+    titles = opened.evaluate(
+        "[...document.querySelectorAll('.modebar-btn')].map((b) => b.dataset.title || b.ariaLabel || '')"
+    )
     assert titles
     assert not [t for t in titles if re.search("share|cloud|upload|chart studio|plotly", t, re.IGNORECASE)]
 
 
+# Where the first point of the weld lines is on screen, by the matrices of the camera.
+FIRST_POINT = """(() => {
+  const plot = document.querySelector('#fig-scene .plot');
+  plot.scrollIntoView({ block: 'center', behavior: 'instant' });
+  const scene = plot._fullLayout.scene._scene, camera = scene.glplot.cameraParams;
+  const trace = plot._fullData.find((d) => d.name === 'weld lines');
+  let v = [trace.x[0] * scene.dataScale[0], trace.y[0] * scene.dataScale[1], trace.z[0] * scene.dataScale[2], 1];
+  for (const m of [camera.model, camera.view, camera.projection])
+    v = [0, 1, 2, 3].map((i) => m[i] * v[0] + m[4 + i] * v[1] + m[8 + i] * v[2] + m[12 + i] * v[3]);
+  const box = plot.querySelector('.gl-container canvas, canvas').getBoundingClientRect();
+  return [box.x + box.width * (0.5 + 0.5 * v[0] / v[3]), box.y + box.height * (0.5 - 0.5 * v[1] / v[3])];
+})()"""
+
+
 def test_a_point_of_the_scene_shows_its_numbers(opened):
-    """Moving over a weld line in 3-D shows weld, node and life beside the scene; a click keeps them."""
-    opened.evaluate("document.getElementById('fig-scene').scrollIntoView({ block: 'center', behavior: 'instant' })")
-    box = opened.query_selector("#fig-scene .plot").bounding_box()
-    opened.wait_for_timeout(300)
-    found = False
-    steps = [0.5 + 0.02 * k * (-1) ** k for k in range(48)]
-    for y in steps[:30]:
-        for x in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7):
-            opened.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
-            if opened.inner_text("#probe"):
-                found = True
-                break
-        if found:
+    """Moving onto a weld line in 3-D shows the numbers of the point beside the scene; a click keeps them."""
+    opened.evaluate(FIRST_POINT)  # brings the scene into view, which draws it anew
+    opened.wait_for_timeout(1000)
+    x, y = opened.evaluate(FIRST_POINT)
+    for step in range(40):  # the picture under the pointer is read back once it moves
+        opened.mouse.move(x + step % 4 - 2, y)
+        opened.wait_for_timeout(100)
+        if opened.inner_text("#probe"):
             break
-    if not found:  # the lines are thin: ask the figure for one as the pointer does
-        opened.evaluate(
-            "(() => { const p = document.querySelector('#fig-scene .plot');"
-            " const t = p.data.findIndex((d) => d.name === 'weld lines');"
-            " p.emit('plotly_click', { points: [{ curveNumber: t, pointNumber: 0 }] }); })()"
-        )
+    opened.mouse.click(x, y)
     shown = opened.inner_text("#probe")
-    assert "life" in shown
+    assert re.search(r"node\s+[12]00\d\b", shown)
     assert "km" in shown
     assert opened.inner_text("#probe-link") == "Show this weld in detail"
 
@@ -123,7 +129,10 @@ def test_the_scene_takes_another_colour(opened, by):
         "(() => { const p = document.querySelector('#fig-scene .plot');"
         " return p.data.find((d) => d.name === 'weld lines').marker.colorbar.title.text; })()"
     )
-    assert title.split(" ")[0] in {"utilisation": "utilisation", "ratio": "damage", "event": "governing", "life": "life"}[by]
+    assert (
+        title.split(" ")[0]
+        in {"utilisation": "utilisation", "ratio": "damage", "event": "governing", "life": "life"}[by]
+    )
 
 
 def test_tables_sort_by_number_and_by_name(opened):
@@ -141,7 +150,10 @@ def test_tables_sort_by_number_and_by_name(opened):
 def test_tables_filter(opened):
     """Only rows with all the words stay, and their number is told."""
     opened.fill("#filter-weld-register", "bracket w1")
-    assert opened.evaluate("[...document.querySelectorAll('#weld-register tbody tr')].filter((r) => !r.hidden).length") == 1
+    assert (
+        opened.evaluate("[...document.querySelectorAll('#weld-register tbody tr')].filter((r) => !r.hidden).length")
+        == 1
+    )
     assert opened.inner_text("[data-filter='Find a weld'] [role=status]") == "1 of 2"
     opened.fill("#filter-weld-register", "")
 

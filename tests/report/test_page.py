@@ -92,7 +92,13 @@ def test_the_same_result_gives_the_same_bytes(result_folder, html):
 
 def test_what_was_assumed_and_where_it_comes_from_is_on_the_page(page):
     """Curve with edition, survival, thickness rule, residue, ends, hashes, versions."""
-    for words in ("97.7 % survival", "edition 2007", "actual plate thickness", "every cycle closes", "mean over the plate"):
+    for words in (
+        "97.7 % survival",
+        "edition 2007",
+        "actual plate thickness",
+        "every cycle closes",
+        "mean over the plate",
+    ):
         assert words in page.words
     assert any(re.fullmatch(r"[0-9a-f]{64}", cell) for row in page.tables["inputs"] for cell in row)
     assert "numpy 2.4.6" in page.words

@@ -69,7 +69,7 @@ def verdicts(diagnosis):
     return [VERDICTS[code] for code in diagnosis.verdict]
 
 
-def ensemble(kind, samples, count=4):
+def ensemble(kind, samples, count=3):
     """Draw records of one kind."""
     return np.stack([kind(np.random.default_rng(seed), samples) for seed in range(count)])
 
@@ -92,15 +92,15 @@ def ensemble(kind, samples, count=4):
     ],
 )
 def test_every_defect_gets_its_own_verdict(kind, verdict):
-    """Records of 205 s with one defect each, four of each kind."""
-    assert verdicts(diagnosed(ensemble(kind, LONG))) == [verdict] * 4
+    """Records of 205 s with one defect each, three of each kind."""
+    assert verdicts(diagnosed(ensemble(kind, LONG))) == [verdict] * 3
 
 
 def test_slow_modulation():
     """A log-normal amplitude makes the record non-stationary, unless by chance one crest of it governs alone."""
-    found = verdicts(diagnosed(ensemble(slow_modulation, LONG, 8)))
+    found = verdicts(diagnosed(ensemble(slow_modulation, LONG, 6)))
     assert set(found) <= {"non_stationary", "single_event"}
-    assert found.count("non_stationary") >= 6
+    assert found.count("non_stationary") >= 5
 
 
 @pytest.mark.parametrize(
@@ -116,15 +116,15 @@ def test_slow_modulation():
 )
 def test_a_simulation_of_half_a_minute_suffices(kind, verdict):
     """29 s show what is gross; limits widen with what chance does in so short a record."""
-    assert verdicts(diagnosed(ensemble(kind, SHORT))) == [verdict] * 4
+    assert verdicts(diagnosed(ensemble(kind, SHORT))) == [verdict] * 3
 
 
 @pytest.mark.parametrize("spectrum", [narrow_spectrum, two_band_spectrum, modal_spectrum])
 def test_stationary_gaussian_records_are_not_accused(spectrum):
-    """Of 70 sound records of 29 s, no more than one in ten gets a verdict other than valid."""
+    """Of 40 sound records of 29 s, no more than one in ten gets a verdict other than valid."""
     rng = np.random.default_rng(1)
-    records = np.stack([gaussian(rng, spectrum(), SHORT) for _ in range(70)])
-    assert verdicts(diagnosed(records)).count("valid") >= 63
+    records = np.stack([gaussian(rng, spectrum(), SHORT) for _ in range(40)])
+    assert verdicts(diagnosed(records)).count("valid") >= 36
 
 
 def test_points_mix_modes():

@@ -78,8 +78,8 @@ def test_statistical_bandwidth(spectrum, bandwidth_hz):
 @pytest.mark.parametrize("seconds", [29, 60])
 def test_gaussian_records_stay_inside_the_bounds(spectrum, seconds):
     """Modulation index of stationary Gaussian records: 1 in the mean square, and inside its bounds 9 times in 10."""
-    _, _, periods = prepared(ensemble(spectrum(), 40, seconds * 512, 3))
-    found = stationarity(np.eye(40), periods)
+    _, _, periods = prepared(ensemble(spectrum(), 30, seconds * 512, 3))
+    found = stationarity(np.eye(30), periods)
     assert np.sqrt(np.mean(found.modulation_index**2)) == pytest.approx(1.0, abs=0.1)
     inside = (found.lower < found.modulation_index) & (found.modulation_index < found.upper)
     assert np.mean(inside) >= 0.9

@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import simpson
 
 from fatigue.life.history import ModalHistory
+from fatigue.spectrum.diagnosis import tone_damage_factor
 from fatigue.spectrum.methods import narrow_band_damage_rate, spectral_shape
 from fatigue.spectrum.moments import moment_matrices, point_moments, segment_spectra
 from tests.naive_spectrum import moments_of, straight_law
@@ -66,3 +67,14 @@ def test_a_sine_has_half_its_amplitude_squared():
     shape = spectral_shape(moments)
     assert shape.zero_crossings[0] == pytest.approx(frequency, rel=1e-3)
     assert shape.peaks[0] == pytest.approx(frequency, rel=3e-3)
+
+
+@pytest.mark.parametrize(("share", "factor"), [(0.5, 0.905), (0.9, 0.677), (0.99, 0.605)])
+def test_tone_in_narrow_band_noise(share, factor):
+    """Rice's distribution of the amplitude, k = 3.6: closed form, and the envelope of such a record."""
+    assert tone_damage_factor(np.array([share]), 3.6)[0] == pytest.approx(factor, abs=6e-4)
+    rng = np.random.default_rng(11)
+    noise = rng.normal(size=(2, 400_000)) * np.sqrt(1 - share)
+    envelope = np.hypot(noise[0] + np.sqrt(2 * share), noise[1])
+    gaussian = np.hypot(*rng.normal(size=(2, 400_000)))
+    assert np.mean(envelope**3.6) / np.mean(gaussian**3.6) == pytest.approx(factor, rel=0.02)

@@ -101,7 +101,9 @@ def exceedance(cycles: pd.DataFrame, passes_per_km: Mapping[str, float], most: i
         np.floor(np.log10(min(reached))),
         np.ceil(np.log10(max(count.sum(), 1.0)) + 0.05),
     )
-    return figure(data, height=340, xaxis=x, yaxis=axis("stress range [MPa]", rangemode="tozero"), annotations=[corner_note(text)])
+    return figure(
+        data, height=340, xaxis=x, yaxis=axis("stress range [MPa]", rangemode="tozero"), annotations=[corner_note(text)]
+    )
 
 
 def _stairs(ranges: NDArray[np.float64], count: NDArray[np.float64], name: str, colour: str, width: float) -> Trace:
@@ -172,7 +174,9 @@ def sn_with_spectrum(
         }
     )
     y = log_axis(f"equivalent range [{unit}]", float(np.log10(edges[0])), float(np.log10(30.0 * largest)))
-    return figure(data, height=340, xaxis=log_axis("cycles [-]", 2.0, max(10.0, np.ceil(np.log10(reached.max())) + 1)), yaxis=y)
+    return figure(
+        data, height=340, xaxis=log_axis("cycles [-]", 2.0, max(10.0, np.ceil(np.log10(reached.max())) + 1)), yaxis=y
+    )
 
 
 def _curve(law: DamageLaw, ranges: NDArray[np.float64], level: str, used: str, dash: str) -> Trace:

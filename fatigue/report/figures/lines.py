@@ -88,7 +88,9 @@ def along_weld(
     )
 
 
-def _face(rows: pd.DataFrame, face: str, place: NDArray[np.float64], breaks: NDArray[np.int64], *, ranges: bool) -> list[Trace]:
+def _face(
+    rows: pd.DataFrame, face: str, place: NDArray[np.float64], breaks: NDArray[np.int64], *, ranges: bool
+) -> list[Trace]:
     """Lines of one face in all panels; a face without a toe is thin."""
     toe = bool(rows["toe"].any())
     common: dict[str, Any] = {
@@ -106,7 +108,12 @@ def _face(rows: pd.DataFrame, face: str, place: NDArray[np.float64], breaks: NDA
     life = {"y": _gaps(drawn_life(rows["life_km"]), breaks), "customdata": node}
     lines = [
         {**common, **life, "hovertemplate": "%{y:.4g} km, node %{customdata}"},
-        {**quiet, "y": _gaps(np.minimum(rows["load_factor"], LARGEST_FACTOR), breaks), "yaxis": "y2", "hovertemplate": "%{y:.4g}"},
+        {
+            **quiet,
+            "y": _gaps(np.minimum(rows["load_factor"], LARGEST_FACTOR), breaks),
+            "yaxis": "y2",
+            "hovertemplate": "%{y:.4g}",
+        },
     ]
     if ranges:
         largest = _gaps(rows["max_range_MPa"], breaks)

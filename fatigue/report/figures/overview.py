@@ -117,7 +117,7 @@ def weld_strips(nodes: pd.DataFrame, target_km: float, most: int = 60) -> go.Fig
     ]
     return figure(
         data,
-        height=max(180, 80 + 20 * len(shown)),
+        height=max(230, 80 + 20 * len(shown)),
         margin={"l": 20, "r": 20, "t": 12, "b": 46},
         xaxis=axis("position along the weld line [% of its length]", tickformat=".0%", range=[0, 1], showgrid=False),
         yaxis=_names_axis(shown),
@@ -229,4 +229,3 @@ def _names_axis(names: Sequence[str] | pd.Index | pd.Series) -> dict[str, object
         "automargin": True,
         "ticks": "",
     }
-

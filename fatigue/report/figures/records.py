@@ -27,9 +27,7 @@ PSD_POINTS = 400
 PSD_DECADES = 6
 
 
-def stress_history(
-    envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str
-) -> go.Figure:
+def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> go.Figure:
     """Stress over the whole record of an event, and close by around the instants of one cycle with the parts of modes.
 
     ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. One or two excerpts are drawn.
@@ -51,7 +49,9 @@ def stress_history(
     for i, excerpt in enumerate(excerpts):
         n = i + 2
         data += _close_up(excerpt, modes, f"x{n}", named=i == 0)
-        layout[f"xaxis{n}"] = axis("time of the record [s]", anchor="y2", domain=[i * width + 0.03 * i, (i + 1) * width], nticks=6)
+        layout[f"xaxis{n}"] = axis(
+            "time of the record [s]", anchor="y2", domain=[i * width + 0.03 * i, (i + 1) * width], nticks=6
+        )
     layout["yaxis2"] = axis("stress [MPa]", domain=[0.0, 0.54])
     bands = [shaded(float(e.time[0]), float(e.time[-1]), y="y domain") for e in excerpts]
     return figure(data, height=440, shapes=bands, **layout)

@@ -8,11 +8,12 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
-from fatigue.report.figures.style import BODY, PAPER, QUIET, Trace, axis, drawn_life, figure, life_scale, single
+from fatigue.report.figures.style import BODY, PAPER, Trace, axis, drawn_life, figure, life_scale, single
 from fatigue.report.wording import in_figure, number
 
 LABELLED_STATIONS = 20_000  # beyond, texts at every station would outweigh the page
 SHADED_ELEMENTS = 60_000  # beyond, only the outline of the body is drawn
+FLATTEST = 0.1  # smallest extent of the scene in any direction, of the largest
 FEATURE_ANGLE = 30.0  # [deg] between neighbouring elements that makes their common edge part of the outline
 
 
@@ -77,6 +78,7 @@ def scene(stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, bod
     """
     few = len(stations) <= LABELLED_STATIONS
     colour = {"color": single(_drawn(np.log10(drawn_life(stations["life_km"])), rows)), **life_scale(target_km)}
+    colour["colorbar"] |= {"len": 0.86, "y": 0.44}  # below the mode bar
     lines = {
         "type": "scatter3d",
         **{axis_: single(_drawn(stations[f"{axis_}_mm"], rows)) for axis_ in "xyz"},
@@ -89,10 +91,10 @@ def scene(stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, bod
     }
     return figure(
         [*(_body(body) if body is not None else []), lines],
-        height=600,
+        height=540,
         margin={"l": 0, "r": 0, "t": 0, "b": 0},
         showlegend=False,
-        scene=_space(),
+        scene=_space(stations[["x_mm", "y_mm", "z_mm"]].to_numpy() if body is None else body.xyz),
     )
 
 
@@ -106,7 +108,17 @@ def projections(
         if body is not None:
             ends = body.xyz[body.edge][:, :, ["xyz".index(across), "xyz".index(up)]]
             x, y = _separated(ends)
-            data.append({"type": "scatter", "x": x, "y": y, "mode": "lines", "line": {"color": BODY, "width": 0.5}, "hoverinfo": "skip", **on})
+            data.append(
+                {
+                    "type": "scatter",
+                    "x": x,
+                    "y": y,
+                    "mode": "lines",
+                    "line": {"color": BODY, "width": 0.5},
+                    "hoverinfo": "skip",
+                    **on,
+                }
+            )
         data.append(
             {
                 "type": "scatter",
@@ -177,19 +189,29 @@ def _body(body: Body) -> list[Trace]:
     return [*traces, {"type": "scatter3d", "x": x, "y": y, "z": z, **look}]
 
 
-def _space() -> dict[str, Any]:
-    """Axes true to scale, with little around the picture; seen from the side and above."""
+def _space(xyz: NDArray[np.float64]) -> dict[str, Any]:
+    """Axes true to scale around points (k, 3), a flat direction a little widened; seen from the side and above."""
+    low, high = xyz.min(axis=0), xyz.max(axis=0)
+    extent = 1.04 * np.maximum(high - low, max(FLATTEST * float((high - low).max()), 1.0))
+    middle = 0.5 * (low + high)
     plain = {
         "showbackground": False,
         "gridcolor": PAPER,
         "zeroline": False,
         "showspikes": False,
-        "tickfont": {"size": 10, "color": QUIET},
-        "tickformat": "d",
-        "nticks": 5,
+        "showticklabels": False,
+    }
+    axes = {
+        f"{name}axis": {
+            **plain,
+            "title": {"text": f"{name} [mm]", "font": {"size": 11}},
+            "range": [float(middle[i] - 0.5 * extent[i]), float(middle[i] + 0.5 * extent[i])],
+        }
+        for i, name in enumerate("xyz")
     }
     return {
-        "aspectmode": "data",
-        **{f"{name}axis": {**plain, "title": {"text": f"{name} [mm]", "font": {"size": 11}}} for name in "xyz"},
-        "camera": {"eye": {"x": 1.0, "y": -2.2, "z": 1.1}, "projection": {"type": "orthographic"}},
+        "aspectmode": "manual",
+        "aspectratio": {name: float(2.0 * e / extent.max()) for name, e in zip("xyz", extent, strict=True)},
+        "camera": {"eye": {"x": 0.62, "y": -1.33, "z": 0.66}, "projection": {"type": "orthographic"}},
+        **axes,
     }

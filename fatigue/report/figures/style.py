@@ -104,7 +104,9 @@ def across(y: float, colour: str = INK, width: float = 1.5, dash: str = "solid",
     return {"type": "line", "xref": f"{x} domain", "yref": on, "x0": 0, "x1": 1, "y0": y, "y1": y, "line": line}
 
 
-def upright(x: float, colour: str = QUIET, width: float = 1, dash: str = "dot", on: str = "x", y: str = "paper") -> Trace:
+def upright(
+    x: float, colour: str = QUIET, width: float = 1, dash: str = "dot", on: str = "x", y: str = "paper"
+) -> Trace:
     """Line up a panel, or all panels, at x."""
     line = {"color": colour, "width": width, "dash": dash}
     return {"type": "line", "xref": on, "yref": y, "x0": x, "x1": x, "y0": 0, "y1": 1, "line": line}

@@ -7,7 +7,18 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from fatigue.report.figures.style import ACCENT, QUIET, SHARES, across, axis, colour_bar, figure, log_axis, single, upright
+from fatigue.report.figures.style import (
+    ACCENT,
+    QUIET,
+    SHARES,
+    across,
+    axis,
+    colour_bar,
+    figure,
+    log_axis,
+    single,
+    upright,
+)
 from fatigue.report.wording import in_figure, share
 
 

@@ -1,0 +1,130 @@
+"""S^k of many ranges at once, and sums over them, in loops that compilers turn into vector instructions.
+
+x^k = 2^(k log2 x), both functions by polynomials, in single precision: 1e-7 for ranges within a few powers of ten of 1.
+"""
+
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+from numpy.polynomial import Chebyshev, Polynomial
+from numpy.typing import NDArray
+
+from fatigue.life import damage
+from fatigue.life.rainflow import compiled
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.floating]
+
+RATIO_DEGREE = 10
+
+
+class PowerLaw(NamedTuple):
+    """A straight law for compiled code: its slope k, k = head + tail with 12 bits in the head, and I(r)^(-k/m)."""
+
+    slope: np.float32
+    head: np.float32
+    tail: np.float32
+    ratio_power: tuple[np.float32, ...]
+
+
+@cache
+def power_law(k: float, uses_bending_ratio: bool) -> PowerLaw:
+    """Prepare the slope k, and the bending ratio where the law uses it."""
+    head = np.round(k * 2**8) / 2**8
+    if uses_bending_ratio:
+        ratio = _series(lambda x: damage.ratio_factor(x + 0.5) ** -k, -0.5, 0.5, RATIO_DEGREE)
+    else:
+        ratio = (*(_ZERO,) * RATIO_DEGREE, _ONE)
+    return PowerLaw(np.float32(k), np.float32(head), np.float32(k - head), ratio)
+
+
+def _series(function: Callable[[Floats], Floats], low: float, high: float, degree: int) -> tuple[np.float32, ...]:
+    """Coefficients, highest power first, of the Chebyshev interpolant of a function on an interval."""
+    fit = Chebyshev.interpolate(function, degree, domain=[low, high])
+    coefficients = fit.convert(kind=Polynomial, domain=[-1, 1], window=[-1, 1]).coef
+    return tuple(np.float32(c) for c in coefficients[::-1])
+
+
+_ROOT = math.sqrt(0.5)
+_LOG2 = _series(
+    lambda t: np.divide(np.log2(1 + t), t, where=t != 0, out=np.full_like(t, 1 / np.log(2))),
+    _ROOT - 1,
+    2 * _ROOT - 1,
+    8,
+)
+_EXP2 = _series(np.exp2, -0.5, 0.5, 6)
+_HALF, _ONE, _ZERO, _TINY = np.float32(0.5), np.float32(1.0), np.float32(0.0), np.float32(1e-30)
+_ROUND = np.float32(1.5 * 2**23)  # adding and subtracting it rounds to an integer
+_SMALLEST = np.float32(-126.0)  # exponent
+_ROOT_BITS = np.float32(_ROOT).view(np.int32)
+_MANTISSA = np.int32(2**23 - 1)
+_SHIFT, _BIAS = np.int32(23), np.int32(127)
+
+
+def _bits_of(context: Any, x: Any) -> Any:
+    """Bits of a single precision number as an integer."""
+    return types.int32(types.float32), lambda _, builder, __, args: builder.bitcast(args[0], ir.IntType(32))
+
+
+def _number_of(context: Any, bits: Any) -> Any:
+    """Single precision number that has these bits."""
+    return types.float32(types.int32), lambda _, builder, __, args: builder.bitcast(args[0], ir.FloatType())
+
+
+bits_of = cast(Callable[[np.float32], np.int32], intrinsic(_bits_of))
+number_of = cast(Callable[[np.int32], np.float32], intrinsic(_number_of))
+
+
+@compiled("contract")
+def horner(c: tuple[np.float32, ...], x: np.float32) -> np.float32:
+    """Evaluate a polynomial, its highest power first."""
+    y = c[0]
+    for k in range(1, len(c)):
+        y = y * x + c[k]
+    return y
+
+
+@compiled("contract")
+def raise_to_slope(S: Numbers, dm: Numbers, n: int, law: PowerLaw) -> None:
+    """Replace S by S^k, and the membrane range dm by S^k I(r)^(-k/m) with r = db / (dm + db)."""
+    for i in range(n):
+        db = abs(S[i] - dm[i])
+        r = np.float32(db / max(abs(dm[i]) + db, _TINY))
+        shifted = bits_of(np.float32(max(S[i], _ZERO))) - _ROOT_BITS
+        e = np.float32(shifted >> _SHIFT)  # S = 2^e (1 + t)
+        t = number_of((shifted & _MANTISSA) + _ROOT_BITS) - _ONE
+        rest = law.tail * e + law.slope * (t * horner(_LOG2, t))
+        whole = max((law.head * e + rest + _ROUND) - _ROUND, _SMALLEST)
+        fraction = (law.head * e - whole) + rest
+        power = horner(_EXP2, max(fraction, -_HALF)) * number_of((np.int32(whole) + _BIAS) << _SHIFT)
+        S[i] = power
+        dm[i] = power * horner(law.ratio_power, r - _HALF)
+
+
+@compiled("reassoc", "nsz", "nnan", "contract")
+def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, np.floating]:
+    """Sum both and find the largest damage."""
+    power_sum = damage_sum = 0.0
+    largest = _ZERO
+    for i in range(n):
+        power_sum += power[i]
+        damage_sum += damage[i]
+        largest = max(largest, damage[i])
+    return power_sum, damage_sum, largest
+
+
+@compiled("reassoc", "nsz", "nnan", "contract")
+def add_powers(m: Numbers, b: Numbers, side: np.float32, mean: np.floating) -> tuple[np.floating, np.floating]:
+    """Sum the second and fourth powers of the stress of one surface without its mean."""
+    second = fourth = _ZERO
+    for i in range(m.size):
+        square = (m[i] + side * b[i] - mean) ** 2
+        second += square
+        fourth += square * square
+    return second, fourth
