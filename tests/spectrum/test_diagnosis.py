@@ -261,3 +261,25 @@ def test_codes_and_rider_are_what_they_say():
     assert VERDICTS[0] == "not_assessed"
     assert found.verdict.dtype == np.int8
     assert replace(found, verdict=np.array([1], dtype=np.int8)).verdict[0] == VERDICTS.index("valid")
+
+
+def test_a_record_in_which_nothing_moves():
+    """A constant record is not assessed, without a warning."""
+    history = ModalHistory("event", np.array([1, 2]), np.full((2, SHORT), 7.0), 1 / RATE, 0.0)
+    spectra = segment_spectra(history, 4.0, 80.0)
+    shapes = np.ones((1, 2))
+    nothing = np.array([np.nan])
+    found = diagnose(
+        shapes,
+        point_moments(shapes, moment_matrices(spectra)),
+        diagnosis_matrices(history, spectra),
+        slope=K,
+        dirlik_ratio=nothing,
+        tb_ratio=nothing,
+        kurtosis=nothing,
+        top_cycle_share=nothing,
+        samples_per_peak=nothing,
+        top_mode_hz=36.0,
+    )
+    assert verdicts(found) == ["not_assessed"]
+    assert reason(found, 0).startswith("Nothing to compare")
