@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
-from fatigue.pipeline.body import Body, read_body, register_file
+from fatigue.pipeline.body import Body, conversion_file, read_body, register_file
 from fatigue.pipeline.checkpoint import Checkpoint, locked, state_key
 from fatigue.pipeline.cycles import point_cycles
 from fatigue.pipeline.event_block import EventLoad, assess_event_block
@@ -77,7 +77,7 @@ def assess(
     """
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
-    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case)])}
+    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
     inputs = input_register(sorted(files), case.path.parent)
     key = state_key({"inputs": inputs, "software": software_versions(), "blocks": (GROUP, BLOCK)})
 

@@ -164,7 +164,7 @@ def convert(
     if as_json:
         print_json(
             {
-                "folder": done.folder,
+                "folder": str(done.folder),
                 "files": done.files,
                 "modes": done.modes,
                 "audit": [

@@ -8,7 +8,7 @@ from numba.extending import overload
 from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
-from fatigue.life.rainflow_power import PowerLaw, add_powers, add_up, raise_to_slope
+from fatigue.life.rainflow_power import PowerLaw, add_powers, add_steps, add_up, raise_to_slope
 
 simd: Any = None
 if importlib.util.find_spec("fatigue.life.rainflow_simd"):
@@ -337,3 +337,21 @@ def count_chunk(stress: Numbers, samples: int, stage: Stage, law: PowerLaw, stat
                 state.fourth[row, surface] += fourth
                 count_side(m, b, steps, (row, surface), stage, law, state, room)
         m[0], b[0] = m[samples], b[samples]
+
+
+@compiled()
+def extend(stress: Numbers, columns: int, begins: bool, extent: Floats) -> None:
+    """Add the steps between the first columns of a block to ``extent`` (n, 2, 3): variation, maximum, minimum.
+
+    Column 0 is the last sample of the chunk before; the first chunk begins at column 1.
+    """
+    points = stress.shape[0] // 2
+    for row in range(points):
+        m, b = stress[row, int(begins) : columns], stress[points + row, int(begins) : columns]
+        for surface in range(2):
+            variation, largest, smallest = add_steps(m, b, np.float32(1 - 2 * surface))
+            found = extent[row, surface]
+            found[0] += variation
+            found[1] = max(found[1], largest)
+            found[2] = min(found[2], smallest)
+        stress[row, 0], stress[points + row, 0] = stress[row, columns - 1], stress[points + row, columns - 1]

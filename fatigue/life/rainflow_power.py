@@ -128,3 +128,15 @@ def add_powers(m: Numbers, b: Numbers, side: np.float32, mean: np.floating) -> t
         second += square
         fourth += square * square
     return second, fourth
+
+
+@compiled("reassoc", "nsz", "nnan", "contract")
+def add_steps(m: Numbers, b: Numbers, side: np.float32) -> tuple[np.floating, np.floating, np.floating]:
+    """Sum the steps of the stress of one surface, without their signs, and find its largest and smallest value."""
+    variation = _ZERO
+    largest = smallest = m[0] + side * b[0]
+    for i in range(1, m.size):
+        s = m[i] + side * b[i]
+        variation += abs(s - (m[i - 1] + side * b[i - 1]))
+        largest, smallest = max(largest, s), min(smallest, s)
+    return variation, largest, smallest

@@ -3,11 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from fatigue.case import Case, check_files
 from fatigue.errors import Problem
 from fatigue.pipeline.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.neutral_folder import RECORD, read_record
 from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
 from fatigue.weld.line import WeldLine
 
@@ -18,7 +20,8 @@ class Body:
 
     ``lines`` has one line per weld, in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve
     a weld asks for; ``mesh`` serves the balance check and pictures; ``excluded`` are the lines the weld register lists
-    as not assessed; ``warnings`` are the doubts about these files.
+    as not assessed; ``conversion`` is what `fatigue convert` recorded, its audit included; ``warnings`` are the doubts
+    about these files.
     """
 
     case: Case
@@ -28,6 +31,7 @@ class Body:
     curves: Mapping[str, RatedCurve]
     mesh: Mesh | None
     excluded: tuple[RegisterRow, ...]
+    conversion: Mapping[str, Any] | None
     strict: bool
     warnings: tuple[Problem, ...]
 
@@ -57,13 +61,24 @@ def read_body(case: Case, *, strict: bool) -> Body:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, doubts = read_mesh(case.resolve(files.nodes), elements, strict=strict)
         warnings += doubts
+    record = conversion_file(case)
+    conversion = read_record(record) if record else None
     register = register_file(case)
     rows = read_register(register).values() if register else ()
     excluded = tuple(row for row in rows if row.status != "assess")
-    return Body(case, modes, welds, lines, curves, mesh, excluded, strict, tuple(warnings))
+    return Body(case, modes, welds, lines, curves, mesh, excluded, conversion, strict, tuple(warnings))
 
 
 def register_file(case: Case) -> Path | None:
     """Find the register that `fatigue convert` wrote beside the welds; None where there is none."""
-    path = case.resolve(case.body.welds).parent / REGISTER
+    return _beside_the_welds(case, REGISTER)
+
+
+def conversion_file(case: Case) -> Path | None:
+    """Find the record of `fatigue convert` beside the welds, with its audit; None where there is none."""
+    return _beside_the_welds(case, RECORD)
+
+
+def _beside_the_welds(case: Case, name: str) -> Path | None:
+    path = case.resolve(case.body.welds).parent / name
     return path if path.exists() else None

@@ -71,6 +71,7 @@ def provenance_record(
                 for p, event in zip(plan.passes, case.mission.event, strict=True)
             ],
         },
+        "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
         "outputs": list(OUTPUTS),
     }

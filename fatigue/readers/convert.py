@@ -17,7 +17,7 @@ from fatigue.readers.forces import Convention
 from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import common_modes, simulated_frequencies, simulation_modes, without_modes
-from fatigue.readers.neutral_folder import check_folder, sha256, write_folder
+from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, unit_system
@@ -152,7 +152,7 @@ def convert(options: ConvertOptions) -> Conversion:
         options.target_km,
     )
     if not options.force:
-        check_folder(options.out, [*files, "convert.json"], REGISTER)
+        check_folder(options.out, [*files, RECORD], REGISTER)
     record = {
         "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *options.coordinates)},
         "convention": convention,
@@ -174,7 +174,7 @@ def convert(options: ConvertOptions) -> Conversion:
         modes=results.mode.size,
         force_rows=rows.size * results.mode.size,
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
-        files=(*files, "convert.json"),
+        files=(*files, RECORD),
     )
 
 

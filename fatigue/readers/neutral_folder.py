@@ -24,6 +24,21 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
+def read_record(path: Path) -> dict[str, Any]:
+    """Read what a conversion recorded: inputs with hashes, sign convention, audit, remarks.
+
+    Raises
+    ------
+    DataError : the file is damaged
+    """
+    try:
+        record = json.loads(path.read_text("utf-8"))
+        return {name: record[name] for name in ("inputs", "convention", "audit", "remarks")}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        what = f"is no record of a conversion ({type(error).__name__}: {error})"
+        raise DataError(Problem("damaged_record", str(path), what, "Convert again, or remove the file")) from None
+
+
 def check_folder(folder: Path, names: list[str], editable: str) -> None:
     """Refuse to overwrite files that an earlier conversion did not write, or that were changed since.
 

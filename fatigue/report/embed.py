@@ -10,8 +10,6 @@ import plotly.graph_objects as go
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-_CODES = {"float32": "f4", "int32": "i4"}
-
 
 @dataclass(frozen=True, slots=True)
 class Shown:
@@ -48,6 +46,14 @@ def embedded(value: Any) -> Markup:
 
 
 def packed(values: NDArray[np.generic]) -> dict[str, str]:
-    """Write an array as plotly.js reads it: type and base64 of its bytes, infinite and missing values included."""
-    little = values.astype(values.dtype.newbyteorder("<"))
-    return {"dtype": _CODES[values.dtype.name], "bdata": base64.b64encode(little.tobytes()).decode()}
+    """Write an array as plotly.js reads it: type and base64 of its bytes, infinite and missing values included.
+
+    Whole numbers take the smallest type that holds them, ids too large for 32 bits double precision.
+    """
+    if values.dtype.kind in "iu":
+        low, high = int(values.min(initial=0)), int(values.max(initial=0))
+        fitting = (t for t in ("u1", "u2", "i4") if np.iinfo(t).min <= low and high <= np.iinfo(t).max)
+        code = next(fitting, "f8")
+    else:
+        code = "f4"
+    return {"dtype": code, "bdata": base64.b64encode(values.astype(f"<{code}").tobytes()).decode()}

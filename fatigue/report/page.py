@@ -26,7 +26,8 @@ from fatigue.report.tables import Cell, Heading, Table
 from fatigue.report.variants import Assumptions, assumptions_of, damage_per_km, variants
 from fatigue.report.why import Why, band_shares, exponents, mode_shares, read_why
 
-MOST_DETAILED = 60  # welds with their own page of figures; the others have their rows and their lines
+PROBED = ("arc_length_mm", "life_km", "load_factor", "dirlik_ratio", "max_range_MPa")
+MOST_DETAILED = 40  # welds with their own page of figures; the others have their rows and their lines
 WORST_POINTS = 50
 
 
@@ -197,25 +198,25 @@ def _warnings(result: Result) -> list[tuple[str, list[Mapping[str, str]]]]:
 
 def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, links: Mapping[str, str]) -> Markup:
     """Data of every station for the scene: what a click shows, and what the lines can be coloured by."""
+    drawn = stations.iloc[np.maximum(rows, 0)]  # in drawing order; what stands at the gaps between lines is never asked for
     welds, events = list(result.welds["weld"]), [event["event"] for event in result.events]
 
     def index(column: str, names: Sequence[str]) -> dict[str, str]:
         place = {name: i for i, name in enumerate(names)}
-        return packed(stations[column].map(place).fillna(len(names)).to_numpy(dtype=np.int32))
+        return packed(drawn[column].map(place).fillna(len(names)).to_numpy(dtype=np.int64))
 
-    columns = ("arc_length_mm", "life_km", "life_years", "utilisation", "load_factor", "dirlik_ratio", "max_range_MPa")
     return embedded(
         {
-            "row": packed(rows.astype(np.int32)),
-            "node": packed(stations["node"].to_numpy(dtype=np.int32)),
+            "node": packed(drawn["node"].to_numpy()),
             "weld": index("weld", welds),
             "event": index("governing_event", events),
-            "bottom": packed((stations["surface"] == "bottom").to_numpy(dtype=np.int32)),
-            **{name: packed(stations[name].to_numpy(dtype=np.float32)) for name in columns},
+            "bottom": packed((drawn["surface"] == "bottom").to_numpy(dtype=np.int64)),
+            **{name: packed(drawn[name].to_numpy()) for name in PROBED},
             "welds": welds,
             "events": events,
             "pages": dict(links),
             "target_km": result.target_km,
+            "km_per_year": result.record["mission"]["km_per_year"],
             "colours": list(figures.event_colours(events).values()),
         }
     )
@@ -525,6 +526,15 @@ def _domains(result: Result, figs: Figures) -> dict[str, Any]:
         },
         "verdicts": [(str(name).replace("_", " "), int(count)) for name, count in verdicts.items()],
     }  # fmt: skip
+
+
+def _drawn(result: Result) -> str:
+    """Say which points are drawn where there are too many."""
+    estimated = int(np.isfinite(result.nodes["dirlik_ratio"].to_numpy(dtype=np.float64)).sum())
+    drawn = int(figures.drawn_points(result.nodes).sum())
+    if drawn >= estimated:
+        return ", all points"
+    return f"; {wording.whole(drawn)} of {wording.whole(estimated)} points, those that disagree first"
 
 
 def _checks(result: Result) -> list[tuple[str, str, bool]]:

@@ -4,7 +4,7 @@ They take the tables of a result folder as ``pandas.read_parquet`` reads them, o
 """
 
 from fatigue.report.figures.cycles import exceedance, rainflow_matrices, sn_with_spectrum
-from fatigue.report.figures.domains import ratio_histogram, time_against_frequency
+from fatigue.report.figures.domains import drawn_points, ratio_histogram, time_against_frequency
 from fatigue.report.figures.lines import along_weld
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
 from fatigue.report.figures.records import stress_history, stress_spectrum
@@ -22,6 +22,7 @@ __all__ = [
     "damage_by_band",
     "damage_by_event",
     "damage_on_track",
+    "drawn_points",
     "event_colours",
     "exceedance",
     "line_rows",

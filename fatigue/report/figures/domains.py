@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
+from numpy.typing import NDArray
 
 from fatigue.report.figures.style import (
     ACCENT,
@@ -20,7 +21,7 @@ from fatigue.report.figures.style import (
 )
 from fatigue.report.wording import in_figure
 
-NAMED_POINTS = 20_000  # beyond, names at every point would outweigh the page
+MOST_POINTS = 20_000  # beyond, only a part of the points that agree is drawn
 VERDICTS = (
     "valid",
     "not_assessed",
@@ -41,10 +42,10 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
     """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
 
     ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
-    colours the points: 3 for a Gaussian record. Points without an estimate are left out.
+    colours the points: 3 for a Gaussian record. Points without an estimate are left out; of many points all that are off
+    by more than a factor of 2 or not to be trusted are drawn, and of the others a part, see `drawn_points`.
     """
-    lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
-    shown = nodes[np.isfinite(lives).all(axis=1)]
+    shown = nodes[drawn_points(nodes)]
     x, y = drawn_life(shown["life_km_same_ratio"]), drawn_life(shown["life_km_dirlik"])
     both = np.concatenate([x, y]) if len(shown) else np.array([1e6, 1e8])
     low, high = np.floor(np.log10(both.min()) * 2 - 0.4) / 2, np.ceil(np.log10(both.max()) * 2 + 0.4) / 2
@@ -75,9 +76,22 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
     )
 
 
+def drawn_points(nodes: pd.DataFrame, most: int = MOST_POINTS) -> NDArray[np.bool_]:
+    """Mark the points with an estimate that are drawn: all, or ``most`` beginning with those that disagree (n,)."""
+    lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
+    drawn = np.isfinite(lives).all(axis=1)
+    if np.count_nonzero(drawn) <= most:
+        return drawn
+    off = np.abs(np.log(np.nan_to_num(nodes["dirlik_ratio"].to_numpy(dtype=np.float64), nan=1.0)))
+    doubtful = ~nodes["dirlik_verdict"].isin(TRUSTED).to_numpy() | (off > np.log(2.0))
+    rank = np.arange(len(nodes)) % max(1, np.count_nonzero(drawn) // most + 1)  # every so manyth of those that agree
+    candidates = np.flatnonzero(drawn & (doubtful | (rank == 0)))
+    first = candidates[np.argsort(-(doubtful[candidates] * (1.0 + off[candidates])), kind="stable")[:most]]
+    return np.isin(np.arange(len(nodes)), first)
+
+
 def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
     """Points of one verdict, in a symbol of its own."""
-    few = len(shown) <= NAMED_POINTS
     return {
         "type": "scattergl",
         "x": single(drawn_life(shown["life_km_same_ratio"])),
@@ -97,9 +111,8 @@ def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
             "colorbar": colour_bar("kurtosis of the stress [-], Gaussian 3"),
         },
         "customdata": single(shown["dirlik_ratio"]),
-        "text": _names(shown) if few else None,
-        "hovertemplate": ("%{text}<br>" if few else "")
-        + "rainflow %{x:.4g} km<br>Dirlik %{y:.4g} km<br>damage ratio %{customdata:.4g}<extra></extra>",
+        "text": _names(shown),
+        "hovertemplate": "%{text}<br>rainflow %{x:.4g} km<br>Dirlik %{y:.4g} km<br>damage ratio %{customdata:.4g}<extra></extra>",
     }
 
 

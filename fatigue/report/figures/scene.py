@@ -12,6 +12,7 @@ from fatigue.report.figures.style import BODY, PAPER, Trace, axis, drawn_life, f
 from fatigue.report.wording import in_figure, number
 
 LABELLED_STATIONS = 20_000  # beyond, texts at every station would outweigh the page
+MOST_ON_PAPER = 20_000
 SHADED_ELEMENTS = 60_000  # beyond, only the outline of the body is drawn
 FLATTEST = 0.1  # smallest extent of the scene in any direction, of the largest
 FEATURE_ANGLE = 30.0  # [deg] between neighbouring elements that makes their common edge part of the outline
@@ -101,7 +102,8 @@ def scene(stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, bod
 def projections(
     stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, body: Body | None = None
 ) -> go.Figure:
-    """Draw the same in side view and plan for paper, true to scale."""
+    """Draw the same in side view and plan for paper, true to scale; of very many stations every so manyth."""
+    rows = rows[:: 1 + len(rows) // MOST_ON_PAPER]
     data: list[Trace] = []
     for n, across, up in (("", "x", "z"), ("2", "x", "y")):
         on = {"xaxis": f"x{n}", "yaxis": f"y{n}"}

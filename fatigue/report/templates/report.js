@@ -40,7 +40,8 @@
   // Points of the scene: what they can be coloured by, and what is shown of the one under the pointer.
   const unpack = ({ dtype, bdata }) => {
     const bytes = Uint8Array.from(atob(bdata), (c) => c.charCodeAt(0));
-    return dtype === "f4" ? new Float32Array(bytes.buffer) : new Int32Array(bytes.buffer);
+    const types = { f4: Float32Array, f8: Float64Array, i4: Int32Array, u2: Uint16Array, u1: Uint8Array };
+    return new types[dtype](bytes.buffer);
   };
   const digits = (x) => {
     if (Number.isNaN(x)) return "–";
@@ -59,7 +60,7 @@
     let kept = null;
     const colourings = {
       life: (i) => Math.log10(Math.min(points.life_km[i], 1e12)),
-      utilisation: (i) => Math.log10(Math.max(points.utilisation[i], 1e-4)),
+      utilisation: (i) => Math.log10(Math.max(points.target_km / points.life_km[i], 1e-4)),
       ratio: (i) => Math.log10(points.dirlik_ratio[i]),
       event: (i) => points.event[i],
     };
@@ -83,7 +84,7 @@
       },
     };
     const colour = (by) => {
-      const values = Array.from(points.row, (i) => (i < 0 ? NaN : colourings[by](i)));
+      const values = Array.from(points.node, (_, i) => colourings[by](i));
       const s = scales[by];
       const common = { color: [values], cmin: s.cmin, cmax: s.cmax, colorscale: [s.scale], reversescale: !!s.reverse };
       const update = {};
@@ -105,8 +106,8 @@
         ["face", points.bottom[i] ? "bottom" : "top"],
         ["arc length", digits(points.arc_length_mm[i]) + " mm"],
         ["life", digits(points.life_km[i]) + " km"],
-        ["", digits(points.life_years[i]) + " years"],
-        ["utilisation", digits(points.utilisation[i])],
+        ["", digits(points.life_km[i] / points.km_per_year) + " years"],
+        ["utilisation", digits(points.target_km / points.life_km[i])],
         ["load factor", digits(points.load_factor[i])],
         ["Dirlik / rainflow", digits(points.dirlik_ratio[i])],
         ["largest range", digits(points.max_range_MPa[i]) + " MPa"],
@@ -130,7 +131,7 @@
     };
     const station = (event) => {
       const point = event.points.find((p) => p.curveNumber === trace);
-      return point ? points.row[point.pointNumber] : -1;
+      return point ? point.pointNumber : -1;
     };
     plot.on("plotly_hover", (event) => { if (kept === null && station(event) >= 0) show(station(event)); });
     plot.on("plotly_click", (event) => { const i = station(event); if (i >= 0) { kept = i; show(i); } });

@@ -1,0 +1,135 @@
+"""The bounds of the damage against what is counted: never below, for any history, curve and residue."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
+from fatigue.life.history import ModalHistory, Residue, upsampled
+from fatigue.life.rainflow import count_block
+from fatigue.life.rainflow_fast import record_of, stress_extent
+from fatigue.life.screening import damage_bound, extent_bound, may_need_mean_stress, modal_extent
+
+Floats = NDArray[np.float64]
+
+LAWS = {
+    "straight": damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7),
+    "haibach": damage_law(catalogue()["master-steel"], "mean-2sigma", "haibach", 1e7),
+    "cutoff": damage_law(catalogue()["master-steel"], "mean-2sigma", "cutoff", 1e7),
+    "three slopes and a cutoff": damage_law(
+        user_curve("class", (3.0, 5.0, 9.0), (5e6, 1e7, 1e8), 50.0, "structural", "test"), None, "none", 1e7
+    ),
+    "slope 1": damage_law(user_curve("one", (1.0,), (), 50.0, "structural", "test"), None, "none", 1e7),
+}
+KINDS = ("resonances", "noise", "walk", "steps", "dependent", "spike", "constant", "few samples")
+
+
+def modal_coordinates(rng: np.random.Generator, kind: str) -> Floats:
+    """Draw modal coordinates (m, t): smooth, rough, drifting, with ties, linearly dependent, or hardly any."""
+    m, t = int(rng.integers(1, 7)), int(rng.integers(20, 200))
+    noise = rng.normal(size=(m, t))
+    time = np.arange(t)
+    draw = {
+        "resonances": np.sin(rng.uniform(0.05, 1.5, (m, 1)) * time + rng.uniform(0, 6, (m, 1))) + 0.1 * noise,
+        "noise": noise * np.exp(2 * rng.normal(size=(m, 1))),
+        "walk": np.cumsum(noise, axis=1) + 100.0,
+        "steps": np.round(noise),
+        "dependent": rng.normal(size=(m, 2)) @ noise[[0, -1]],
+        "spike": 1e-3 * noise + 50.0 * (time == t // 3),
+        "constant": np.repeat(noise[:, :1], t, axis=1),
+        "few samples": noise[:, : int(rng.integers(1, 4))],
+    }
+    return np.ascontiguousarray(draw[kind])
+
+
+@pytest.mark.parametrize("residue", ["half", "repeat"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_point_is_damaged_more_than_its_bounds(kind: str, residue: Residue) -> None:
+    """Range, variation, equivalent range and damage of 8000 points in 200 records, with and without a time loop."""
+    rng = np.random.default_rng(KINDS.index(kind))
+    names = list(LAWS)
+    for draw in range(25):
+        law, uses_ratio = LAWS[names[draw % len(names)]], draw % 3 > 0
+        q = modal_coordinates(rng, kind)
+        factor = int(rng.choice([1, 1, 4])) if q.shape[1] > 3 else 1
+        q = upsampled(ModalHistory("e", np.arange(len(q)), q, 0.1, 0.0), factor, residue).q.astype(np.float64)
+        scale = 30.0 * np.exp(2 * rng.normal(size=(20, 1)))
+        S_m, S_b = (scale * rng.normal(size=(20, len(q))) for _ in range(2))
+        S_b[0], S_m[1], S_b[2] = S_m[0], 0.0, 0.0
+        size = rng.uniform(1.0, 2.0, 20)
+        choices = {"uses_bending_ratio": uses_ratio, "residue": residue, "yield_MPa": None, "mean_stress": False}
+        count = count_block(S_m @ q, S_b @ q, size, np.zeros((20, 2)), law, **choices)
+        looped = stress_extent(S_m, S_b, record_of(q), residue)
+        extent = modal_extent(q, residue)
+        for surface, S in enumerate((S_m + S_b, S_m - S_b)):
+            s = S @ q
+            closed = np.concatenate([s, s[:, :1]], axis=1) if residue == "repeat" else s
+            true_range, true_variation = np.ptp(s, axis=1), np.abs(np.diff(closed)).sum(axis=1)
+            noise = 1e-12 * np.abs(S).sum(axis=1) * np.abs(q).max() * s.shape[1]
+            for largest, variation in (extent_bound(S, extent), (looped[0][:, surface], looped[1][:, surface])):
+                assert (true_range <= largest + noise).all()
+                assert (true_variation <= variation + noise).all()
+                bound, equivalent = damage_bound(largest, variation, size, law, uses_bending_ratio=uses_ratio)
+                counted = count.max_range[:, surface] > noise  # not the rounding errors of a constant
+                assert (count.damage[counted, surface] <= bound[counted]).all()
+                assert (count.max_equivalent_range[counted, surface] <= equivalent[counted]).all()
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.lists(st.integers(-6, 6), min_size=2, max_size=60), st.sampled_from(["half", "repeat"]))
+def test_the_ranges_add_up_to_half_the_total_variation(signal: list[int], residue: Residue) -> None:
+    """At slope 1 without bending the bound is the damage, for any history."""
+    s = np.array([signal], dtype=float)
+    choices = {"uses_bending_ratio": False, "residue": residue, "yield_MPa": None, "mean_stress": False}
+    count = count_block(s, 0 * s, np.ones(1), np.zeros((1, 2)), LAWS["slope 1"], **choices)
+    closed = np.append(s, s[:, :1] if residue == "repeat" else [])
+    variation = np.abs(np.diff(closed)).sum(keepdims=True)
+    bound, _ = damage_bound(np.ptp(s, axis=1), variation, np.ones(1), LAWS["slope 1"], uses_bending_ratio=False)
+    assert bound[0] == pytest.approx(count.damage[0, 0], rel=1e-8)
+
+
+@pytest.mark.parametrize("law", LAWS.values())
+def test_constant_amplitude_is_damaged_as_much_as_its_bound(law: DamageLaw) -> None:
+    """Cycles of one range from the first sample on: nothing smaller is possible in membrane stress."""
+    wave = np.tile([0.0, 100.0], 50)[None]
+    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
+    count = count_block(wave, 0 * wave, np.ones(1), np.zeros((1, 2)), law, **choices)
+    extent = modal_extent(wave, "repeat")
+    bound, largest = damage_bound(*extent_bound(np.ones((1, 1)), extent), np.ones(1), law, uses_bending_ratio=True)
+    assert bound[0] == pytest.approx(count.damage[0, 0], rel=1e-7)
+    assert largest[0] == pytest.approx(count.max_equivalent_range[0, 0], rel=1e-7)
+
+
+def test_the_bound_without_a_time_loop_is_not_far_off() -> None:
+    """For 40 resonances: some times the damage in range and variation, not orders of magnitude."""
+    rng = np.random.default_rng(4)
+    f = np.fft.rfftfreq(4000)
+    noise = rng.normal(size=(40, f.size)) + 1j * rng.normal(size=(40, f.size))
+    q = np.fft.irfft(noise / (1 - (f / np.linspace(0.01, 0.18, 40)[:, None]) ** 2 + 0.06j), 4000)
+    S = rng.normal(size=(50, 40)) / q.std(axis=1)
+    s = S @ q
+    largest, variation = extent_bound(S, modal_extent(q, "half"))
+    assert np.median(largest / np.ptp(s, axis=1)) < 3.5
+    assert np.median(variation / np.abs(np.diff(s)).sum(axis=1)) < 1.4
+
+
+def test_below_the_cutoff_there_is_no_damage() -> None:
+    """The bound is 0, not small."""
+    law = LAWS["cutoff"]
+    ranges = np.array([0.99, 1.01]) * law.cutoff
+    bound, _ = damage_bound(ranges, 100 * ranges, np.ones(2), law, uses_bending_ratio=False)
+    assert (bound > 0.0).tolist() == [False, True]
+
+
+def test_a_slope_below_1_has_no_bound() -> None:
+    """Many small cycles may then do more damage than few large ones."""
+    law = DamageLaw(np.array([0.9]), np.array([10.0]), np.array([]), 0.0)
+    assert np.isinf(damage_bound(np.ones(1), np.ones(1), np.ones(1), law, uses_bending_ratio=False)[0]).all()
+
+
+def test_points_in_high_mean_tension_are_told() -> None:
+    """From half the yield stress at the largest possible stress on."""
+    found = may_need_mean_stress(np.array([100.0, 100.0, -50.0]), np.array([24.0, 26.0, 100.0]), 250.0)
+    assert found.tolist() == [False, True, False]
