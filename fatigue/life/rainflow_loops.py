@@ -8,7 +8,7 @@ from numba.extending import overload
 from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
-from fatigue.life.rainflow_power import PowerLaw, add_powers, add_steps, add_up, raise_to_slope
+from fatigue.life.rainflow_power import PowerLaw, add_powers, add_steps, add_up, extremes_in_lanes, raise_to_slope
 
 simd: Any = None
 if importlib.util.find_spec("fatigue.life.rainflow_simd"):
@@ -346,12 +346,16 @@ def extend(stress: Numbers, columns: int, begins: bool, extent: Floats) -> None:
     Column 0 is the last sample of the chunk before; the first chunk begins at column 1.
     """
     points = stress.shape[0] // 2
+    high, low = np.empty(64, stress.dtype), np.empty(64, stress.dtype)
     for row in range(points):
         m, b = stress[row, int(begins) : columns], stress[points + row, int(begins) : columns]
         for surface in range(2):
-            variation, largest, smallest = add_steps(m, b, np.float32(1 - 2 * surface))
+            side = np.float32(1 - 2 * surface)
+            high[:] = -np.inf
+            low[:] = np.inf
+            extremes_in_lanes(m, b, side, high, low)
             found = extent[row, surface]
-            found[0] += variation
-            found[1] = max(found[1], largest)
-            found[2] = min(found[2], smallest)
+            found[0] += add_steps(m, b, side)
+            found[1] = max(found[1], high.max())
+            found[2] = min(found[2], low.min())
         stress[row, 0], stress[points + row, 0] = stress[row, columns - 1], stress[points + row, columns - 1]

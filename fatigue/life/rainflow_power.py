@@ -131,12 +131,23 @@ def add_powers(m: Numbers, b: Numbers, side: np.float32, mean: np.floating) -> t
 
 
 @compiled("reassoc", "nsz", "nnan", "contract")
-def add_steps(m: Numbers, b: Numbers, side: np.float32) -> tuple[np.floating, np.floating, np.floating]:
-    """Sum the steps of the stress of one surface, without their signs, and find its largest and smallest value."""
+def add_steps(m: Numbers, b: Numbers, side: np.float32) -> np.floating:
+    """Sum the steps of the stress of one surface, without their signs."""
     variation = _ZERO
-    largest = smallest = m[0] + side * b[0]
     for i in range(1, m.size):
+        variation += abs((m[i] + side * b[i]) - (m[i - 1] + side * b[i - 1]))
+    return variation
+
+
+@compiled()
+def extremes_in_lanes(m: Numbers, b: Numbers, side: np.float32, high: Numbers, low: Numbers) -> None:
+    """Raise ``high`` and lower ``low`` to the stress of one surface; any sample may go to any of their elements."""
+    lanes = high.size
+    for first in range(0, m.size - lanes + 1, lanes):  # a loop that compilers turn into vector instructions
+        for j in range(lanes):
+            s = m[first + j] + side * b[first + j]
+            high[j] = s if s > high[j] else high[j]
+            low[j] = s if s < low[j] else low[j]
+    for i in range(m.size - m.size % lanes, m.size):
         s = m[i] + side * b[i]
-        variation += abs(s - (m[i - 1] + side * b[i - 1]))
-        largest, smallest = max(largest, s), min(smallest, s)
-    return variation, largest, smallest
+        high[0], low[0] = max(high[0], s), min(low[0], s)

@@ -1,13 +1,13 @@
 """The tables of the page: what a cell says, and the value it is sorted by."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fatigue.report.wording import NOT_AVAILABLE, number, share, whole
+from fatigue.report.wording import NOT_AVAILABLE, number, share, size, whole
 
 _BEYOND = 1e300  # sorts after every number; what is not available sorts last
 
@@ -219,7 +219,7 @@ def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str]
 
 
 def mode_table(modes: Mapping[str, Any]) -> Table:
-    """The modes used."""
+    """List the modes used."""
     rows = tuple(
         (integer(mode), num(frequency), text(kind))
         for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True)
@@ -229,9 +229,44 @@ def mode_table(modes: Mapping[str, Any]) -> Table:
     )
 
 
-def plain_table(id_: str, headings: Sequence[Heading], rows: Iterable[Sequence[Cell]]) -> Table:
-    """Any other table."""
-    return Table(id_, tuple(headings), tuple(tuple(row) for row in rows))
+def input_table(inputs: Sequence[Mapping[str, Any]]) -> Table:
+    """List the input files with their hashes."""
+    rows = tuple(
+        (Cell(i["file"]), Cell(size(i["bytes"]), float(i["bytes"])), Cell(i["sha256"], mark="hash")) for i in inputs
+    )
+    return Table("inputs", (Heading("file", numeric=False), Heading("size"), Heading("SHA-256", numeric=False)), rows)
+
+
+def verification_table(checks: Sequence[Mapping[str, Any]]) -> Table | None:
+    """List the checks of the installed program against known answers; None where none was made."""
+    if not checks:
+        return None
+    rows = tuple(
+        (
+            text(check["topic"]),
+            text(check["case"]),
+            text(check["quantity"]),
+            Cell(f"{number(check['expected'])} {check['unit'].strip('-')}".strip(), float(check["expected"])),
+            num(check["found"]),
+            Cell(f"{check['difference']:.1e}", float(check["difference"])),
+            Cell(f"{check['tolerance']:.0e}", float(check["tolerance"])),
+            Cell("✓", 1.0) if check["passed"] else Cell("✕ wrong", 0.0, mark="missed"),
+            text(check["source"]),
+        )
+        for check in checks
+    )
+    headings = (
+        Heading("topic", numeric=False),
+        Heading("case", numeric=False),
+        Heading("quantity", numeric=False),
+        Heading("expected"),
+        Heading("found"),
+        Heading("difference"),
+        Heading("allowed"),
+        Heading("passed", numeric=False),
+        Heading("source", numeric=False),
+    )
+    return Table("verification", headings, rows, "Find a check")
 
 
 def _linked(weld: str, links: Mapping[str, str]) -> Cell:

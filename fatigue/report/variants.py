@@ -1,8 +1,8 @@
-"""The same cycles under other assumptions: what survival level, thickness rule, knee or bending ratio make of a life."""
+"""The same cycles under other assumptions: what survival level, thickness rule, knee or bending ratio do to a life."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 import pandas as pd
@@ -47,30 +47,31 @@ def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
     )
 
 
+def how_often(cycles: pd.DataFrame, passes_per_km: Mapping[str, float]) -> NDArray[np.float64]:
+    """How often each listed cycle occurs [1/km]: its count times the passes of its event."""
+    return cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy()
+
+
 def damage_per_km(
-    cycles: pd.DataFrame,
-    passes_per_km: Mapping[str, float],
-    assumptions: Assumptions,
-    scale: NDArray[np.float64] | float = 1.0,
+    equivalent_range: NDArray[np.float64], per_km: NDArray[np.float64], assumptions: Assumptions
 ) -> float:
-    """Miner sum per km [1/km] of the cycles of one point, their equivalent ranges times ``scale``."""
-    per_km = cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy()
-    survival: Survival | None = assumptions.survival if assumptions.curve.has_scatter else None  # type: ignore[assignment]
+    """Miner sum per km [1/km] of cycles of these equivalent ranges, each occurring ``per_km`` times."""
+    survival = cast(Survival, assumptions.survival) if assumptions.curve.has_scatter else None
     law = damage_law(assumptions.curve, survival, assumptions.extension, assumptions.knee_cycles)
-    return float(np.sum(per_km * cycle_damage(cycles["equivalent_range_dS"].to_numpy() * scale, law)))
+    return float(np.sum(per_km * cycle_damage(equivalent_range, law)))
 
 
 def variants(
-    point: pd.Series, cycles: pd.DataFrame, passes_per_km: Mapping[str, float], assumptions: Assumptions
+    point: pd.Series, cycles: pd.DataFrame, passes_per_km: Mapping[str, float], used: Assumptions
 ) -> pd.DataFrame:
-    """Damage per km of one point with one assumption changed at a time, from its counted cycles.
+    """Damage of one point with one assumption changed at a time, from its counted cycles.
 
     Parameters
     ----------
     point : row of the table of nodes
     cycles : rows of the table of cycles, all events
     passes_per_km : of every event [1/km]
-    assumptions : of the assessment
+    used : assumptions of the assessment
 
     Returns
     -------
@@ -78,26 +79,24 @@ def variants(
     that of the assessment (NaN where nothing damages). Factors of mean stress, shear and weld end come from the point's
     own row and are left out where the assessment had no number for them.
     """
-    assessed = damage_per_km(cycles, passes_per_km, assumptions)
+    per_km = how_often(cycles, passes_per_km)
+    ranges = cycles["equivalent_range_dS"].to_numpy()
+    assessed = damage_per_km(ranges, per_km, used)
 
     def factor(changed: Assumptions, scale: NDArray[np.float64] | float = 1.0) -> float:
-        return damage_per_km(cycles, passes_per_km, changed, scale) / assessed if assessed > 0.0 else np.nan
+        return damage_per_km(ranges * scale, per_km, changed) / assessed if assessed > 0.0 else np.nan
 
-    rows = [
-        *_curve_variants(assumptions, factor),
-        *_stress_variants(point, cycles, assumptions, factor),
-        *_point_variants(point),
-    ]
+    rows = [*_curve_variants(used, factor), *_stress_variants(point, cycles, used, factor), *_point_variants(point)]
     return pd.DataFrame(rows, columns=["assumption", "choice", "used", "damage_factor"])
 
 
 def _curve_variants(used: Assumptions, factor: Any) -> Iterator[tuple[str, str, bool, float]]:
     for level in used.curve.reference_range:
-        yield "survival", level, level == used.survival, factor(_replaced(used, survival=level))
+        yield "survival", level, level == used.survival, factor(replace(used, survival=level))
     if not used.curve.knees_cycles:
         for extension, words in EXTENSIONS.items():
             choice = words if extension == "none" else f"{words} at {used.knee_cycles:.4g} cycles"
-            yield "below the knee", choice, extension == used.extension, factor(_replaced(used, extension=extension))
+            yield "below the knee", choice, extension == used.extension, factor(replace(used, extension=extension))
 
 
 def _stress_variants(
@@ -132,13 +131,3 @@ def _point_variants(point: pd.Series) -> Iterator[tuple[str, str, bool, float]]:
             False,
             float(point["life_km"] / point["life_km_raw_end"]),
         )
-
-
-def _replaced(assumptions: Assumptions, survival: str | None = None, extension: Extension | None = None) -> Assumptions:
-    return Assumptions(
-        curve=assumptions.curve,
-        survival=survival or assumptions.survival,
-        thickness_rule=assumptions.thickness_rule,
-        extension=extension or assumptions.extension,
-        knee_cycles=assumptions.knee_cycles,
-    )

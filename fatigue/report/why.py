@@ -31,6 +31,11 @@ class Why:
             *(rows[rows["weld"] == weld] for rows in (self.attribution, self.track, self.diagnosis, self.levers))
         )
 
+    def reasons(self) -> list[tuple[str, str, str]]:
+        """Event, verdict on the frequency domain and its reason in words."""
+        rows = self.diagnosis[["event", "verdict", "reason"]]
+        return [(str(event), str(verdict), str(reason)) for event, verdict, reason in rows.itertuples(index=False)]
+
 
 def read_why(folder: Path, result: Result) -> Why | None:
     """Read the tables of a diagnosis; None where the result was not diagnosed."""

@@ -1,0 +1,64 @@
+"""Superposition, counting and damage against the bare matrix product, and how the cost grows."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from benchmarks.load import load
+from benchmarks.timing import Row, best_times
+from fatigue.life.rainflow_fast import stress_extent
+from fatigue.life.screening import extent_bound, modal_extent
+
+
+def against_the_product() -> list[Row]:
+    """Two surfaces, 60 modes, 20 000 steps; recounts in double precision included."""
+    case = load(512)
+    best = best_times({"product": case.product, "fast": case.fast, "exact": lambda: case.exact(0, 128)}, 8)
+    extent = modal_extent(case.q, "repeat")
+    bound = best_times(
+        {
+            "tier 1": lambda: extent_bound(case.S_m, extent),
+            "tier 2": lambda: stress_extent(case.S_m, case.S_b, case.record, "repeat"),
+        },
+        5,
+    )
+    fast, exact = case.fast(0, 128), case.exact(0, 128)
+    error = np.abs(fast.damage / exact.damage - 1.0)
+    samples = 2 * 512 * 20_000
+    return [
+        ("float64 product of the same stresses", f"{1e9 * best['product'] / samples:.2f} ns per stress sample"),
+        ("fast pipeline / product", f"{best['fast'] / best['product']:.2f}"),
+        ("double precision pipeline / product", f"{4 * best['exact'] / best['product']:.1f}"),
+        ("exact range and variation (screening tier 2) / product", f"{bound['tier 2'] / best['product']:.2f}"),
+        ("bound without a time loop (tier 1) / product", f"{2 * bound['tier 1'] / best['product']:.5f}"),
+        ("damage, fast / double precision - 1", f"median {np.median(error):.1e}, largest {error.max():.1e}"),
+    ]
+
+
+def growth() -> list[Row]:
+    """Time per stress sample and mode against the middle case, which is 1."""
+    sizes = {
+        "256 nodes x 60 modes x 10 000 steps": (256, 60, 10_000),
+        "twice the nodes": (512, 60, 10_000),
+        "twice the steps": (256, 60, 20_000),
+        "half the modes": (256, 30, 10_000),
+        "twice the modes": (256, 120, 10_000),
+    }
+    cases = {name: load(*size) for name, size in sizes.items()}
+    best = best_times({name: case.fast for name, case in cases.items()}, 8)
+    per_sample = {name: best[name] / (nodes * steps) for name, (nodes, _, steps) in sizes.items()}
+    middle = next(iter(per_sample.values()))
+    return [(f"time per stress sample, {name}", f"{time / middle:.2f}") for name, time in per_sample.items()]
+
+
+def threads() -> list[Row]:
+    """Blocks of 128 nodes in two threads against one."""
+    case = load(1024, steps=10_000)
+    blocks = range(0, 1024, 128)
+
+    def run(workers: int) -> None:
+        with ThreadPoolExecutor(workers) as executor:
+            list(executor.map(lambda first: case.fast(first, first + 128), blocks))
+
+    best = best_times({"1": lambda: run(1), "2": lambda: run(2)}, 5)
+    return [("speed-up with two threads", f"{best['1'] / best['2']:.2f}")]

@@ -1,0 +1,59 @@
+"""What only a fresh process shows: start-up, first compilation, peak memory."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from benchmarks.timing import Row
+
+_PEAK = "import resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"  # Linux: kB
+_COUNT = "from benchmarks.load import load; case = load({nodes}, 60, {steps}); case.fast()"
+
+
+def start_up() -> list[Row]:
+    """Wall time of the command line against that of a bare Python."""
+    bare = _seconds(["-c", "pass"])
+    command = _seconds(["-m", "fatigue", "--help"])
+    return [("fatigue --help", f"{command:.2f} s, bare Python {bare:.2f} s")]
+
+
+def first_run() -> list[Row]:
+    """Compiling the fast counter and the double precision one, with an empty cache."""
+    code = "from benchmarks.load import load; case = load(8, 4, 600); case.fast(); case.exact()"
+    with tempfile.TemporaryDirectory() as empty:
+        cold, warm = (_seconds(["-c", code], rounds=1, NUMBA_CACHE_DIR=empty) for _ in range(2))
+    return [("compilation at the first run", f"{cold - warm:.0f} s")]
+
+
+def memory() -> list[Row]:
+    """Peak of a process that draws a load and counts it, above importing and above its inputs."""
+    bare = _peak("import benchmarks.load")
+    rows = []
+    for nodes, steps in ((256, 20_000), (2560, 20_000), (256, 200_000)):
+        inputs = (2 * 60 * nodes * 8 + 60 * steps * (4 + 4 + 8)) / 2**20
+        above = _peak(_COUNT.format(nodes=nodes, steps=steps)) - bare - inputs
+        rows.append((f"peak memory above import and inputs, {nodes} nodes x {steps} steps", f"{above:.0f} MB"))
+    return rows
+
+
+def _seconds(arguments: list[str], rounds: int = 5, **environment: str) -> float:
+    best = float("inf")
+    for _ in range(rounds):
+        start = time.perf_counter()
+        _run(arguments, **environment)
+        best = min(best, time.perf_counter() - start)
+    return best
+
+
+def _peak(code: str) -> float:
+    return float(_run(["-c", f"{code}\n{_PEAK}"]).split()[-1])
+
+
+def _run(arguments: list[str], **environment: str) -> str:
+    root = Path(__file__).parents[1]
+    command = [sys.executable, *arguments]
+    done = subprocess.run(command, cwd=root, env=os.environ | environment, check=True, capture_output=True, text=True)
+    return done.stdout
