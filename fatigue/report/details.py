@@ -36,8 +36,10 @@ class Detail:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Weld:
-    """A weld while its details are gathered: stress per unit modal coordinate at the worst point (m,) and, by component,
-    at all stations (n, m); its governing event and the cycles of its worst point.
+    """A weld while its details are gathered.
+
+    ``worst`` (m,) is the stress of its worst point per unit modal coordinate, ``stations`` (n, m) are the components at
+    all its stations; ``cycles`` are those of the worst point.
     """
 
     worst: NDArray[np.float64]

@@ -18,15 +18,15 @@ _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
 def write_xlsx(folder: Path) -> Path:
     """Write ``nodes.xlsx``: all points, the welds, and what every column means.
 
-    Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an equals
-    sign stay texts. An infinite life is left empty with its reason in the header's comment; what is not available is empty.
+    Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an
+    equals sign stay texts. An infinite life is written as "> 1e+12"; what is not available is empty.
 
     Raises
     ------
     DataError : the extra ``excel`` is not installed, no finished result, or more points than a sheet holds
     """
     try:
-        import xlsxwriter
+        import xlsxwriter  # noqa: PLC0415  (an optional extra)
     except ImportError:
         raise DataError(
             Problem(
@@ -128,9 +128,9 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
 
 
 def write_csv(folder: Path) -> list[Path]:
-    """Write the tables of points, events, cycles and welds as CSV files, UTF-8, decimal points, beside the Parquet files.
+    """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
 
-    Infinite lives are written as ``inf``, what is not available is empty, both as pandas and most programs read them. A
+    They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty, both as pandas and most programs read them. A
     text that a spreadsheet would take for a formula gets an apostrophe before it.
 
     Raises

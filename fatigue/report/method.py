@@ -102,7 +102,8 @@ def _curve_rule(name: str, curve: Mapping[str, Any]) -> Rule:
     unit = "MPa mm^(−0.222)" if curve["applies"] == "dS" else "MPa"
     return Rule(
         f"Curve {name}",
-        f"slopes {slopes}; range at {number(curve['reference_cycles'])} cycles [{unit}]: {ranges}; used: {used['survival']}",
+        f"slopes {slopes}; range at {number(curve['reference_cycles'])} cycles [{unit}]: {ranges}; "
+        f"used: {used['survival']}",
         curve["source"],
     )
 

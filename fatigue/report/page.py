@@ -30,9 +30,9 @@ def write_report(folder: Path, case_path: Path | None = None, verification: Sequ
     Parameters
     ----------
     folder : where the tables and ``provenance.json`` are
-    case_path : the case of the result, by default where its provenance says. Histories, for stress excerpts and spectra,
-        and the mesh are found by it and checked by their hashes; what is gone or has changed is left out of the page, with
-        the reason.
+    case_path : the case of the result, by default where its provenance says. Histories, for stress excerpts and
+        spectra, and the mesh are found by it and checked by their hashes; what is gone or has changed is left out of
+        the page, with the reason.
     verification : checks of the installed program to be shown, each with ``topic, case, quantity, unit, expected, found,
         difference, tolerance, source, passed``
 
@@ -84,7 +84,7 @@ def report_page(folder: Path, case_path: Path | None = None, verification: Seque
         "inputs": tables.input_table(record["inputs"]),
         "config": embedded(figures.CONFIG),
         "template": embedded(figures.TEMPLATE.to_plotly_json()),
-        "plotly": Markup(get_plotlyjs()),  # noqa: S704  (the library itself, no text of the user's)
+        "plotly": Markup(get_plotlyjs()),
     }
     return _environment().get_template("report.html").render(context)
 
@@ -104,7 +104,7 @@ def _environment() -> jinja2.Environment:
 
     def source(name: str) -> Markup:
         """Style sheet or script of the page, as it is."""
-        return Markup(loader.get_source(environment, name)[0])  # noqa: S704
+        return Markup(loader.get_source(environment, name)[0])
 
     environment.globals["source"] = source
     return environment

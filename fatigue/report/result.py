@@ -1,4 +1,4 @@
-"""A finished result read for its report: every point, the welds worst first, and the details of the points that govern."""
+"""A finished result read for its report: every point, the welds worst first, details of the points that govern."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -64,8 +64,8 @@ class Result:
     def stress_shapes(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
 
-        Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the order
-        of the table, which lists all modes of a station one after the other.
+        Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the
+        order of the table, which lists all modes of a station one after the other.
         """
         modes = len(self.record["modes"]["used"])
         rows = _rows(self.folder, "structural_stress", self.detailed, ["weld", "part", "order", *columns])

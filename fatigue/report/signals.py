@@ -112,12 +112,12 @@ def envelope(record: Record, shape: NDArray[np.float64]) -> Envelope:
     starts = np.linspace(0, len(stress), min(ENVELOPE_BINS, len(stress)), endpoint=False).astype(np.int64)
     return Envelope(
         event=history.event,
-        time=history.start + history.step * starts,
+        time=np.asarray(history.start + history.step * starts, dtype=np.float64),
         low=np.minimum.reduceat(stress, starts),
         high=np.maximum.reduceat(stress, starts),
     )
 
 
 def deviations(record: Record, shapes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Standard deviation of the stress at many stations: (n, m) -> (n,) [MPa]."""
-    return np.sqrt(np.maximum(((shapes @ record.covariance) * shapes).sum(axis=1), 0.0))
+    """Compute the standard deviation of the stress at many stations: (n, m) -> (n,) [MPa]."""
+    return np.asarray(np.sqrt(np.maximum(((shapes @ record.covariance) * shapes).sum(axis=1), 0.0)))

@@ -186,22 +186,25 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
 
 def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str], steps: Mapping[str, float]) -> Table:
     """Load definition: the events of the mission; ``steps`` [s] where the records were found."""
-    rows = tuple(
-        (
-            text(event["event"]),
-            percent(event["share"]) if event["share"] is not None else text(None),
-            num(event["per_1000_km"]),
-            num(event["length"]),
-            num(event["passes_per_km"]),
-            integer(event["samples"], grouped=True),
-            num(steps[event["event"]] * event["samples"] if event["event"] in steps else None),
-            num(3600.0 * event["length"] / (steps[event["event"]] * event["samples"]) if event["event"] in steps and event["length"] else None),
-            num(event["start_s"]),
-            num(event["stress_factor"]),
-            text(residues[event["event"]].split(":")[0]),
+    rows = []
+    for event in events:
+        name, length = event["event"], event["length"]
+        duration = steps[name] * event["samples"] if name in steps else None
+        rows.append(
+            (
+                text(name),
+                text(None) if event["share"] is None else percent(event["share"]),
+                num(event["per_1000_km"]),
+                num(length),
+                num(event["passes_per_km"]),
+                integer(event["samples"], grouped=True),
+                num(duration),
+                num(3600.0 * length / duration if duration and length else None),
+                num(event["start_s"]),
+                num(event["stress_factor"]),
+                text(residues[name].split(":")[0]),
+            )
         )
-        for event in events
-    )  # fmt: skip
     headings = (
         Heading("event", numeric=False),
         Heading("share of mileage", "%"),
@@ -215,7 +218,7 @@ def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str]
         Heading("stress factor", "-"),
         Heading("residue", numeric=False),
     )
-    return Table("events", headings, rows)
+    return Table("events", headings, tuple(rows))
 
 
 def mode_table(modes: Mapping[str, Any]) -> Table:

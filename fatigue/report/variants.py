@@ -49,7 +49,7 @@ def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
 
 def how_often(cycles: pd.DataFrame, passes_per_km: Mapping[str, float]) -> NDArray[np.float64]:
     """How often each listed cycle occurs [1/km]: its count times the passes of its event."""
-    return cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy()
+    return np.asarray(cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy())
 
 
 def damage_per_km(
@@ -75,8 +75,8 @@ def variants(
 
     Returns
     -------
-    table with ``assumption``, ``choice``, ``used`` (the choice of the assessment) and ``damage_factor``, its damage over
-    that of the assessment (NaN where nothing damages). Factors of mean stress, shear and weld end come from the point's
+    table with ``assumption``, ``choice``, ``used`` (the choice of the assessment) and ``damage_factor``, its damage
+    over that of the assessment (NaN where nothing damages). Factors of mean stress, shear and weld end come from the point's
     own row and are left out where the assessment had no number for them.
     """
     per_km = how_often(cycles, passes_per_km)

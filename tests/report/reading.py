@@ -21,12 +21,14 @@ class Page(HTMLParser):
     tags: list[tuple[str, dict]] = field(default_factory=list)
 
     def __post_init__(self):
+        """Read the page."""
         super().__init__(convert_charrefs=True)
         self._silent, self._table, self._cell, self._json = 0, None, None, None
         self.feed(self.html)
         self.close()
 
     def handle_starttag(self, tag, attrs):
+        """Note the element."""
         given = dict(attrs)
         self.tags.append((tag, given))
         if tag in _SILENT:
@@ -41,6 +43,7 @@ class Page(HTMLParser):
             self._cell = []
 
     def handle_endtag(self, tag):
+        """End the element."""
         if tag in _SILENT:
             self._silent -= 1
             self._json = None
@@ -51,6 +54,7 @@ class Page(HTMLParser):
             self._cell = None
 
     def handle_data(self, data):
+        """Keep text where it belongs."""
         if self._json is not None:
             self.figures[self._json] = json.loads(data)
         if self._silent:

@@ -75,7 +75,7 @@ def test_every_figure_on_screen_is_drawn(opened):
     """Every visible figure has axes or a canvas, and none is an empty box."""
     drawn = opened.evaluate(
         "[...document.querySelectorAll('.plot')].filter((p) => p.offsetParent).map((p) => "
-        "[p.dataset.figure, p.querySelectorAll('.xy .trace, .xy .heatmaplayer, .barlayer .bars, .gl-container canvas').length])"
+        "[p.dataset.figure, p.querySelectorAll('.xy .trace, .xy .heatmaplayer, .barlayer .bars, canvas').length])"
     )
     assert len(drawn) == 20
     assert [name for name, count in drawn if not count] == []
@@ -185,7 +185,8 @@ def test_everything_is_reached_by_keyboard_and_has_a_label(opened):
 def test_text_has_contrast(opened):
     """Ink, quiet text, accent and alarm keep a contrast of 4.5 against paper (WCAG 2.1 AA)."""
     colours = opened.evaluate(
-        "['--ink', '--quiet', '--accent', '--missed'].map((n) => getComputedStyle(document.documentElement).getPropertyValue(n).trim())"
+        "['--ink', '--quiet', '--accent', '--missed'].map((name) => "
+        "getComputedStyle(document.documentElement).getPropertyValue(name).trim())"
     )
 
     def luminance(colour):

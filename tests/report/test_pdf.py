@@ -51,7 +51,7 @@ def test_a_browser_that_fails_is_reported_with_its_last_words(monkeypatch, tmp_p
     page = tmp_path / "report.html"
     page.write_text("<p>")
     monkeypatch.setenv("FATIGUE_BROWSER", str(program(tmp_path / "broken", "echo no display >&2; exit 3")))
-    with pytest.raises(DataError, match="could not print the page .no display."):
+    with pytest.raises(DataError, match=r"could not print the page .no display."):
         print_pdf(page, tmp_path / "report.pdf")
     assert not (tmp_path / "report.pdf").exists()
 
@@ -77,7 +77,8 @@ def test_the_page_is_printed_whole(monkeypatch, tmp_path):
     page = tmp_path / "my report.html"
     page.write_text("<p>")
     said = tmp_path / "said"
-    script = f'printf "%s\\n" "$@" > {said}\nfor a in "$@"; do case "$a" in --print-to-pdf=*) echo "%PDF" > "${{a#*=}}";; esac; done'
+    to_file = 'case "$a" in --print-to-pdf=*) echo "%PDF" > "${a#*=}";; esac'
+    script = f'printf "%s\\n" "$@" > {said}\nfor a in "$@"; do {to_file}; done'
     monkeypatch.setenv("FATIGUE_BROWSER", str(program(tmp_path / "good", script)))
     print_pdf(page, tmp_path / "report.pdf")
     assert (tmp_path / "report.pdf").read_text() == "%PDF\n"

@@ -324,7 +324,12 @@ def _provenance(recipe, passes, files):
         "case_path": "../case.toml",
         "case_text": _case_text(recipe),
         "inputs": files,
-        "modes": {"used": list(MODES), "ignored": [], "frequency_hz": list(FREQUENCIES), "kind": ["normal", "normal", "interface"]},
+        "modes": {
+            "used": list(MODES),
+            "ignored": [],
+            "frequency_hz": list(FREQUENCIES),
+            "kind": ["normal", "normal", "interface"],
+        },
         "force_convention": "on_element",
         "curves": {
             CURVE: {
@@ -379,4 +384,4 @@ def _provenance(recipe, passes, files):
         },
         "warnings": list(recipe.warnings),
         "outputs": [],
-    }  # fmt: skip
+    }

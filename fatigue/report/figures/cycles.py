@@ -85,7 +85,7 @@ def _matrix(
 def exceedance(cycles: pd.DataFrame, passes_per_km: Mapping[str, float], most: int = 6) -> go.Figure:
     """Range exceedance: how often each stress range is reached in 1e6 km, by event and for the whole mission.
 
-    ``cycles`` has the columns of the table of cycles; at most ``most`` events, those with the largest ranges, are drawn.
+    ``cycles`` has the columns of the table of cycles; ``most`` events, those with the largest ranges, are drawn.
     """
     colours = event_colours(list(passes_per_km))
     ranges, event = cycles["range_MPa"].to_numpy(), cycles["event"].to_numpy()

@@ -42,8 +42,8 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
     """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
 
     ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
-    colours the points: 3 for a Gaussian record. Points without an estimate are left out; of many points all that are off
-    by more than a factor of 2 or not to be trusted are drawn, and of the others a part, see `drawn_points`.
+    colours the points: 3 for a Gaussian record. Points without an estimate are left out; of very many points a part is
+    drawn, see `drawn_points`.
     """
     shown = nodes[drawn_points(nodes)]
     x, y = drawn_life(shown["life_km_same_ratio"]), drawn_life(shown["life_km_dirlik"])
@@ -79,12 +79,13 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
 def drawn_points(nodes: pd.DataFrame, most: int = MOST_POINTS) -> NDArray[np.bool_]:
     """Mark the points with an estimate that are drawn: all, or ``most`` beginning with those that disagree (n,)."""
     lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
-    drawn = np.isfinite(lives).all(axis=1)
-    if np.count_nonzero(drawn) <= most:
+    drawn: NDArray[np.bool_] = np.isfinite(lives).all(axis=1)
+    found = int(np.count_nonzero(drawn))
+    if found <= most:
         return drawn
     off = np.abs(np.log(np.nan_to_num(nodes["dirlik_ratio"].to_numpy(dtype=np.float64), nan=1.0)))
     doubtful = ~nodes["dirlik_verdict"].isin(TRUSTED).to_numpy() | (off > np.log(2.0))
-    rank = np.arange(len(nodes)) % max(1, np.count_nonzero(drawn) // most + 1)  # every so manyth of those that agree
+    rank = np.arange(len(nodes)) % (found // most + 1)  # every so manyth of those that agree
     candidates = np.flatnonzero(drawn & (doubtful | (rank == 0)))
     first = candidates[np.argsort(-(doubtful[candidates] * (1.0 + off[candidates])), kind="stable")[:most]]
     return np.isin(np.arange(len(nodes)), first)
@@ -112,7 +113,8 @@ def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
         },
         "customdata": single(shown["dirlik_ratio"]),
         "text": _names(shown),
-        "hovertemplate": "%{text}<br>rainflow %{x:.4g} km<br>Dirlik %{y:.4g} km<br>damage ratio %{customdata:.4g}<extra></extra>",
+        "hovertemplate": "%{text}<br>rainflow %{x:.4g} km<br>Dirlik %{y:.4g} km<br>"
+        "damage ratio %{customdata:.4g}<extra></extra>",
     }
 
 

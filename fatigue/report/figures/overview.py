@@ -14,6 +14,7 @@ from fatigue.report.figures.style import (
     MISSED,
     QUIET,
     SEQUENTIAL,
+    Trace,
     axis,
     drawn_life,
     event_colours,
@@ -39,7 +40,7 @@ def weld_lives(welds: pd.DataFrame, target_km: float, most: int = 30) -> go.Figu
     rows = np.arange(len(shown))
     stems = np.column_stack([np.full(len(life), target_km), life, np.full(len(life), np.nan)]).ravel()
     facts = [[number(v) for v in row] for row in shown[["life_years", "utilisation", "load_factor"]].to_numpy()]
-    data = [
+    data: list[Trace] = [
         {
             "type": "scatter",
             "x": stems,
@@ -92,7 +93,7 @@ def weld_lives(welds: pd.DataFrame, target_km: float, most: int = 30) -> go.Figu
 def weld_strips(nodes: pd.DataFrame, target_km: float, most: int = 60) -> go.Figure:
     """Every weld line as a strip coloured by the shorter life of its toe faces, worst weld on top.
 
-    ``nodes`` has the columns of the table of nodes; parts of a weld split at its kinks follow each other. Each strip has
+    ``nodes`` has the columns of the table of nodes; parts of a weld split at its kinks follow each other. A strip has
     120 cells; a cell shows the shortest life of its nodes, or that of the nearest node.
     """
     toes = nodes[nodes["toe"]]

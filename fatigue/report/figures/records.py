@@ -30,7 +30,7 @@ PSD_DECADES = 6
 def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> go.Figure:
     """Stress over the whole record of an event, and close by around the instants of one cycle with the parts of modes.
 
-    ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. One or two excerpts are drawn.
+    ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. There are one or two excerpts.
     """
     both = np.column_stack([envelope.low, envelope.high]).ravel()
     data: list[Trace] = [
@@ -95,8 +95,8 @@ def stress_spectrum(
 ) -> go.Figure:
     """Stress spectra of some events with the natural frequencies that matter; the cumulative variance below.
 
-    ``modes`` gives frequency [Hz] and share of the variance of each mode to be marked; the cumulative variance is that of
-    the governing event.
+    ``modes`` gives frequency [Hz] and share of the variance of each mode to be marked; the cumulative variance is that
+    of the governing event.
     """
     peak = max(float(s.density.max()) for s in spectra) or 1.0
     first = max(min(float(s.frequency[1]) for s in spectra), 0.1)

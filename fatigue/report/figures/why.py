@@ -93,8 +93,8 @@ def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: pd.
 def damage_on_track(track: pd.DataFrame) -> go.Figure:
     """Where on the record of one event the damage is made: intensity 1 is its average.
 
-    ``track`` has the columns ``start_km, end_km, start_s, end_s, intensity`` of one point and event; time is drawn for an
-    event without distance.
+    ``track`` has the columns ``start_km, end_km, start_s, end_s, share, intensity`` of one point and event; time is drawn
+    for an event without distance.
     """
     unit = "s" if track["start_km"].isna().any() else "km"
     start, end = track[f"start_{unit}"].to_numpy(), track[f"end_{unit}"].to_numpy()
@@ -105,7 +105,8 @@ def damage_on_track(track: pd.DataFrame) -> go.Figure:
         "y": single(track["intensity"]),
         "marker": {"color": ACCENT, "line": {"width": 0.5, "color": "white"}},
         "customdata": single(track["share"]),
-        "hovertemplate": f"%{{x:.4g}} {unit}: %{{y:.3g}} times the average, %{{customdata:.1%}} of the damage<extra></extra>",
+        "hovertemplate": f"%{{x:.4g}} {unit}: %{{y:.3g}} times the average, "
+        "%{customdata:.1%} of the damage<extra></extra>",
     }
     where = "distance in the record [km]" if unit == "km" else "time of the record [s]"
     return figure(
