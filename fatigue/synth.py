@@ -196,7 +196,7 @@ def _force_rows(welds: list[_Weld], modes: int) -> pa.Table:
 
 
 def _nodal(line_load: Floats) -> Floats:
-    """Nodal values of a line load (n, m) that is linear between the nodes: consistent, so that solving gives it back."""
+    """Nodal values of a line load (n, m), linear between the nodes: consistent, so that solving gives it back."""
     padded = np.pad(line_load, ((1, 1), (0, 0)))
     inner = np.full((len(line_load), 1), 4.0)
     inner[[0, -1]] = 2.0

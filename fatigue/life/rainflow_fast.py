@@ -178,15 +178,15 @@ def count_block_fast(
 
 
 def stress_extent(S_m: Floats, S_b: Floats, record: Record, residue: Residue) -> tuple[Floats, Floats]:
-    """Range and total variation (n, 2) [MPa] of the top and bottom stress of a block, never too small.
+    """Bound range (n, 2) and sum n S^p, p = 1, 2, 3, (3, n, 2) of the top and bottom stress, never too small.
 
-    The rounding errors of single precision are added as the worst case has them: a sample of ``sum w q`` over m modes
-    is off by at most ``(m + 4) 2^-24 sum |w| max |q|``. For a record that recurs the variation contains the step from
-    its last sample to its first. Shapes as in `count_block_fast`.
+    The sums are ``2^(p-2)`` times the total variation of ``s |s|^(p-1)``, see `screening`. The rounding errors of
+    single precision are added as the worst case has them: a sample of ``sum w q`` over m modes is off by at most
+    ``(m + 4) 2^-24 sum |w| max |q|``. Shapes as in `count_block_fast`.
     """
     block = _normalised(S_m, S_b, record)
     points, (modes, t) = len(S_m), record.q.shape
-    extent = np.tile([0.0, -np.inf, np.inf], (points, 2, 1))
+    extent = np.tile([0.0, 0.0, 0.0, -np.inf, np.inf], (points, 2, 1))
     for first_point in range(0, points, POINTS):
         piece = slice(first_point, first_point + POINTS)
         weights = np.concatenate([block.membrane[piece], block.bending[piece]]).astype(np.float32)
@@ -196,16 +196,31 @@ def stress_extent(S_m: Floats, S_b: Floats, record: Record, residue: Residue) ->
             columns = q.shape[1] + 1
             np.matmul(weights, q, out=stress[:, 1:columns])
             extend(stress, columns, first == 0, extent[piece])
-    largest = np.abs(record.q).max(axis=1)
-    error = (modes + 4) * 2.0**-24 * ((np.abs(block.membrane) + np.abs(block.bending)) @ largest)[:, None]
-    variation, maximum, minimum = np.moveaxis(extent, 2, 0)
-    if residue == "repeat":
-        ends = record.q[:, 0].astype(np.float64) - record.q[:, -1]
-        steps_m, steps_b = block.membrane @ ends, block.bending @ ends
-        variation = variation + np.abs(np.stack([steps_m + steps_b, steps_m - steps_b], axis=1))
-    summing = 1.0 + 2.0**-24 * CHUNK / 8  # single precision sums of a chunk, in 8 lanes or more
-    variation = summing * variation + 2.0 * t * error
-    return block.scale * (maximum - minimum + 2.0 * error), block.scale * variation
+    *variations, maximum, minimum = np.moveaxis(extent, 2, 0)
+
+    reach = np.abs(record.q).max(axis=1)
+    error = (modes + 4) * 2.0**-24 * ((np.abs(block.membrane) + np.abs(block.bending)) @ reach)[:, None]
+    largest = np.maximum(np.abs(maximum), np.abs(minimum)) + error
+    first_s, last_s = (
+        _surfaces(block.membrane @ q, block.bending @ q) for q in record.q[:, [0, -1]].T.astype(np.float64)
+    )
+    sums = []
+    for p, variation in enumerate(variations, start=1):
+        closing = np.abs(_odd_power(first_s, p) - _odd_power(last_s, p)) if residue == "repeat" else 0.0
+        summing = 1.0 + 2.0**-24 * CHUNK / 8  # single precision sums of a chunk, in 8 lanes or more
+        off = p * largest ** (p - 1) * error + p * 2.0**-23 * largest**p
+        sums.append(2.0 ** (p - 2) * block.scale**p * (summing * variation + 2.0 * t * off + closing))
+    return block.scale * (maximum - minimum + 2.0 * error), np.stack(sums)
+
+
+def _surfaces(membrane: Floats, bending: Floats) -> Floats:
+    """Stress of top and bottom surface side by side."""
+    return np.stack([membrane + bending, membrane - bending], axis=1)
+
+
+def _odd_power(s: Floats, p: int) -> Floats:
+    """Power of the size of s, with its sign."""
+    return np.asarray(s * np.abs(s) ** (p - 1))
 
 
 def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
@@ -213,15 +228,14 @@ def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
     membrane, bending, both = (
         ((a @ record.covariance) * b).sum(axis=1) for a, b in ((S_m, S_m), (S_b, S_b), (S_m, S_b))
     )
-    variance = np.maximum((membrane + bending)[:, None] + 2.0 * np.stack([both, -both], axis=1), 0.0)
-    mean_m, mean_b = S_m @ record.mean, S_b @ record.mean
+    variance = np.maximum(_surfaces(membrane + bending, 2.0 * both), 0.0)
     modal = (S_m**2 + S_b**2) @ np.diagonal(record.covariance)
     scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])[:, None]
     return _Block(
         membrane=S_m * record.scale / scale,
         bending=S_b * record.scale / scale,
         scale=scale,
-        mean=np.stack([mean_m + mean_b, mean_m - mean_b], axis=1),
+        mean=_surfaces(S_m @ record.mean, S_b @ record.mean),
         trusted=variance * CANCELLATION**2 >= modal[:, None],
     )
 

@@ -115,6 +115,8 @@ def write_reversals(
     for i in range(samples):
         ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
         step[i] = int(ds > 0) - int(ds < 0)
+    for i in range(samples):
+        ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
         doubt = flat + flat * abs(m[i] + side * b[i])
         small_steps += int(abs(ds) <= doubt) & int(m[i + 1] != m[i])
     reversals = 0
@@ -341,7 +343,7 @@ def count_chunk(stress: Numbers, samples: int, stage: Stage, law: PowerLaw, stat
 
 @compiled()
 def extend(stress: Numbers, columns: int, begins: bool, extent: Floats) -> None:
-    """Add the steps between the first columns of a block to ``extent`` (n, 2, 3): variation, maximum, minimum.
+    """Add the steps between the first columns of a block to ``extent`` (n, 2, 5): 3 variations, maximum, minimum.
 
     Column 0 is the last sample of the chunk before; the first chunk begins at column 1.
     """
@@ -355,7 +357,10 @@ def extend(stress: Numbers, columns: int, begins: bool, extent: Floats) -> None:
             low[:] = np.inf
             extremes_in_lanes(m, b, side, high, low)
             found = extent[row, surface]
-            found[0] += add_steps(m, b, side)
-            found[1] = max(found[1], high.max())
-            found[2] = min(found[2], low.min())
+            first, second, third = add_steps(m, b, side)
+            found[0] += first
+            found[1] += second
+            found[2] += third
+            found[3] = max(found[3], high.max())
+            found[4] = min(found[4], low.min())
         stress[row, 0], stress[points + row, 0] = stress[row, columns - 1], stress[points + row, columns - 1]

@@ -131,12 +131,15 @@ def add_powers(m: Numbers, b: Numbers, side: np.float32, mean: np.floating) -> t
 
 
 @compiled("reassoc", "nsz", "nnan", "contract")
-def add_steps(m: Numbers, b: Numbers, side: np.float32) -> np.floating:
-    """Sum the steps of the stress of one surface, without their signs."""
-    variation = _ZERO
+def add_steps(m: Numbers, b: Numbers, side: np.float32) -> tuple[np.floating, np.floating, np.floating]:
+    """Total variations of s, s |s| and s^3, s the stress of one surface."""
+    first = second = third = _ZERO
     for i in range(1, m.size):
-        variation += abs((m[i] + side * b[i]) - (m[i - 1] + side * b[i - 1]))
-    return variation
+        before, s = m[i - 1] + side * b[i - 1], m[i] + side * b[i]
+        first += abs(s - before)
+        second += abs(s * abs(s) - before * abs(before))
+        third += abs(s * s * s - before * before * before)
+    return first, second, third
 
 
 @compiled()

@@ -1,16 +1,21 @@
 """Proven upper bounds of the damage, for points that need no counting.
 
-Every rainflow cycle closes on a rise and a fall of its own, and a half cycle on one of them: with the residue as half
-cycles, or in a block that recurs, sum n S = TV / 2 for the total variation TV of the counted history (that of a
-recurring block contains the step from its last sample to its first). No cycle is larger than the range R of the
-history. With the largest factor g from S to the equivalent range x, x = g S where r is 0, and d(x) / x never
-falling, as on every S-N curve with slopes of 1 and more, whatever its knees or cutoff,
+Cut a history into its rises and falls. Rainflow gives every piece of them to one cycle: a cycle from v up to p takes
+one rise and one fall through [v, p], a half cycle one of the two. So for any rising function f the counted cycles
+satisfy ``sum n (f(p) - f(v)) = TV(f(s)) / 2``, TV the total variation of the counted history (that of a recurring block
+contains the step from its last sample to its first). With ``f(s) = s |s|^(q-1)``, s without its mean,
 
-    D = sum n d(x) <= d(g R) / (g R) * sum n g S = d(g R) / (g R) * g TV / 2.
+    f(p) - f(v) >= 2^(1-q) (p - v)^q,   hence   sum n S^q <= 2^(q-2) TV(s |s|^(q-1)),
 
-Bounds of R and TV hold for the record that is counted (upsampled or not) and for shapes that contain the event's stress
-factor. They come without a loop over time from `modal_extent`, or with one but without counting from
-`rainflow_fast.stress_extent`.
+an equality for q = 1. With the largest factor g from S to the equivalent range x (r = 0), no cycle larger than the
+range R, and d(x) / x^q never falling, as on every S-N curve with slopes of q and more, whatever its knees or cutoff,
+
+    D = sum n d(x) <= d(g R) / (g R)^q * sum n (g S)^q.
+
+The smallest of the bounds for q = 1, 2, 3 is taken. For q = 1 this is Markov's inequality, for q equal to the slope the
+crossing bound of Rychlik (1993). The bounds hold for the record that is counted (upsampled or not) and for shapes that
+contain the event's stress factor. Range and sums come without a loop over time from `extent_bound`, or with one but
+without counting from `rainflow_fast.stress_extent`.
 """
 
 from dataclasses import dataclass
@@ -36,17 +41,19 @@ class ModalExtent:
     Attributes
     ----------
     mean : (m,)
-    covariance : (m, m), in the directions that it spans well
+    variances : (m, m) covariance
+    covariance : (m, m) the same in the directions that it spans well
     reach : largest sqrt(q' C^-1 q) over time, q without its mean
     remainder : (m, m) projector on the other directions, of coordinates over ``deviation``
     deviation : (m,) standard deviations
     remainder_reach : largest length of q / deviation in these directions
     ranges, variations : (m,) range and total variation of each coordinate
-    steps : how many steps there are
+    samples, steps : how many there are
     step_products : (m, m) sum of dq dq' over the steps
     """
 
     mean: Floats
+    variances: Floats
     covariance: Floats
     reach: float
     remainder: Floats
@@ -54,6 +61,7 @@ class ModalExtent:
     remainder_reach: float
     ranges: Floats
     variations: Floats
+    samples: int
     steps: int
     step_products: Floats
 
@@ -89,6 +97,7 @@ def modal_extent(q: NDArray[np.floating], residue: Residue) -> ModalExtent:
         remainder_reach = max(remainder_reach, float(np.sqrt(((outside.T @ x) ** 2).sum(axis=0).max())))
     return ModalExtent(
         mean=mean,
+        variances=covariance,
         covariance=np.outer(deviation, deviation) * ((inside * values[spanned]) @ inside.T),
         reach=reach,
         remainder=outside @ outside.T,
@@ -96,42 +105,49 @@ def modal_extent(q: NDArray[np.floating], residue: Residue) -> ModalExtent:
         remainder_reach=remainder_reach,
         ranges=np.ptp(q, axis=1).astype(np.float64),
         variations=variations,
+        samples=samples,
         steps=samples if residue == "repeat" else samples - 1,
         step_products=step_products,
     )
 
 
 def extent_bound(S: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
-    """Bound range and total variation (n,) [MPa] of the stresses S @ q, S (n, m), without a loop over time.
+    """Bound range (n,) and sum n S^q, q = 1 and 2, (2, n) of the stresses S @ q, S (n, m), without a loop over time.
 
     With q = p + o, p in the directions that the covariance C spans and o in the others, and Cauchy-Schwarz twice,
     ``|w'p| <= sqrt(w'C w) sqrt(p'C^-1 p)`` and ``sum |w'dq| <= sqrt(steps) sqrt(sum (w'dq)^2)``; the sums over the
-    coordinates, ``sum |w| range(q)`` and ``sum |w| TV(q)``, are taken where they are smaller. A history rises and falls
-    through its range at least once in a closed block, so that R <= TV / 2, and R <= TV in any.
+    coordinates, ``sum |w| range(q)`` and ``sum |w| TV(q)``, are taken where they are smaller. R <= TV in any history.
+    From ``|a |a| - b |b|| <= (|a| + |b|) |a - b|`` follows ``TV(s |s|) <= sqrt(4 sum s^2) sqrt(sum ds^2)``.
     """
     weights = np.abs(S)
+    variance = _quadratic(S, extent.variances)
+    squared_steps = _quadratic(S, extent.step_products)
     inside = np.sqrt(_quadratic(S, extent.covariance)) * extent.reach
     outside = np.sqrt(_quadratic(S * extent.deviation, extent.remainder)) * extent.remainder_reach
-    variation = np.minimum(np.sqrt(extent.steps * _quadratic(S, extent.step_products)), weights @ extent.variations)
+    variation = np.minimum(np.sqrt(extent.steps * squared_steps), weights @ extent.variations)
     largest = np.minimum(np.minimum(2.0 * (inside + outside), weights @ extent.ranges), variation)
-    return largest * (1.0 + ROUNDING), variation * (1.0 + ROUNDING)
+    sums = np.stack([0.5 * variation, 2.0 * np.sqrt(extent.samples * variance * squared_steps)])
+    return largest * (1.0 + ROUNDING), sums * (1.0 + ROUNDING)
 
 
 def damage_bound(
-    stress_range: Floats, variation: Floats, size: Floats, law: DamageLaw, *, uses_bending_ratio: bool
+    stress_range: Floats, power_sums: Floats, size: Floats, law: DamageLaw, *, uses_bending_ratio: bool
 ) -> tuple[Floats, Floats]:
-    """Bound the damage of one pass and the largest equivalent range from bounds of range and total variation [MPa].
+    """Bound the damage of one pass and the largest equivalent range, both (n,).
 
-    All arrays are (n,), ``size`` as in `rainflow.count_block`. The bound of the damage is infinite for a law with a
-    slope below 1, for which there is none. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
+    ``stress_range`` (n,) [MPa] and ``power_sums`` (p, n) [MPa^q] bound range and sum n S^q, q = 1 ... p; ``size`` (n,)
+    is that of `rainflow.count_block`. The bound of the damage is infinite for a law with a slope below 1, for which there
+    is none. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
     """
     g = size / (ratio_factor(np.zeros(())) if uses_bending_ratio else 1.0)
     largest = g * stress_range
-    if (law.slopes < 1.0).any():
-        return np.full_like(largest, np.inf), largest
     # Raised a little, so that neither rounding nor the choice between two segments at a knee matters.
-    per_range = cycle_damage(largest * (1.0 + ROUNDING), law) / np.where(largest > 0.0, largest, 1.0)
-    return per_range * g * variation / 2.0 * (1.0 + ROUNDING), largest
+    worst = cycle_damage(largest * (1.0 + ROUNDING), law)
+    damage = np.full_like(largest, np.inf)
+    for q, power_sum in enumerate(power_sums, start=1):
+        if law.slopes.min() >= q:
+            damage = np.minimum(damage, worst * power_sum / np.where(stress_range > 0.0, stress_range, 1.0) ** q)
+    return damage * (1.0 + ROUNDING), largest
 
 
 def may_need_mean_stress(mean: Floats, stress_range: Floats, yield_MPa: float) -> NDArray[np.bool_]:

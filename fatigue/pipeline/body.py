@@ -1,17 +1,17 @@
 """The body of a case as its small files describe it: modes, welds, lines, curves, mesh; forces are read later."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from fatigue.case import Case, check_files
-from fatigue.errors import Problem
+from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
 from fatigue.readers.neutral_folder import RECORD, read_record
 from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
-from fatigue.weld.line import WeldLine
+from fatigue.weld.line import WeldLine, length
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +56,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
     curves = rated_curves(case, known_curves, welds)
     lines, doubts = read_weld_nodes(case.resolve(files.weld_nodes), welds, strict=strict)
     warnings += doubts
+    refuse(DataError, _unit_problems(lines, files.weld_nodes))
     mesh: Mesh | None = None
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
@@ -67,6 +68,22 @@ def read_body(case: Case, *, strict: bool) -> Body:
     rows = read_register(register).values() if register else ()
     excluded = tuple(row for row in rows if row.status != "assess")
     return Body(case, modes, welds, lines, curves, mesh, excluded, conversion, strict, tuple(warnings))
+
+
+def _unit_problems(lines: Sequence[WeldLine], file: str) -> list[Problem]:
+    """Find coordinates that cannot be mm: every weld line shorter than its plate is thick."""
+    if any(length(line) >= line.thickness.min() for line in lines):
+        return []
+    longest = max(lines, key=length)
+    return [
+        Problem(
+            "unit",
+            f"{file}: x_mm, y_mm, z_mm",
+            f"no weld line is as long as its plate is thick; the longest, of weld {longest.weld}, has "
+            f"{length(longest):.3g} mm on a plate of {longest.thickness.min():g} mm",
+            "Give coordinates in mm; these look like m",
+        )
+    ]
 
 
 def register_file(case: Case) -> Path | None:

@@ -33,8 +33,8 @@ def write_report(folder: Path, case_path: Path | None = None, verification: Sequ
     case_path : the case of the result, by default where its provenance says. Histories, for stress excerpts and
         spectra, and the mesh are found by it and checked by their hashes; what is gone or has changed is left out of
         the page, with the reason.
-    verification : checks of the installed program to be shown, each with ``topic, case, quantity, unit, expected, found,
-        difference, tolerance, source, passed``
+    verification : checks of the installed program to be shown, each with ``topic, case, quantity, unit, expected,
+        found, difference, tolerance, source, passed``
 
     The same result and inputs give the same bytes.
 

@@ -76,8 +76,8 @@ def variants(
     Returns
     -------
     table with ``assumption``, ``choice``, ``used`` (the choice of the assessment) and ``damage_factor``, its damage
-    over that of the assessment (NaN where nothing damages). Factors of mean stress, shear and weld end come from the point's
-    own row and are left out where the assessment had no number for them.
+    over that of the assessment (NaN where nothing damages). Factors of mean stress, shear and weld end come from
+    the point's own row and are left out where the assessment had no number for them.
     """
     per_km = how_often(cycles, passes_per_km)
     ranges = cycles["equivalent_range_dS"].to_numpy()

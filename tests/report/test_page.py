@@ -264,3 +264,42 @@ def test_target_line_of_the_weld_figure(page):
     """The target is drawn at its mileage."""
     shapes = page.figures["weld-1-along"]["layout"]["shapes"]
     assert TARGET_KM in [s["y0"] for s in shapes]
+
+
+def test_the_verification_table_is_shown_where_it_was_made(result_folder, page):
+    """Known answers, what was found, the difference and the source; a wrong one is marked."""
+    check = {
+        "topic": "rainflow", "case": "ASTM example", "quantity": "cycles of range 4", "unit": "-", "expected": 1.5,
+        "found": 1.5, "difference": 0.0, "tolerance": 1e-9, "passed": True, "source": "ASTM E1049-85",
+    }  # fmt: skip
+    wrong = {**check, "found": 2.0, "difference": 0.33, "passed": False}
+    rows = Page(report_page(result_folder, verification=[check, wrong])).tables["verification"][1:]
+    assert rows[0] == [
+        "rainflow",
+        "ASTM example",
+        "cycles of range 4",
+        "1.500",
+        "1.500",
+        "0.0e+00",
+        "1e-09",
+        "✓",
+        "ASTM E1049-85",
+    ]
+    assert rows[1][7] == "✕ wrong"
+    assert "verification" not in page.tables
+
+
+def test_excluded_welds_keep_their_row_and_their_reason(tmp_path):
+    """An excluded weld is in the register and nowhere among the results."""
+    folder = write_result(tmp_path)
+    welds = pd.read_parquet(folder / "welds.parquet")
+    excluded = {name: None for name in welds.columns} | {
+        "weld": "W9", "status": "excluded", "reason": "solid elements", "description": "", "closed": False, "parts": 0,
+        "nodes": 0, "surface": "both", "fulfilled": False,
+    }  # fmt: skip
+    pd.concat([welds, pd.DataFrame([excluded])]).to_parquet(folder / "welds.parquet")
+    page = Page(report_page(folder))
+    row = next(row for row in page.tables["weld-register"] if row[0] == "W9")
+    assert "excluded: solid elements" in row
+    assert "1 of 2 welds misses" in page.words
+    assert "1 welds are excluded" in page.words

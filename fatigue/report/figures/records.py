@@ -30,7 +30,7 @@ PSD_DECADES = 6
 def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> go.Figure:
     """Stress over the whole record of an event, and close by around the instants of one cycle with the parts of modes.
 
-    ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. There are one or two excerpts.
+    ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. One or two excerpts.
     """
     both = np.column_stack([envelope.low, envelope.high]).ravel()
     data: list[Trace] = [

@@ -93,8 +93,8 @@ def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: pd.
 def damage_on_track(track: pd.DataFrame) -> go.Figure:
     """Where on the record of one event the damage is made: intensity 1 is its average.
 
-    ``track`` has the columns ``start_km, end_km, start_s, end_s, share, intensity`` of one point and event; time is drawn
-    for an event without distance.
+    ``track`` has the columns ``start_km, end_km, start_s, end_s, share, intensity`` of one point and event; time is
+    drawn for an event without distance.
     """
     unit = "s" if track["start_km"].isna().any() else "km"
     start, end = track[f"start_{unit}"].to_numpy(), track[f"end_{unit}"].to_numpy()
