@@ -142,14 +142,15 @@ def close_pass(room: Room, n: int, cycles: int, flat: np.float32) -> tuple[int, 
     """
     z, zm, S, dm = room.z, room.m, room.S, room.dm
     z[n] = z[n + 1] = -np.inf
+    close_calls = 0
+    for i in range(n):
+        doubt = flat + flat * abs(z[i])
+        close_calls += int(abs(z[i + 2] - z[i]) <= doubt) & int(zm[i + 2] != zm[i])
     kept = 0
     before = 1  # whether the range before is not larger
     taken = 0
-    close_calls = 0
     for i in range(n):
         after = int(z[i + 2] >= z[i])
-        doubt = flat + flat * abs(z[i])
-        close_calls += int(abs(z[i + 2] - z[i]) <= doubt) & int(zm[i + 2] != zm[i])
         was_taken, taken = taken, after & (1 - before)
         S[cycles] = z[i] + z[i + 1]
         dm[cycles] = zm[i] + zm[i + 1]

@@ -136,8 +136,8 @@ def damage_bound(
     """Bound the damage of one pass and the largest equivalent range, both (n,).
 
     ``stress_range`` (n,) [MPa] and ``power_sums`` (p, n) [MPa^q] bound range and sum n S^q, q = 1 ... p; ``size`` (n,)
-    is that of `rainflow.count_block`. The bound of the damage is infinite for a law with a slope below 1, for which there
-    is none. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
+    is that of `rainflow.count_block`. The bound of the damage is infinite for a law with a slope below 1, for which
+    there is none. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
     """
     g = size / (ratio_factor(np.zeros(())) if uses_bending_ratio else 1.0)
     largest = g * stress_range

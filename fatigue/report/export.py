@@ -130,8 +130,8 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
 def write_csv(folder: Path) -> list[Path]:
     """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
 
-    They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text that
-    a spreadsheet would take for a formula gets an apostrophe before it.
+    They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
+    that a spreadsheet would take for a formula gets an apostrophe before it.
 
     Raises
     ------

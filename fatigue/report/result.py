@@ -96,12 +96,6 @@ def read_result(folder: Path, most_detailed: int) -> Result:
     return Result(record, welds, nodes, detailed, damage, cycles, folder)
 
 
-def optional_table(folder: Path, name: str) -> pd.DataFrame | None:
-    """Read a table that not every result has; None where it is not there."""
-    path = folder / f"{name}.parquet"
-    return pq.read_table(path).to_pandas() if path.is_file() else None
-
-
 def _rows(folder: Path, table: str, welds: Sequence[str], columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Read the rows of some welds only: the whole table may not fit into memory."""
     read_table(folder, table, ["weld"])  # refuses a table that is missing or damaged

@@ -293,13 +293,32 @@ def test_excluded_welds_keep_their_row_and_their_reason(tmp_path):
     """An excluded weld is in the register and nowhere among the results."""
     folder = write_result(tmp_path)
     welds = pd.read_parquet(folder / "welds.parquet")
-    excluded = {name: None for name in welds.columns} | {
-        "weld": "W9", "status": "excluded", "reason": "solid elements", "description": "", "closed": False, "parts": 0,
-        "nodes": 0, "surface": "both", "fulfilled": False,
-    }  # fmt: skip
+    excluded = dict.fromkeys(welds.columns) | {
+        "weld": "W9",
+        "status": "excluded",
+        "reason": "solid elements",
+        "description": "",
+        "closed": False,
+        "parts": 0,
+        "nodes": 0,
+        "surface": "both",
+        "fulfilled": False,
+    }
     pd.concat([welds, pd.DataFrame([excluded])]).to_parquet(folder / "welds.parquet")
     page = Page(report_page(folder))
     row = next(row for row in page.tables["weld-register"] if row[0] == "W9")
     assert "excluded: solid elements" in row
     assert "1 of 2 welds misses" in page.words
-    assert "1 welds are excluded" in page.words
+    assert "1 weld is excluded" in page.words
+
+
+def test_the_body_is_drawn_when_the_case_names_its_mesh(tmp_path, page):
+    """Shaded and with its outline in space, as lines on paper; without a mesh only the weld lines are drawn."""
+    folder = write_result(tmp_path, Recipe(mesh=True))
+    page_with_body = Page(report_page(folder))
+    assert [trace["name"] for trace in page_with_body.figures["scene"]["data"]] == ["body", "outline", "weld lines"]
+    assert len(page_with_body.figures["views"]["data"]) == len(page.figures["views"]["data"]) + 2
+    (tmp_path / "elements.csv").unlink()
+    without = Page(report_page(folder))
+    assert "elements.csv: is not there any more" in without.words
+    assert [trace["name"] for trace in without.figures["scene"]["data"]] == ["weld lines"]

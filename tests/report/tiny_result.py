@@ -37,6 +37,7 @@ class Recipe:
     toes: str = "both"
     warnings: tuple[dict[str, str], ...] = ()
     spectrum: bool = True
+    mesh: bool = False
 
 
 def write_result(root: Path, recipe: Recipe = Recipe()) -> Path:
@@ -289,6 +290,11 @@ def _write_inputs(root, recipe):
         }
         pq.write_table(pa.table({"time_s": time, **q}), root / f"q_{e}.parquet")
         files.append(root / f"q_{e}.parquet")
+    if recipe.mesh:  # two quadrilaterals, at right angles
+        nodes = ["1,0,0,0", "2,1000,0,0", "3,1000,200,0", "4,0,200,0", "5,1000,0,300", "6,0,0,300"]
+        (root / "nodes.csv").write_text("\n".join(["node,x_mm,y_mm,z_mm", *nodes]) + "\n")
+        (root / "elements.csv").write_text("element,n1,n2,n3,n4\n1,1,2,3,4\n2,1,2,5,6\n")
+        files += [root / "nodes.csv", root / "elements.csv"]
     case = root / "case.toml"
     case.write_text(_case_text(recipe), encoding="utf-8")
     files.append(case)
@@ -308,7 +314,8 @@ def _case_text(recipe):
         f"title = {text(recipe.title)}\n"
         '[body]\nmodes = "modes.csv"\nwelds = "welds.csv"\nweld_nodes = "weld_nodes.csv"\n'
         'nodal_forces = "nodal_forces.parquet"\nforce_convention = "on_element"\n'
-        f'[curve]\nname = "{CURVE}"\nsurvival = "mean-2sigma"\n[spectrum]\nsegment_s = 2.0\n'
+        + ('nodes = "nodes.csv"\nelements = "elements.csv"\n' if recipe.mesh else "")
+        + f'[curve]\nname = "{CURVE}"\nsurvival = "mean-2sigma"\n[spectrum]\nsegment_s = 2.0\n'
         f"[mission]\ntarget_km = {TARGET_KM!r}\nkm_per_year = {KM_PER_YEAR!r}\n{events}"
     )
 

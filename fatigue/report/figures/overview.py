@@ -173,7 +173,7 @@ def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> go
     """Bars of shares, the first on top; a negative one relieves."""
     rows = list(range(len(labels)))
     low, high = min(0.0, float(np.min(values, initial=0.0))), max(0.0, float(np.max(values, initial=0.0)))
-    room = 0.18 * max(high - low, 1e-9)
+    room = 0.2 * max(high - low, 1e-9)  # for the numbers beside the bars
     data = [
         {
             "type": "bar",
@@ -187,7 +187,7 @@ def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> go
             "hoverinfo": "skip",
         }
     ]
-    limits = [low - (room if low < 0.0 else 0.0), high + room]
+    limits = [low - (1.5 * room if low < 0.0 else 0.0), high + room]
     return figure(
         data,
         height=80 + 24 * max(len(labels), 2),
