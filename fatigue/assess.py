@@ -87,7 +87,7 @@ def assess(
         check_forces(groups)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            loads = event_loads(groups)
+            loads = event_loads(groups, plan)
             done = Tally(total=sum(len(line.node) for line in body.lines) * len(loads), progress=progress)
             unpublished = state.folder / "tables"
             with workers(threads) as executor, result_tables(unpublished) as tables:
@@ -99,7 +99,7 @@ def assess(
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
             warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
-            write_json(unpublished / "provenance.json", provenance_record(body, plan, folder, inputs, warnings))
+            write_json(unpublished / "provenance.json", provenance_record(body, plan, loads, folder, inputs, warnings))
             if report:
                 write_vtp(unpublished)
                 write_report(unpublished, case.path)

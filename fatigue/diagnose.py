@@ -75,7 +75,7 @@ def diagnose(
         chosen, worst, which = choose_points(folder, body.case, plan, share_of_limit)
         log.info("diagnosing %s", which)
         groups = weld_groups(body, staging / "forces")
-        points, loads = gather_points(folder, groups, chosen), event_loads(groups)
+        points, loads = gather_points(folder, groups, chosen), event_loads(groups, plan)
 
         events: list[EventAttribution] = []
         for load, one_pass in zip(loads, plan.passes, strict=True):

@@ -1,6 +1,7 @@
 """The whole path on small cases: closed forms, bytes, resume, and what must never be overwritten."""
 
 import hashlib
+import json
 import os
 import signal
 import subprocess
@@ -221,6 +222,16 @@ def test_groups_of_welds_do_not_change_a_number(tmp_path, small_result, monkeypa
         key = [c for c in ("weld", "part", "order", "surface", "event", "mode", "start_s", "end_s") if c in whole]
         cut, whole = (t.sort_values(key, kind="stable").reset_index(drop=True) for t in (cut, whole))
         pd.testing.assert_frame_equal(cut, whole, rtol=1e-12)
+
+
+def test_large_jobs_count_in_single_precision_and_say_so(tmp_path, small_result, monkeypatch):
+    """Above the limit the fast kernel counts; lives agree to 1e-6 and the record names the precision."""
+    monkeypatch.setattr("fatigue.pipeline.events.DOUBLE_PRECISION_SAMPLES", 0.0)
+    assess(load_case(small_case().write(tmp_path / "case")), tmp_path / "result")
+    single, double = (pd.read_parquet(f / "nodes.parquet") for f in (tmp_path / "result", small_result))
+    assert single.life_km.to_numpy() == pytest.approx(double.life_km.to_numpy(), rel=1e-6)
+    for folder, word in ((tmp_path / "result", "single"), (small_result, "double")):
+        assert json.loads((folder / "provenance.json").read_text())["rules"]["precision"].startswith(word)
 
 
 def test_a_mistake_in_the_forces_of_the_last_group_is_refused_at_once(tmp_path, monkeypatch):

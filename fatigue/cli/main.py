@@ -285,6 +285,26 @@ def example(folder: Path, force: bool) -> None:
 
 
 @cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--nodes", type=click.IntRange(min=10), default=10_000, show_default=True, help="Weld nodes.")
+@click.option("--modes", type=click.IntRange(min=2), default=60, show_default=True, help="Modes.")
+@click.option("--events", type=click.IntRange(min=1), default=3, show_default=True, help="Events.")
+@click.option("--seconds", type=float, default=60.0, show_default=True, help="Length of a record [s].")
+@click.option("--rate", type=float, default=250.0, show_default=True, help="Sampling rate [Hz].")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is drawn.")
+def synth(folder: Path, nodes: int, modes: int, events: int, seconds: float, rate: float, seed: int) -> None:
+    """Write a synthetic case of any size, with a realistic spread of stress levels, to try or time the program on.
+
+    \b
+    Example:
+      fatigue synth big --nodes 100000 --modes 100 --events 12
+    """
+    from fatigue.synth import Size, synthesize
+
+    click.echo(synthesize(folder, Size(nodes, modes, events, seconds, rate), seed))
+
+
+@cli.command()
 def schema() -> None:
     """Print the JSON Schema of case.toml, for editors that complete and check it.
 

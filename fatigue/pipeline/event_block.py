@@ -10,6 +10,7 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage, ratio_factor, shear_factor
 from fatigue.life.history import ModalHistory, Residue, upsampled
 from fatigue.life.rainflow import BlockCount, count_block
+from fatigue.life.rainflow_fast import Record, count_block_fast, is_fast, record_of
 from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnose, diagnosis_matrices
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, point_moments
@@ -42,6 +43,7 @@ class EventLoad:
     Attributes
     ----------
     counted : the kept record, upsampled as asked, on which cycles are counted
+    single : the same prepared for the kernel in single precision; None: count in double precision
     residue : how the rest of the count is closed
     stress_factor : partial or allowance factor on all stresses of the event
     duration : duration of one pass [s]
@@ -52,6 +54,7 @@ class EventLoad:
     """
 
     counted: ModalHistory
+    single: Record | None
     residue: Residue
     stress_factor: float
     duration: float
@@ -100,15 +103,19 @@ def prepare_event(
     upsample: int,
     spectra: Spectra | None,
     top_mode_hz: float | None,
+    *,
+    single: bool = False,
 ) -> EventLoad:
-    """Compute once per event what all stations share, from its kept record."""
+    """Compute once per event what all stations share, from its kept record; ``single``: for the fast kernel."""
     q = history.q.astype(np.float64)
     centred = q - q[:, :1]  # from the first sample, so that a record at rest has exactly no variance
     offset = centred.mean(axis=1)
     mean = q[:, 0] + offset
     centred -= offset[:, None]
+    counted = upsampled(history, upsample, residue)
     return EventLoad(
-        counted=upsampled(history, upsample, residue),
+        counted=counted,
+        single=record_of(counted.q) if single else None,
         residue=residue,
         stress_factor=stress_factor,
         duration=history.duration,
@@ -177,6 +184,19 @@ def _superpose_and_count(
     mean_stress: bool,
 ) -> BlockCount:
     """Recover membrane and bending histories a few rows at a time and count them; histories are never kept."""
+    if load.single is not None and is_fast(shapes.law, load.single):
+        return count_block_fast(
+            S_m,
+            S_b,
+            load.single,
+            shapes.size,
+            one_ratio,
+            shapes.law,
+            uses_bending_ratio=shapes.uses_bending_ratio,
+            residue=load.residue,
+            yield_MPa=yield_MPa,
+            mean_stress=mean_stress,
+        )
     q = load.counted.q.astype(np.float64, copy=False)
     rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # depends on the record only: the bytes do not depend on the machine
     pieces = []

@@ -28,6 +28,7 @@ log = logging.getLogger(__name__)
 FEW_SEGMENTS = 8  # below, the spectrum is an estimate from too little
 SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
 LARGEST_UPSAMPLE = 64
+DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (1e-7 of damage)
 
 
 def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
@@ -56,15 +57,21 @@ def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def event_loads(groups: WeldGroups) -> tuple[EventLoad, ...]:
+def event_loads(groups: WeldGroups, plan: Plan) -> tuple[EventLoad, ...]:
     """Read the records of all events and compute what all stations share; they stay in memory while welds stream by."""
     body, events = groups.body, groups.body.case.mission.event
     factor = body.case.counting.upsample
     factors = _automatic_factors(groups) if factor == "auto" else [factor] * len(events)
-    return tuple(event_load(body, event, upsample) for event, upsample in zip(events, factors, strict=True))
+    stations = sum(len(line.node) for line in body.lines)
+    samples = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
+    single = 2 * stations * samples > DOUBLE_PRECISION_SAMPLES
+    log.info("cycles are counted in %s precision", "single" if single else "double")
+    return tuple(
+        event_load(body, event, upsample, single=single) for event, upsample in zip(events, factors, strict=True)
+    )
 
 
-def event_load(body: Body, event: Event, upsample: int) -> EventLoad:
+def event_load(body: Body, event: Event, upsample: int, *, single: bool = False) -> EventLoad:
     """Read the record of one event and compute what all stations share."""
     history, _ = _record(body, event)
     if upsample > 1:
@@ -73,7 +80,9 @@ def event_load(body: Body, event: Event, upsample: int) -> EventLoad:
         with np.errstate(over="raise"):
             spectra = event_spectra(body, history)
             residue = body.case.residue(event)
-            return prepare_event(history, residue, event.stress_factor, upsample, spectra, top_mode_hz(body))
+            return prepare_event(
+                history, residue, event.stress_factor, upsample, spectra, top_mode_hz(body), single=single
+            )
     except FloatingPointError:
         problem = Problem(
             "overflow",

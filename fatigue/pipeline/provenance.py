@@ -9,6 +9,7 @@ from typing import Any
 from fatigue.errors import Problem
 from fatigue.life.mission import Plan
 from fatigue.pipeline.body import Body
+from fatigue.pipeline.event_block import EventLoad
 from fatigue.pipeline.folder import OUTPUTS
 from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.results import software_versions
@@ -20,7 +21,12 @@ RESIDUE_RULES = {
 
 
 def provenance_record(
-    body: Body, plan: Plan, folder: Path, inputs: Sequence[dict[str, Any]], warnings: Sequence[Problem]
+    body: Body,
+    plan: Plan,
+    loads: Sequence[EventLoad],
+    folder: Path,
+    inputs: Sequence[dict[str, Any]],
+    warnings: Sequence[Problem],
 ) -> dict[str, Any]:
     """Collect what an assessor needs to trace or repeat a result; the same inputs give the same record.
 
@@ -55,6 +61,7 @@ def provenance_record(
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
             "upsample": case.counting.upsample,
+            "precision": "double" if loads[0].single is None else "single, doubtful points in double",
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,

@@ -107,6 +107,6 @@ def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
     case.counting["upsample"] = "auto"
     case.spectrum["segment_s"] = 2.0
     body = body_of(case, tmp_path / "case")
-    loads = event_loads(weld_groups(body, tmp_path / "scratch"))
+    loads = event_loads(weld_groups(body, tmp_path / "scratch"), mission_plan(body)[0])
     assert loads[0].counted.step == pytest.approx(0.01)
     assert loads[2].counted.step == pytest.approx(1.0)
