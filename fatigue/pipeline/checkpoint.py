@@ -20,6 +20,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.pipeline.event_block import EventBlock
 
 _FOLDER = ".fatigue-state"
+_NUMBERS = tuple(f.name for f in fields(EventBlock) if f.name not in ("verdict", "histogram"))
 
 
 def state_key(record: Mapping[str, Any]) -> str:
@@ -66,12 +67,14 @@ class Checkpoint:
     def load(self, part: str) -> EventBlock:
         """Read a finished part; its checksums are tested on the way."""
         with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return EventBlock(**{f.name: arrays[f.name] for f in fields(EventBlock)})
+            numbers = dict(zip(_NUMBERS, arrays["numbers"], strict=True))
+            return EventBlock(**numbers, verdict=arrays["verdict"], histogram=arrays["histogram"])
 
     def save(self, part: str, result: EventBlock) -> None:
         """Write a finished part so that it survives a kill or a power cut at any moment."""
         with replacing(self._path(part)) as unfinished, unfinished.open("wb") as file:
-            np.savez(file, **{f.name: getattr(result, f.name) for f in fields(EventBlock)})
+            numbers = np.stack([getattr(result, name) for name in _NUMBERS])  # one array: its header is read but once
+            np.savez(file, numbers=numbers, verdict=result.verdict, histogram=result.histogram)
 
     def _path(self, part: str) -> Path:
         return self.folder / f"{part}.npz"

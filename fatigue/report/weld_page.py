@@ -16,7 +16,7 @@ from fatigue.report.tables import Table
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
 from fatigue.report.why import Why, band_shares, exponents, mode_shares
 
-SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED = 6, 8, 4
+SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED, EVENTS_LISTED = 6, 8, 4, 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,7 @@ class WeldPage:
     point: list[Shown]
     variants: Table
     events: Table
+    events_left_out: int
     levers: Table | None
     reasons: list[tuple[str, str, str]]
     exponents: Mapping[str, float]
@@ -70,8 +71,9 @@ def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None,
             float(result.record["mission"]["km_per_year"]),
         ),
         events=weld_tables.event_table(
-            f"{id_}-events", result.damage[result.damage["weld"] == weld], result.passes_per_km
+            f"{id_}-events", result.damage[result.damage["weld"] == weld], result.passes_per_km, EVENTS_LISTED
         ),
+        events_left_out=max(0, len(result.events) - EVENTS_LISTED),
         levers=None if why is None or why.levers.empty else weld_tables.lever_table(f"{id_}-levers", why.levers),
         reasons=[] if why is None else why.reasons(),
         exponents={} if why is None else exponents(why),

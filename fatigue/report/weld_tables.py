@@ -55,10 +55,13 @@ def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year:
     return Table(id_, headings, tuple(rows))
 
 
-def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, float]) -> Table:
-    """List the events at one point; ``damage`` has the columns of the table of damage."""
+def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, float], most: int) -> Table:
+    """List the events at one point, of many those that damage most; ``damage`` are rows of the table of damage."""
     weighted = damage["damage_per_pass"] * damage["event"].map(passes_per_km)
     total = weighted.sum()
+    if len(damage) > most:
+        weighted = weighted.sort_values(ascending=False, kind="stable").head(most)
+        damage = damage.loc[weighted.index]
     ratio = damage["damage_dirlik_per_pass"] / damage["damage_same_ratio_per_pass"].replace(0.0, np.nan)
     rows = tuple(
         (

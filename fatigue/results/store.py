@@ -65,7 +65,10 @@ class TableWriter:
 @contextmanager
 def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
     """Open ``<table>.parquet`` in a folder for writing, piece by piece."""
-    with pq.ParquetWriter(folder / f"{table}.parquet", schema(table), compression="zstd") as writer:
+    texts = [c.name for c in TABLES[table] if c.type == "text"]
+    numbers = {c.name: "BYTE_STREAM_SPLIT" for c in TABLES[table] if c.type == "float"}
+    options = {"compression": "zstd", "use_dictionary": texts, "column_encoding": numbers}
+    with pq.ParquetWriter(folder / f"{table}.parquet", schema(table), **options) as writer:
         pieces = TableWriter(table, writer)
         yield pieces
         pieces.flush()

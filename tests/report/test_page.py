@@ -322,3 +322,12 @@ def test_the_body_is_drawn_when_the_case_names_its_mesh(tmp_path, page):
     without = Page(report_page(folder))
     assert "elements.csv: is not there any more" in without.words
     assert [trace["name"] for trace in without.figures["scene"]["data"]] == ["weld lines"]
+
+
+def test_of_many_events_those_that_damage_most_are_listed(tmp_path):
+    """Twenty rows for a point, the leading event first, and how many are not listed."""
+    page = made(tmp_path, welds=("W1",), stations=1, events=tuple(f"event {i}" for i in range(23)))
+    rows = page.tables["weld-1-events"][1:]
+    assert len(rows) == 20
+    assert rows[0][0] == "event 0"
+    assert "3 others are in damage.parquet" in page.words

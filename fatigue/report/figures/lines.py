@@ -67,7 +67,8 @@ def along_weld(
             }
         )
     worst = points.loc[points["utilisation"].where(points["toe"], -1.0).idxmax()]
-    data.append(_worst(worst, place[((top["part"] == worst["part"]) & (top["order"] == worst["order"])).argmax()]))
+    at = int(((top["part"] == worst["part"]) & (top["order"] == worst["order"])).argmax())
+    data.append(_worst(worst, float(place[at]), float(place[at] / max(place[-1], 1.0))))
     stress_title = "largest range [MPa]" if stress is None else "std of stress [MPa]"
     place_title = "arc length [mm]" + (f"; stresses in event {event}" if stress else "")
     margin = 0.02 * max(float(np.ptp(place)), 1.0)
@@ -121,11 +122,13 @@ def _face(
     return lines
 
 
-def _worst(worst: pd.Series, place: float) -> Trace:
-    """Circle around the worst point, with its life."""
+def _worst(worst: pd.Series, place: float, along: float) -> Trace:
+    """Circle around the worst point, with its life; the text keeps within the figure, ``along`` from 0 to 1 of it."""
+    level = "bottom" if worst["life_km"] > 1e11 else "top"
+    side = "right" if along < 0.1 else "left" if along > 0.9 else "center"
     return {
         "type": "scatter",
-        "x": [float(place)],
+        "x": [place],
         "y": drawn_life([worst["life_km"]]),
         "mode": "markers+text",
         "name": "worst point",
@@ -136,7 +139,7 @@ def _worst(worst: pd.Series, place: float) -> Trace:
             "line": {"width": 2},
         },
         "text": [f"{number(worst['life_km'])} km"],
-        "textposition": "bottom center" if worst["life_km"] > 1e11 else "top center",
+        "textposition": f"{level} {side}",
         "hoverinfo": "skip",
         "cliponaxis": False,
     }
