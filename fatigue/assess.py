@@ -7,6 +7,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +57,7 @@ def assess(
     strict: bool = False,
     force: bool = False,
     report: bool = True,
+    verification: Sequence[Mapping[str, Any]] = (),
     progress: Progress = lambda label, done, total: None,
 ) -> Assessment:
     """Fatigue life, in km, of every point of every weld of one flexible body.
@@ -68,6 +70,7 @@ def assess(
     strict : take unknown columns in the tables for errors
     force : overwrite files that fatigue did not write
     report : write the report and the ParaView file as well
+    verification : checks of the program to show in the report, as ``fatigue.verify`` gives them
     progress : called with a label, blocks done and blocks in all
 
     Raises
@@ -102,7 +105,7 @@ def assess(
             write_json(unpublished / "provenance.json", provenance_record(body, plan, loads, folder, inputs, warnings))
             if report:
                 write_vtp(unpublished)
-                write_report(unpublished, case.path)
+                write_report(unpublished, case.path, verification)
             publish(unpublished, folder)
             log.info("the result is complete")
     return Assessment(folder, done.fulfilled, warnings, done.blocks, state.reused)

@@ -3,7 +3,7 @@
 import json
 import logging
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 from fatigue import __version__
-from fatigue.errors import FatigueError, Problem
+from fatigue.errors import DataError, FatigueError, Problem
 
 log = logging.getLogger("fatigue")
 
@@ -111,7 +111,16 @@ def assess(
 
     case = load_case(case_file)
     with _progress(quiet=options["quiet"]) as progress:
-        done = run(case, output, threads=threads, strict=strict, force=force, report=not no_report, progress=progress)
+        done = run(
+            case,
+            output,
+            threads=threads,
+            strict=strict,
+            force=force,
+            report=not no_report,
+            verification=() if no_report else _verification(),
+            progress=progress,
+        )
     _print_warnings(done.warnings)
     found = result_summary(output, top=10)
     if as_json:
@@ -149,21 +158,27 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
 @click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (needs the extra `excel`).")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
-def report(folder: Path, pdf: bool, xlsx: bool, csv: bool) -> None:
+@click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
+def report(folder: Path, pdf: bool, xlsx: bool, csv: bool, force: bool) -> None:
     """Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
 
     \b
     Example:
       fatigue report result --pdf --xlsx
     """
-    from fatigue.report.export import write_csv, write_xlsx
+    from fatigue.report.export import CSV_TABLES, write_csv, write_xlsx
     from fatigue.report.page import write_report
     from fatigue.report.pdf import print_pdf
     from fatigue.report.vtp import write_vtp
     from fatigue.results import read_provenance
 
     record = read_provenance(folder)
-    html = write_report(folder, folder / record["case_path"])
+    asked = {"nodes.xlsx": xlsx, "report.pdf": pdf} | {f"{table}.csv": csv for table in CSV_TABLES}
+    taken = [name for name, wanted in asked.items() if wanted and (folder / name).exists()]
+    if taken and not force:
+        what, remedy = "is there already", "Use --force to write it again"
+        raise DataError(Problem("foreign_files", str(folder / taken[0]), what, remedy))
+    html = write_report(folder, folder / record["case_path"], _verification())
     written = [html, write_vtp(folder)]
     if xlsx:
         written.append(write_xlsx(folder))
@@ -203,13 +218,15 @@ def diagnose(
 ) -> None:
     """Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
 
-    Writes attribution, track, diagnosis and levers tables into DIR.
+    Writes attribution, track, diagnosis and levers tables into DIR and shows them in its report.
 
     \b
     Example:
-      fatigue diagnose result && fatigue report result
+      fatigue diagnose result
     """
     from fatigue.diagnose import diagnose as run
+    from fatigue.report.page import write_report
+    from fatigue.results import read_provenance
 
     edges_hz = None if edges is None else _numbers(edges, "--edges")
     with _progress(quiet=options["quiet"]) as progress:
@@ -221,6 +238,8 @@ def diagnose(
             bin_km=bin_km,
             progress=progress,
         )
+    if (folder / "report.html").exists():
+        write_report(folder, case_file or folder / read_provenance(folder)["case_path"], _verification())
     if as_json:
         print_json(found.as_record())
     else:
@@ -315,6 +334,14 @@ def schema() -> None:
     from fatigue.case import case_schema
 
     print_json(case_schema())
+
+
+def _verification() -> Sequence[Mapping[str, Any]]:
+    """Compute the known values that the report shows beside what they should be."""
+    from fatigue.verify.table import verification_table
+
+    checks: Sequence[Mapping[str, Any]] = verification_table().as_record()["checks"]
+    return checks
 
 
 def _numbers(text: str, option: str) -> tuple[float, ...]:

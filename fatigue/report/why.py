@@ -57,8 +57,12 @@ def mode_shares(why: Why) -> pd.DataFrame:
 
 
 def band_shares(why: Why) -> pd.DataFrame:
-    """Share of each frequency band in the damage over all events: ``low_hz``, ``high_hz`` (NaN: no end), ``share``."""
+    """Share of each frequency band in the damage over all events: ``low_hz``, ``high_hz`` (NaN: no end), ``share``.
+
+    Events too short for bands, which have one band without ends, are left out.
+    """
     bands = why.attribution[why.attribution["kind"] == "band"]
+    bands = bands[(bands["low_hz"] > 0.0) | bands["high_hz"].notna()]
     return bands.groupby(["low_hz", "high_hz"], dropna=False, sort=True)["share"].sum().reset_index()
 
 

@@ -37,7 +37,12 @@ NODES = (
     Column("life_years", "float", "a", "life_km / km_per_year of the mission"),
     Column("utilisation", "float", "-", "Miner sum at target_km / damage limit"),
     Column("fulfilled", "flag", "-", "utilisation <= 1"),
-    Column("load_factor", "float", "-", "scale on all stresses that just meets the target, at unchanged mean-stress factors"),
+    Column(
+        "load_factor",
+        "float",
+        "-",
+        "scale on all stresses that just meets the target, at unchanged mean-stress factors",
+    ),
     Column(
         "life_km_dirlik",
         "float",
