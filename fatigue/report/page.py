@@ -82,6 +82,7 @@ def report_page(folder: Path, case_path: Path | None = None, verification: Seque
         "checks": recomputed(result),
         "verification": tables.verification_table(verification),
         "inputs": tables.input_table(record["inputs"]),
+        "audit": tables.audit_table(record.get("conversion")),
         "config": embedded(figures.CONFIG),
         "template": embedded(figures.TEMPLATE.to_plotly_json()),
         "plotly": Markup(get_plotlyjs()),

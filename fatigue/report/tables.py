@@ -240,6 +240,18 @@ def input_table(inputs: Sequence[Mapping[str, Any]]) -> Table:
     return Table("inputs", (Heading("file", numeric=False), Heading("size"), Heading("SHA-256", numeric=False)), rows)
 
 
+def audit_table(conversion: Mapping[str, Any] | None) -> Table | None:
+    """List what the conversion of foreign files found of signs, balance and completeness; None without a conversion."""
+    if conversion is None:
+        return None
+    rows = tuple(
+        (text(row["check"]), text(row["light"]), num(row["value"]), text(row["finding"]), text(row["remedy"]))
+        for row in conversion["audit"]
+    )
+    words = tuple(Heading(name, numeric=name == "value") for name in ("check", "light", "value", "finding", "remedy"))
+    return Table("audit", words, rows)
+
+
 def verification_table(checks: Sequence[Mapping[str, Any]]) -> Table | None:
     """List the checks of the installed program against known answers; None where none was made."""
     if not checks:

@@ -289,6 +289,19 @@ def test_the_verification_table_is_shown_where_it_was_made(result_folder, page):
     assert "verification" not in page.tables
 
 
+def test_the_audit_of_converted_files_is_shown(tmp_path, page):
+    """Lights, numbers and remedies of the conversion, and the sign it took; nothing of it without a conversion."""
+    folder = write_result(tmp_path, Recipe())
+    record = json.loads((folder / "provenance.json").read_text())
+    row = {"check": "sign", "light": "amber", "value": -0.98, "finding": "forces <on> node", "remedy": "State it"}
+    record["conversion"] = {"convention": "on_node", "audit": [row], "inputs": {}, "remarks": []}
+    (folder / "provenance.json").write_text(json.dumps(record))
+    shown = Page(report_page(folder))
+    assert shown.tables["audit"][-1] == ["sign", "amber", "−0.9800", "forces <on> node", "State it"]
+    assert "Forces were taken as on_node." in shown.words
+    assert "audit" not in page.tables
+
+
 def test_excluded_welds_keep_their_row_and_their_reason(tmp_path):
     """An excluded weld is in the register and nowhere among the results."""
     folder = write_result(tmp_path)
