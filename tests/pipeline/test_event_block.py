@@ -2,6 +2,7 @@
 
 from dataclasses import fields
 
+import numba
 import numpy as np
 import pytest
 import scipy.signal
@@ -149,6 +150,7 @@ def test_plain_structural_curves_do_not_use_the_bending_ratio():
     assert found.histogram[..., 0].sum(axis=-1) == pytest.approx(found.cycles, rel=1e-12)
 
 
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="the kernel of large jobs exists in compiled form only")
 @pytest.mark.parametrize("residue", ["repeat", "half"])
 def test_the_kernel_of_large_jobs_gives_the_same_block(residue):
     """Single precision with its doubts recounted: every field within the 1e-6 that results promise."""
