@@ -2,12 +2,15 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from tests.readers.op2_writer import modal_op2
+from tests.readers.test_audit import static_results
 from tests.test_cli import assess, fatigue
 
 NASTRAN = Path(__file__).parents[1] / "data" / "nastran"
@@ -112,3 +115,16 @@ def test_welds_lists_writes_and_pictures_the_lines(tmp_path):
     assert "the file exists" in again.stderr
     listed = json.loads(fatigue("welds", NASTRAN / f"{WING}.bdf", "--only", "p3a", "--json").stdout)
     assert {row["nodes"] for row in listed} == {33}
+
+
+@pytest.mark.parametrize(("sign", "convention"), [(1, "on_element"), (-1, "on_node")])
+def test_the_tension_patch_tells_the_sign_of_a_solver(tmp_path, sign, convention):
+    """The deck is written once; the solver's forces of it answer with the line for the case."""
+    deck = tmp_path / "patch.bdf"
+    assert fatigue("tension-patch", deck).returncode == 0
+    assert "CQUAD4,1,1,1,2,3,4" in deck.read_text()
+    assert "is there already" in fatigue("tension-patch", deck).stderr
+    solved = replace(static_results(sign), frequency=np.array([1.0]), modal_mass=np.array([1.0]))
+    (tmp_path / "patch.op2").write_bytes(modal_op2(solved))
+    done = fatigue("tension-patch", tmp_path / "patch.op2", "--results")
+    assert done.stdout == f'force_convention = "{convention}"\n'

@@ -240,3 +240,30 @@ def welds(
         click.echo(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {row.weld}{reason}")
     for problem in found.remarks:
         click.echo(f"note: {problem}", err=True)
+
+
+@cli.command("tension-patch")
+@click.argument("file", metavar="FILE", type=_FILE)
+@click.option(
+    "--results", is_flag=True, help="FILE holds the grid point forces of the patch: tell their sign."
+)
+@click.option("--force", is_flag=True, help="Overwrite an existing deck.")
+def tension_patch(file: Path, results: bool, force: bool) -> None:
+    """Find the sign of a solver's forces: write a one-element tension patch to FILE, run it, and give its results.
+
+    \b
+    Examples:
+      fatigue tension-patch patch.bdf
+      fatigue tension-patch patch.op2 --results
+    """
+    from fatigue.errors import DataError, Problem
+    from fatigue.readers.formats import read_forces
+    from fatigue.readers.tension_patch import DECK, convention_of
+
+    if results:
+        click.echo(f'force_convention = "{convention_of(read_forces(file, None))}"')
+        return
+    if file.exists() and not force:
+        raise DataError(Problem("foreign_file", str(file), "is there already", "Use --force to overwrite it"))
+    file.write_text(DECK, encoding="ascii")
+    click.echo(f"{file}: run it in your solver, then fatigue tension-patch RESULTS --results")
