@@ -244,9 +244,7 @@ def welds(
 
 @cli.command("tension-patch")
 @click.argument("file", metavar="FILE", type=_FILE)
-@click.option(
-    "--results", is_flag=True, help="FILE holds the grid point forces of the patch: tell their sign."
-)
+@click.option("--results", is_flag=True, help="FILE holds the grid point forces of the patch: tell their sign.")
 @click.option("--force", is_flag=True, help="Overwrite an existing deck.")
 def tension_patch(file: Path, results: bool, force: bool) -> None:
     """Find the sign of a solver's forces: write a one-element tension patch to FILE, run it, and give its results.
