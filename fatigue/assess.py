@@ -30,12 +30,11 @@ from fatigue.pipeline.stations import BLOCK, Block, cut_blocks, shapes_of
 from fatigue.report.page import write_report
 from fatigue.report.vtp import write_vtp
 from fatigue.results import TableWriter, input_register, result_tables, software_versions, write_json
+from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
 
 log = logging.getLogger(__name__)
 
 Progress = Callable[[str, int, int], None]
-
-SAMPLES_PER_PEAK = 10.0  # below, cycles are cut short by the sampling
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -223,21 +222,18 @@ def write_group(
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
-    """Tell which records are sampled too coarsely for their points, and what damage that hides.
-
-    A peak cut short by sampling loses ``k (pi nu_p / f_s)^2 / 6`` of its damage on average.
-    """
+    """Tell which records are sampled too coarsely for their points, and what damage that hides."""
     slope = max(float(rated.law.slopes[0]) for rated in body.curves.values())
     return [
         Problem(
             "sampling",
             f"event '{event}'",
             f"{samples:.1f} samples per peak at the fastest point, damage there is about "
-            f"{100 * slope * (np.pi / samples) ** 2 / 6:.0f} % low",
+            f"{100 * float(sampling_loss(np.array(samples), slope)):.0f} % low",
             'Set upsample = "auto" in [counting], or sample the simulation more finely',
         )
         for event, samples in done.samples_per_peak.items()
-        if samples < SAMPLES_PER_PEAK
+        if samples < FEW_SAMPLES_PER_PEAK
     ]
 
 

@@ -11,6 +11,7 @@ from fatigue.life.damage import cycle_damage, ratio_factor, shear_factor
 from fatigue.life.history import ModalHistory, Residue, upsampled
 from fatigue.life.rainflow import BlockCount, count_block
 from fatigue.life.rainflow_fast import Record, count_block_fast, is_fast, record_of
+from fatigue.quotient import quotient
 from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnose, diagnosis_matrices
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, point_moments
@@ -139,7 +140,7 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
     shear = _faces(f * shapes.in_plane_shear, f * shapes.twist_shear)
 
     std_m, std_b = np.sqrt(_quadratic(S_m, C, S_m)), np.sqrt(_quadratic(S_b, C, S_b))
-    bending_ratio = np.repeat(_quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
+    bending_ratio = np.repeat(quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
     one_ratio = np.nan_to_num(bending_ratio)  # where nothing varies there is nothing to count either
     counted = _superpose_and_count(S_m, S_b, one_ratio, shapes, load, yield_MPa, mean_stress)
 
@@ -165,7 +166,7 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
         mean=stress @ load.mean,
         kurtosis=counted.kurtosis,
         bending_ratio=bending_ratio,
-        shear_ratio=_quotient(np.sqrt(shear_var), np.sqrt(var)),
+        shear_ratio=quotient(np.sqrt(shear_var), np.sqrt(var)),
         irregularity=spectral.irregularity,
         peaks_per_s=spectral.peaks_per_s,
         samples_per_peak=spectral.samples_per_peak,
@@ -246,8 +247,8 @@ def _frequency_domain(
     dirlik = load.duration * dirlik_damage_rate(equivalent, law)
     tb = load.duration * tovo_benasciutti_damage_rate(equivalent, law)
     m0, _, m2, m4 = moments
-    peaks_per_s = np.sqrt(_quotient(m4, m2))
-    samples_per_peak = _quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s)
+    peaks_per_s = np.sqrt(quotient(m4, m2))
+    samples_per_peak = quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s)
 
     same_ratio, damage = counted.damage_same_ratio.reshape(-1), counted.damage.reshape(-1)
     judged = diagnose(
@@ -255,17 +256,17 @@ def _frequency_domain(
         moments,
         load.diagnosis,
         slope=float(law.slopes[0]),
-        dirlik_ratio=_quotient(dirlik, same_ratio),
-        tb_ratio=_quotient(tb, same_ratio),
+        dirlik_ratio=quotient(dirlik, same_ratio),
+        tb_ratio=quotient(tb, same_ratio),
         kurtosis=counted.kurtosis.reshape(-1),
-        top_cycle_share=_quotient(cycle_damage(counted.max_equivalent_range.reshape(-1), law), damage),
+        top_cycle_share=quotient(cycle_damage(counted.max_equivalent_range.reshape(-1), law), damage),
         samples_per_peak=samples_per_peak,
         top_mode_hz=load.top_mode_hz,
     )
     return _FrequencyDomain(
         dirlik=dirlik.reshape(shape),
         tb=tb.reshape(shape),
-        irregularity=_quotient(m2, np.sqrt(m0 * m4)).reshape(shape),
+        irregularity=quotient(m2, np.sqrt(m0 * m4)).reshape(shape),
         peaks_per_s=peaks_per_s.reshape(shape),
         samples_per_peak=samples_per_peak.reshape(shape),
         verdict=judged.verdict.reshape(shape),
@@ -281,15 +282,10 @@ def _shear_bending_ratio(shapes: Shapes, C: NDArray[np.float64]) -> NDArray[np.f
     """Compute the one bending ratio of the shear stress from its rms values, (n, 1)."""
     std_m = np.sqrt(_quadratic(shapes.in_plane_shear, C, shapes.in_plane_shear))
     std_b = np.sqrt(_quadratic(shapes.twist_shear, C, shapes.twist_shear))
-    return np.nan_to_num(_quotient(std_b, std_m + std_b))[:, None]
+    return np.nan_to_num(quotient(std_b, std_m + std_b))[:, None]
 
 
 def _quadratic(a: NDArray[np.float64], C: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Evaluate ``a' C b`` along the last axis; a variance, so never below 0, where a is b."""
     form = np.asarray(((a @ C) * b).sum(axis=-1))
     return np.maximum(form, 0.0) if a is b else form
-
-
-def _quotient(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Divide; NaN where b is 0."""
-    return np.divide(a, b, out=np.full_like(b, np.nan), where=b > 0.0)

@@ -11,6 +11,7 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import Plan, equivalent_range, life_km, load_factor, mission_sum, straight_load_factor
 from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.stations import Stations
+from fatigue.quotient import quotient
 from fatigue.spectrum.diagnosis import VERDICTS
 
 FACES = ("top", "bottom")
@@ -67,16 +68,16 @@ def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> Mi
         life_km_dirlik=_life(dirlik, plan),
         life_km_tb=_life(tb, plan),
         life_km_same_ratio=_life(same_ratio, plan),
-        dirlik_ratio=_quotient(dirlik, same_ratio),
+        dirlik_ratio=quotient(dirlik, same_ratio),
         max_range=np.stack([p.max_range for p in parts]).max(axis=0),
         equivalent_range=equivalent_range(
             mission_sum(np.stack([p.power_sum for p in parts]), plan.passes), k, plan.target_km
         ),
         mean_stress=_of_event("mean", parts, governing),
         r_largest=_of_event("r_largest", parts, largest),
-        factor_if_mean_stress=_quotient(_sum_over("damage_mean_stress", parts, plan), damage),
+        factor_if_mean_stress=quotient(_sum_over("damage_mean_stress", parts, plan), damage),
         shear_ratio=_of_event("shear_ratio", parts, governing),
-        factor_if_shear=_quotient(_sum_over("damage_shear", parts, plan), damage),
+        factor_if_shear=quotient(_sum_over("damage_shear", parts, plan), damage),
         governing=governing,
         bending_ratio=_of_event("bending_ratio", parts, governing),
         verdict=_verdict(parts, weights),
@@ -236,7 +237,3 @@ def _of_event(name: str, parts: Sequence[EventBlock], event: NDArray[np.int64]) 
     stacked = np.stack([getattr(p, name) for p in parts])
     picked = np.take_along_axis(stacked, np.maximum(event, 0)[None], axis=0)[0]
     return np.where(event >= 0, picked, np.nan)
-
-
-def _quotient(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.divide(a, b, out=np.full_like(a, np.nan), where=b > 0.0)

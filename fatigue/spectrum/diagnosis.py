@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import ModalHistory
+from fatigue.quotient import quotient
 from fatigue.spectrum.methods import dirlik_damage_rate, narrow_band_damage_rate, spectral_shape
 from fatigue.spectrum.moments import Spectra, quadratic_forms
 from fatigue.spectrum.stationarity import PeriodMatrices, Stationarity, modulation_factor, period_matrices, stationarity
@@ -163,10 +164,10 @@ def diagnose(
     total, slow, lines = quadratic_forms(
         shapes, np.stack([matrices.record.covariance, matrices.record.slow, matrices.record.lines])
     )
-    line_share = np.clip(_quotient(lines, total), 0.0, 1.0)
+    line_share = np.clip(quotient(lines, total), 0.0, 1.0)
     time = _stationarity(shapes, matrices.periods)
     lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
-    variance_cov = np.sqrt(_quotient(1.0, matrices.duration * time.bandwidth_hz))
+    variance_cov = np.sqrt(quotient(1.0, matrices.duration * time.bandwidth_hz))
     steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
     damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
@@ -181,7 +182,7 @@ def diagnose(
         alpha2=shape.alpha2,
         samples_per_peak=samples_per_peak,
         peaks_over_top_mode=shape.peaks / (np.nan if top_mode_hz is None else top_mode_hz),
-        slow_share=_quotient(slow, total),
+        slow_share=quotient(slow, total),
         top_cycle_share=top_cycle_share,
         top_cycle_limit=np.clip(
             _top_cycle_share(_rayleigh_cycles(moments, time, matrices.duration, slope), slope),
@@ -199,7 +200,7 @@ def diagnose(
         # A Gaussian record's kurtosis has the variance 24/T times the integral of rho^4, at most 8 / (T B_s).
         kurtosis_tolerance=np.maximum(KURTOSIS_OFF, 2.6 * np.sqrt(8.0) * variance_cov),
         bandwidth_hz=time.bandwidth_hz,
-        relative_bandwidth=_quotient(time.bandwidth_hz, shape.zero_crossings),
+        relative_bandwidth=quotient(time.bandwidth_hz, shape.zero_crossings),
         damage_cov=damage_cov,
         slope=slope,
         slow_hz=matrices.record.slow_hz,
@@ -266,7 +267,7 @@ def _rayleigh_cycles(
 ) -> NDArray[np.float64]:
     """Count the Rayleigh cycles that would do Dirlik's damage, those only that fall into the periods which do it."""
     law = DamageLaw(np.array([k]), np.array([0.0]), np.array([]), 0.0)
-    share = _quotient(dirlik_damage_rate(moments, law), narrow_band_damage_rate(moments, law))
+    share = quotient(dirlik_damage_rate(moments, law), narrow_band_damage_rate(moments, law))
     damage = np.nan_to_num(time.relative_variance, nan=1.0) ** (k / 2)
     busy = damage.mean(axis=0) ** 2 / np.mean(damage**2, axis=0)
     return np.asarray(spectral_shape(moments).zero_crossings * duration * share * busy)
@@ -276,8 +277,3 @@ def _top_cycle_share(cycles: NDArray[np.float64], k: float) -> NDArray[np.float6
     """Share of the damage that the largest of ``cycles`` Rayleigh cycles exceeds in one record of a hundred."""
     n = np.maximum(cycles, 1.0)
     return np.asarray((np.log(n) + TOP_CYCLE_QUANTILE) ** (k / 2) / (n * math.gamma(1 + k / 2)))
-
-
-def _quotient(a: NDArray[np.float64] | float, b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Divide: ``a / b``, NaN where b is 0."""
-    return np.asarray(np.divide(a, b, out=np.full(np.shape(b), np.nan), where=b > 0))

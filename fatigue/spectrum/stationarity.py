@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.history import ModalHistory
+from fatigue.quotient import quotient
 from fatigue.spectrum.moments import (
     MomentMatrices,
     Spectra,
@@ -117,18 +118,18 @@ def stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices) -> Statio
     variance = quadratic_forms(unit, periods.variance).astype(np.float64)
     mean = quadratic_forms(unit, periods.mean)[0].astype(np.float64)
     scatter = np.sqrt(np.sum(quadratic_forms(unit, periods.scatter).astype(np.float64) ** 2, axis=0))
-    expected_cov = _quotient(scatter, mean)
-    relative = _quotient(variance, variance.mean(axis=0))
+    expected_cov = quotient(scatter, mean)
+    relative = quotient(variance, variance.mean(axis=0))
     count = len(relative)
     # The variance of a sample variance grows with the kurtosis of what is sampled, here close to a chi-square variable:
     # its upper tail gets heavier, the lower one stays.
     freedom = (count - 1) / (1 + 3 * expected_cov**2 * (count - 1) / count)
     return Stationarity(
         relative_variance=relative,
-        modulation_index=_quotient(relative.std(axis=0, ddof=1), expected_cov),
+        modulation_index=quotient(relative.std(axis=0, ddof=1), expected_cov),
         lower=np.sqrt(_chi_square_over_freedom(-2.576, np.full_like(freedom, count - 1))),  # normal quantile of 0.5 %
         upper=np.sqrt(_chi_square_over_freedom(2.326, freedom)),  # 99 %
-        bandwidth_hz=_quotient(1.0 / periods.period_s, expected_cov**2),
+        bandwidth_hz=quotient(1.0 / periods.period_s, expected_cov**2),
         expected_cov=expected_cov,
     )
 
@@ -202,8 +203,3 @@ def _chi_square_over_freedom(normal: float, freedom: NDArray[np.float64]) -> NDA
     """Quantile of chi-square over its degrees of freedom, from the normal quantile (Wilson and Hilferty, 1931)."""
     spread = 2 / (9 * freedom)
     return np.asarray(np.maximum(1 - spread + normal * np.sqrt(spread), 0) ** 3)
-
-
-def _quotient(a: NDArray[np.float64] | float, b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Divide: ``a / b``, NaN where b is 0."""
-    return np.asarray(np.divide(a, b, out=np.full(np.broadcast(a, b).shape, np.nan), where=b > 0))

@@ -12,6 +12,7 @@ from fatigue.life.damage import ratio_factor
 from fatigue.life.history import ModalHistory
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.event_block import EventLoad
+from fatigue.quotient import quotient
 from fatigue.spectrum.diagnosis import VERDICTS, Diagnosis, diagnosis_matrices
 from fatigue.spectrum.diagnosis import diagnose as spectral_diagnosis
 from fatigue.spectrum.methods import dirlik_damage_rate
@@ -97,8 +98,8 @@ def event_verdicts(
             point_moments(shapes[at], load.moments),
             matrices,
             slope=_slope_of_damage(attribution, at, float(law.slopes[0])),
-            dirlik_ratio=_quotient(here["damage_dirlik_per_pass"].to_numpy(), same_ratio),
-            tb_ratio=_quotient(here["damage_tb_per_pass"].to_numpy(), same_ratio),
+            dirlik_ratio=quotient(here["damage_dirlik_per_pass"].to_numpy(), same_ratio),
+            tb_ratio=quotient(here["damage_tb_per_pass"].to_numpy(), same_ratio),
             kurtosis=here["kurtosis"].to_numpy(),
             top_cycle_share=attribution.top_cycle_share[at],
             samples_per_peak=here["samples_per_peak"].to_numpy(),
@@ -114,7 +115,7 @@ def event_verdicts(
             shapes[changing] * to_equivalent[:, None], spectra, partial(dirlik_damage_rate, law=law)
         )
         counted = assessed["damage_same_ratio_per_pass"].to_numpy()[changing]
-        found.segmentwise_ratio[changing] = _quotient(load.duration * rate, counted)
+        found.segmentwise_ratio[changing] = quotient(load.duration * rate, counted)
 
     damaged = split_at[assessed["damage_same_ratio_per_pass"].to_numpy()[split_at] > 0.0]
     if len(damaged):
@@ -165,7 +166,3 @@ def _slope_of_damage(attribution: EventAttribution, at: NDArray[np.int64], other
     """Find the slope k on which most points have their damage."""
     damage, slope = attribution.damage[at], attribution.load_slope[at]
     return float(np.median(slope[damage > 0.0] / damage[damage > 0.0])) if (damage > 0.0).any() else otherwise
-
-
-def _quotient(a: Floats, b: Floats) -> Floats:
-    return np.divide(a, b, out=np.full_like(b, np.nan), where=b > 0.0)
