@@ -19,13 +19,15 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.body import Body, conversion_file, read_body, register_file
 from fatigue.pipeline.checkpoint import Checkpoint, locked, state_key
 from fatigue.pipeline.cycles import point_cycles
-from fatigue.pipeline.event_block import EventLoad, assess_event_block
+from fatigue.pipeline.event_block import assess_event_block
+from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.events import event_loads, mission_plan
 from fatigue.pipeline.folder import publish, refuse_foreign, result_log
+from fatigue.pipeline.mission_block import mission_block
 from fatigue.pipeline.model import GROUP, Model, check_forces, solve_group, weld_groups
 from fatigue.pipeline.provenance import provenance_record
 from fatigue.pipeline.register import PointLives, excluded_rows, toe_faces, weld_rows, worst_points
-from fatigue.pipeline.rows import damage_rows, mission_block, node_rows, stress_rows
+from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.stations import BLOCK, Block, cut_blocks, shapes_of
 from fatigue.report.page import write_report
 from fatigue.report.vtp import write_vtp

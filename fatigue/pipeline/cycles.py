@@ -6,7 +6,7 @@ import numpy as np
 
 from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor, size_factor
 from fatigue.life.rainflow import rainflow
-from fatigue.pipeline.event_block import EventLoad
+from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.model import Model
 from fatigue.pipeline.register import WorstPoint
 from fatigue.pipeline.rows import FACES

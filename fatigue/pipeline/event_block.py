@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage, ratio_factor, shear_factor
-from fatigue.life.history import ModalHistory, Residue, upsampled
 from fatigue.life.rainflow import BlockCount, count_block
-from fatigue.life.rainflow_fast import Record, count_block_fast, is_fast, record_of
+from fatigue.life.rainflow_fast import count_block_fast, is_fast
+from fatigue.pipeline.event_load import EventLoad
 from fatigue.quotient import quotient
-from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnose, diagnosis_matrices
+from fatigue.spectrum.diagnosis import diagnose
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
-from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, point_moments
+from fatigue.spectrum.moments import point_moments
 
 _SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before they are counted: 32 MB
 
@@ -35,35 +35,6 @@ class Shapes:
     size: NDArray[np.float64]
     law: DamageLaw
     uses_bending_ratio: bool
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class EventLoad:
-    """What an event brings to every station: the record to be counted and its second-order statistics.
-
-    Attributes
-    ----------
-    counted : the kept record, upsampled as asked, on which cycles are counted
-    single : the same prepared for the kernel in single precision; None: count in double precision
-    residue : how the rest of the count is closed
-    stress_factor : partial or allowance factor on all stresses of the event
-    duration : duration of one pass [s]
-    mean : (m,) time mean of q over the kept samples
-    covariance : (m, m) covariance of q over the kept samples
-    moments, diagnosis : moment matrices of q and what the diagnosis needs, None for a record shorter than one segment
-    top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
-    """
-
-    counted: ModalHistory
-    single: Record | None
-    residue: Residue
-    stress_factor: float
-    duration: float
-    mean: NDArray[np.float64]
-    covariance: NDArray[np.float64]
-    moments: MomentMatrices | None
-    diagnosis: DiagnosisMatrices | None
-    top_mode_hz: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,37 +66,6 @@ class EventBlock:
     samples_per_peak: NDArray[np.float64]
     verdict: NDArray[np.int8]
     histogram: NDArray[np.float64]
-
-
-def prepare_event(
-    history: ModalHistory,
-    residue: Residue,
-    stress_factor: float,
-    upsample: int,
-    spectra: Spectra | None,
-    top_mode_hz: float | None,
-    *,
-    single: bool = False,
-) -> EventLoad:
-    """Compute once per event what all stations share, from its kept record; ``single``: for the fast kernel."""
-    q = history.q.astype(np.float64)
-    centred = q - q[:, :1]  # from the first sample, so that a record at rest has exactly no variance
-    offset = centred.mean(axis=1)
-    mean = q[:, 0] + offset
-    centred -= offset[:, None]
-    counted = upsampled(history, upsample, residue)
-    return EventLoad(
-        counted=counted,
-        single=record_of(counted.q) if single else None,
-        residue=residue,
-        stress_factor=stress_factor,
-        duration=history.duration,
-        mean=mean,
-        covariance=centred @ centred.T / q.shape[1],
-        moments=None if spectra is None else moment_matrices(spectra),
-        diagnosis=None if spectra is None else diagnosis_matrices(history, spectra),
-        top_mode_hz=top_mode_hz,
-    )
 
 
 def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> EventBlock:

@@ -10,7 +10,7 @@ from fatigue.errors import CaseError, DataError, FatigueError, NumericalError, P
 from fatigue.life.history import ModalHistory, kept
 from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.body import Body
-from fatigue.pipeline.event_block import EventLoad, prepare_event
+from fatigue.pipeline.event_load import EventLoad, prepare_event
 from fatigue.pipeline.model import WeldGroups, solve_group
 from fatigue.readers.history import read_history
 from fatigue.spectrum.moments import (

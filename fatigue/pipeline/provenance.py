@@ -9,7 +9,7 @@ from typing import Any
 from fatigue.errors import Problem
 from fatigue.life.mission import Plan
 from fatigue.pipeline.body import Body
-from fatigue.pipeline.event_block import EventLoad
+from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.folder import OUTPUTS
 from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.results import software_versions

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
+from fatigue.pipeline.mission_block import MissionBlock
 from fatigue.pipeline.model import Model
-from fatigue.pipeline.rows import FACES, MissionBlock
+from fatigue.pipeline.rows import FACES
 from fatigue.readers.weld_register import RegisterRow
 from fatigue.results import WELDS
 from fatigue.weld.line import length

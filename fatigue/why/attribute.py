@@ -15,7 +15,7 @@ from fatigue.life.attribution import Credit, DamageRule, credit
 from fatigue.life.history import Residue
 from fatigue.life.mission import Pass
 from fatigue.life.rainflow import rainflow
-from fatigue.pipeline.event_block import EventLoad
+from fatigue.pipeline.event_load import EventLoad
 from fatigue.readers.body import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
 from fatigue.why.points import Points

@@ -11,7 +11,7 @@ from fatigue.life.attribution import DamageRule
 from fatigue.life.damage import ratio_factor
 from fatigue.life.history import ModalHistory
 from fatigue.pipeline.body import Body
-from fatigue.pipeline.event_block import EventLoad
+from fatigue.pipeline.event_load import EventLoad
 from fatigue.quotient import quotient
 from fatigue.spectrum.diagnosis import VERDICTS, Diagnosis, diagnosis_matrices
 from fatigue.spectrum.diagnosis import diagnose as spectral_diagnosis

@@ -1,4 +1,4 @@
-"""Rows of the result tables: keys, faces, events, and what is not available."""
+"""The mission over the events of a station: damage, life, the event that governs, and what is not available."""
 
 from dataclasses import fields, replace
 
@@ -8,7 +8,7 @@ import pytest
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.event_block import EventBlock
-from fatigue.pipeline.rows import mission_block
+from fatigue.pipeline.mission_block import mission_block
 
 LAW = damage_law(catalogue()["master-aluminium"], None, "none", 1e7)
 PLAN = Plan((Pass("a", 100, 2.0, 0.5, None), Pass("b", 100, 4.0, 0.5, None)), 1e6, 1e5, 0.5)
