@@ -1,8 +1,17 @@
 """A synthetic case of any size in the neutral format, to try the program on as many welds as a train has.
 
-Stress levels are as in real bodies: a few welds carry much, most carry little. The rms stress of the welds is
-log-normal, that of the nodes of one weld varies smoothly along it. Force tables are written weld by weld, so that the
-size of the case is limited by the disk.
+Force tables are written weld by weld, so that the size of the case is limited by the disk. What the tables hold is as
+hard to assess as a real body, and no harder:
+
+- Between welds the rms stress is log-normal with the standard deviation `LEVEL_SPREAD` of its logarithm: a few welds
+  carry much, most carry little. `MEDIAN_RMS` makes the design a sound one: of 20 000 welds, about 20 miss the target.
+- The shape of each mode along a weld is a random smooth field, a sum of cosines along the line with amplitudes that
+  decay geometrically, by another factor on every weld. Membrane and bending shapes of a weld together have the
+  numerical rank 2 to 5 at 1e-1 of the largest singular value, 4 to 11 at 1e-2, 7 to 17 at 1e-3, 11 to 30 at 1e-5;
+  on a car body 2 to 4, 3 to 11, 4 to 19, 8 to 35 were found.
+- Stress is concentrated at one end of a weld or at some spot, and varies smoothly elsewhere. On the median weld 6 %,
+  25 % and 50 % of the points have damage within a factor 1.8, 7 and 30 of the worst; on that body typically 3 to 15 %,
+  12 to 45 % and 36 to 60 %.
 """
 
 from collections.abc import Iterator
@@ -19,10 +28,15 @@ Floats = NDArray[np.float64]
 EDGE = 10.0  # [mm] between neighbouring nodes
 THICKNESSES = (4.0, 6.0, 8.0, 12.0)  # [mm]
 WELD_LENGTHS = (20, 100)  # nodes of a weld, from and to
-MEDIAN_RMS = 2.0  # [MPa] membrane stress of the median weld
+MEDIAN_RMS = 0.02  # [MPa] membrane stress of the median weld
 LEVEL_SPREAD = 1.0  # standard deviation of ln(rms) between welds: 1 in 40 has 7 times the median
-NODE_SPREAD = 0.25  # the same along a weld
 BENDING_SHARE = 0.5  # bending over membrane stress
+COSINES = 25  # along a weld, of 0, 1, 2 ... half waves
+DECAY = (0.12, 0.52)  # from each cosine's amplitude to the next, from and to
+NODE_SPREAD = 0.5  # standard deviation of ln(stress) along a weld, of SPREAD_WAVES half waves
+SPREAD_WAVES = 5
+PEAK = (2.0, 3.0)  # factor on the stress at the spot where it concentrates, from and to
+PEAK_NODES = (1.5, 5.0)  # over which the excess falls to 1/e, from and to
 LOWEST_HZ, HIGHEST_HZ = 4.0, 45.0
 DAMPING = 0.02
 ROWS_AT_ONCE = 1_000_000
@@ -87,10 +101,7 @@ def _welds(size: Size, seed: int) -> Iterator[_Weld]:
         number += 1
         thickness = float(rng.choice(THICKNESSES))
         level = MEDIAN_RMS * np.exp(LEVEL_SPREAD * rng.normal())
-        along = np.exp(NODE_SPREAD * np.sqrt(2.0) * np.sin(2 * np.pi * (np.arange(n) / n + rng.uniform())))
-        at_middle, change = rng.normal(size=(2, 2, 1, size.modes)) / np.sqrt(size.modes)
-        shape = at_middle + 0.3 * np.linspace(-1.0, 1.0, n)[:, None] * change  # membrane and bending, (2, n, m)
-        membrane, bending = level * along[:, None] * shape
+        membrane, bending = level * _shapes(rng, n, size.modes)
         yield _Weld(
             name=f"W{number:06d}",
             first=first,
@@ -100,6 +111,27 @@ def _welds(size: Size, seed: int) -> Iterator[_Weld]:
             moment=-BENDING_SHARE * bending * thickness**2 / 6.0,
         )
         first += n
+
+
+def _shapes(rng: np.random.Generator, n: int, modes: int) -> Floats:
+    """Draw membrane and bending shapes along a weld, (2, n, m), of membrane rms 1 under unit modal coordinates."""
+    along = (np.arange(n) + 0.5) / n
+    half_waves = np.arange(COSINES)
+    cosines = np.cos(np.pi * half_waves * along[:, None])
+    amplitude = rng.uniform(*DECAY) ** half_waves
+    shapes = cosines @ (amplitude[:, None] * rng.normal(size=(2, COSINES, modes)))
+    shapes *= _concentration(rng, cosines)[:, None]
+    return np.asarray(shapes / np.sqrt(np.sum(shapes[0] ** 2) / n))
+
+
+def _concentration(rng: np.random.Generator, cosines: Floats) -> Floats:
+    """Draw the factor on all shapes at each node of a weld, (n,): smooth, with a peak at an end or another spot."""
+    node = np.arange(len(cosines))
+    waves = slice(1, SPREAD_WAVES + 1)
+    smooth = cosines[:, waves] @ (0.8 ** np.arange(SPREAD_WAVES) * rng.normal(size=SPREAD_WAVES))
+    spot = rng.choice([0.0, node[-1], rng.uniform(0.0, node[-1])])
+    peak = 1.0 + (rng.uniform(*PEAK) - 1.0) * np.exp(-np.abs(node - spot) / rng.uniform(*PEAK_NODES))
+    return np.asarray(np.exp(NODE_SPREAD * smooth / smooth.std()) * peak)
 
 
 def _write_welds(folder: Path, welds: Iterator[_Weld], modes: int) -> None:
@@ -139,7 +171,10 @@ class _Tables:
             self.names, (_weld_rows(welds), _node_rows(welds), _force_rows(welds, modes)), strict=True
         ):
             if name not in self.writers:
-                self.writers[name] = pq.ParquetWriter(self.folder / f"{name}.parquet", table.schema)
+                repeated = [column for column in ("weld", "node", "mode", "order") if column in table.column_names]
+                self.writers[name] = pq.ParquetWriter(
+                    self.folder / f"{name}.parquet", table.schema, use_dictionary=repeated
+                )
             self.writers[name].write_table(table)
 
 

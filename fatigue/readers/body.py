@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal, TypeAlias, cast
 
@@ -10,12 +11,13 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.tables import open_table
-from fatigue.weld.line import WeldLine
-from fatigue.weld.line_check import check_line, line_warnings
+from fatigue.weld.line import WeldLine, stacked
+from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
 
 Surface: TypeAlias = Literal["top", "bottom", "both"]
 KINDS = ("normal", "interface", "rigid")
 SURFACES = ("top", "bottom", "both")
+CHECKED_TOGETHER = 64  # weld lines
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -163,18 +165,22 @@ def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple
     names, code = table.groups("weld")
     order = table.integers("order")
     node = table.integers("node")
-    xyz = np.column_stack([table.numbers(name) for name in coordinates]).astype(np.float64)
+    xyz = np.column_stack([table.numbers(name) for name in coordinates]).astype(np.float64, copy=False)
     thickness = table.numbers("thickness_mm", above=0.0).astype(np.float64)
-    normal = np.column_stack([table.numbers(name) for name in vectors["normal"]]).astype(np.float64)
-    outward = np.column_stack([table.numbers(name) for name in vectors["outward"]]).astype(np.float64)
+    normal = np.column_stack([table.numbers(name) for name in vectors["normal"]]).astype(np.float64, copy=False)
+    outward = np.column_stack([table.numbers(name) for name in vectors["outward"]]).astype(np.float64, copy=False)
     edge_mid = table.flags("edge_mid", default=False)
     table.unique({"weld": code, "order": order}, {"weld": names})
     table.unique({"weld": code, "node": node}, {"weld": names})
     table.known("weld", names, code, {weld.name for weld in welds}, "the welds")
     table.complete("weld", names, [weld.name for weld in welds], "nodes")
     table.refuse()
-    sorted_rows = np.lexsort((order, code))
-    rows = dict(zip(names, np.split(sorted_rows, np.flatnonzero(np.diff(code[sorted_rows])) + 1), strict=True))
+    along = np.lexsort((order, code))
+    at = slice(None) if np.array_equal(along, np.arange(along.size)) else along  # no copies of a sorted file
+    begin = [0, *(np.flatnonzero(np.diff(code[at])) + 1).tolist(), table.rows]
+    rows = {name: slice(a, b) for name, (a, b) in zip(names, pairwise(begin), strict=True)}
+    order, node, xyz, thickness = order[at], node[at], xyz[at], thickness[at]
+    normal, outward, edge_mid = normal[at], outward[at], edge_mid[at]
     lines = tuple(
         WeldLine(
             weld=weld.name,
@@ -199,15 +205,22 @@ def _checked(lines: Sequence[WeldLine], file: str) -> list[Problem]:
     """Refuse the unfit lines of all welds together; return the doubts about the others."""
     problems: list[Problem] = []
     warnings: list[Problem] = []
-    for line in lines:
-        where = f"{file}: weld {line.weld}"
-        try:
-            check_line(line, where)
-            warnings += line_warnings(line, where)
-        except DataError as error:
-            problems += error.problems
+    for first in range(0, len(lines), CHECKED_TOGETHER):
+        some = stacked(lines[first : first + CHECKED_TOGETHER])
+        for i in unfit_lines(some):
+            try:
+                check_line(some.lines[i], _place(file, some.lines[i]))
+            except DataError as error:
+                problems += error.problems
+        if not problems:
+            for i in doubtful_lines(some):
+                warnings += line_warnings(some.lines[i], _place(file, some.lines[i]))
     refuse(DataError, problems)
     return warnings
+
+
+def _place(file: str, line: WeldLine) -> str:
+    return f"{file}: weld {line.weld}"
 
 
 def read_mesh(nodes: Path, elements: Path | None, *, strict: bool) -> tuple[Mesh, list[Problem]]:

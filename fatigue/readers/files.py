@@ -2,7 +2,7 @@
 
 import csv
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 
+CSV_BLOCK = 1 << 22  # bytes of a CSV file decoded together, some 50 000 rows
 DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises over bytes that make no sense
 
 
@@ -55,7 +56,7 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     except PermissionError:
         raise DataError(Problem("unreadable_file", str(path), "may not be read", "Check its permissions")) from None
     except DAMAGE as error:
-        raise DataError(_damaged(path, error)) from None
+        raise DataError(damaged(path, error)) from None
     if columns.rows == 0:
         raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
     return columns
@@ -73,15 +74,41 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
             column = file.read(columns=[names[position]]).column(0)
             column.validate(full=True)
         except DAMAGE as error:
-            raise DataError(_damaged(path, error)) from None
+            raise DataError(damaged(path, error)) from None
         if len(column) != rows:
-            raise DataError(_damaged(path, EOFError(f"{len(column)} of {rows} rows")))
+            raise DataError(damaged(path, EOFError(f"{len(column)} of {rows} rows")))
         return column
 
     return Columns(names, tuple(schema.types), rows, read)
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:
+    names = csv_names(path)
+    # Arrow wants unique names; positions serve, and repeated names are told by whoever knows which columns matter
+    positions = [str(i) for i in range(len(names))]
+    try:
+        table = pa_csv.read_csv(
+            path,
+            pa_csv.ReadOptions(column_names=positions, skip_rows=1),
+            convert_options=pa_csv.ConvertOptions(
+                column_types={i: pa.string() for i, name in zip(positions, names, strict=True) if name.strip() in texts}
+            ),
+        )
+    except pa.ArrowInvalid as error:
+        raise DataError(_csv_problem(path, len(names), error)) from None
+    if pa.binary() in table.schema.types:  # Arrow's last resort where a column is neither numbers nor UTF-8
+        raise DataError(_not_utf8(path))
+    return Columns(tuple(names), tuple(table.schema.types), table.num_rows, table.column)
+
+
+def csv_names(path: Path) -> list[str]:
+    """Read the first line of a CSV file, the names of its columns.
+
+    Raises
+    ------
+    DataError
+        not UTF-8, an empty line, or one that is divided by something other than commas
+    """
     try:
         names = next(_csv_rows(path), [])
     except UnicodeDecodeError:
@@ -98,21 +125,24 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
                     "Write the file with commas between columns and points in numbers",
                 )
             )
-    # Arrow wants unique names; positions serve, and repeated names are told by whoever knows which columns matter
-    positions = [str(i) for i in range(len(names))]
-    try:
-        table = pa_csv.read_csv(
-            path,
-            pa_csv.ReadOptions(column_names=positions, skip_rows=1),
-            convert_options=pa_csv.ConvertOptions(
-                column_types={i: pa.string() for i, name in zip(positions, names, strict=True) if name.strip() in texts}
-            ),
-        )
-    except pa.ArrowInvalid as error:
-        raise DataError(_csv_problem(path, len(names), error)) from None
-    if pa.binary() in table.schema.types:  # Arrow's last resort where a column is neither numbers nor UTF-8
-        raise DataError(_not_utf8(path))
-    return Columns(tuple(names), tuple(table.schema.types), table.num_rows, table.column)
+    return names
+
+
+def csv_batches(path: Path, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.RecordBatch]:
+    """Read some columns of a CSV file of any size, ``CSV_BLOCK`` bytes at a time, as values of the given kinds.
+
+    Raises
+    ------
+    pa.ArrowException, UnicodeDecodeError, OSError
+        what is wrong is better told by ``open_columns``, which reads the file as a whole
+    """
+    names = [name.strip() for name in csv_names(path)]
+    reader = pa_csv.open_csv(
+        path,
+        pa_csv.ReadOptions(column_names=names, skip_rows=1, block_size=CSV_BLOCK),
+        convert_options=pa_csv.ConvertOptions(include_columns=list(kinds), column_types=dict(kinds)),
+    )
+    yield from reader
 
 
 def _csv_rows(path: Path) -> Iterator[list[str]]:
@@ -135,8 +165,8 @@ def _csv_problem(path: Path, width: int, error: Exception) -> Problem:
     except UnicodeDecodeError:
         return _not_utf8(path)
     except csv.Error as broken:
-        return _damaged(path, broken)
-    return _damaged(path, error)
+        return damaged(path, broken)
+    return damaged(path, error)
 
 
 def _not_utf8(path: Path) -> Problem:
@@ -147,7 +177,8 @@ def _not_utf8(path: Path) -> Problem:
     return Problem("not_utf8", f"{path.name}: line {line}", f"byte {byte:#04x} is not UTF-8", "Save it as UTF-8")
 
 
-def _damaged(path: Path, error: Exception) -> Problem:
+def damaged(path: Path, error: Exception) -> Problem:
+    """Say that a file, or a part of it, cannot be decoded, and why."""
     kind = "Parquet" if path.suffix.lower() == ".parquet" else "CSV"
     reason = str(error).strip().splitlines()[0].rstrip(".")
     return Problem(

@@ -4,6 +4,7 @@ The sign convention of the file and the scale of each mode are applied here, onc
 """
 
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -47,15 +48,20 @@ def read_nodal_forces(
         a (weld, node, mode) missing or given twice, an unknown weld or mode, a value that is no finite number
     """
     table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
-    slot = _slots(table, lines, modes, ignore_modes)
+    keys = _keys(table)
     sizes = [line.node.size for line in lines]
     dtype = np.float32 if table.single_precision(COMPONENTS) else np.float64
-    force = np.empty((sum(sizes) * modes.mode.size, 6), dtype)
-    used = slice(None) if len(force) == table.rows else slot >= 0
-    for axis, name in enumerate(COMPONENTS):
-        force[slot[used], axis] = table.numbers(name)[used]
+    by_mode = np.empty((sum(sizes), modes.mode.size, 6), dtype)
+    if not table.problems and (grid := _grid(keys, lines, modes, ignore_modes)):
+        for axis, name in enumerate(COMPONENTS):
+            by_mode[..., axis] = grid.by_station(table.numbers(name))
+    else:
+        slot = _slots(table, keys, lines, modes, ignore_modes)
+        force = by_mode.reshape(-1, 6)
+        used = slice(None) if len(force) == table.rows else slot >= 0
+        for axis, name in enumerate(COMPONENTS):
+            force[slot[used], axis] = table.numbers(name)[used]
     table.refuse()
-    by_mode = force.reshape(-1, modes.mode.size, 6)
     factor = _factor(modes, convention)[:, np.newaxis]
     if not np.isin(factor, (-1.0, 1.0)).all():
         by_mode = by_mode.astype(np.float64)  # a product in single precision would cost the last digits
@@ -113,13 +119,85 @@ def _factor(modes: Modes, convention: Convention) -> NDArray[np.float64]:
     return modes.scale if convention == "on_element" else -modes.scale
 
 
-def _slots(table: Table, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Collection[int]) -> NDArray[np.int64]:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Keys:
+    """What each row is about: ``names`` of welds, and (r,) each, which of them, node id and mode id."""
+
+    names: tuple[str, ...]
+    weld: NDArray[np.int32]
+    node: NDArray[np.int64]
+    mode: NDArray[np.int64]
+
+
+def _keys(table: Table) -> _Keys:
+    """Read the key columns; what is wrong with them is noted in the table."""
+    return _Keys(*table.groups("weld"), table.integers("node"), table.integers("mode"))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Grid:
+    """Rows in the order most programs write: node by node all modes, or mode by mode all nodes.
+
+    ``shape`` is that of the rows, nodes first if ``by_node``; ``station`` and ``mode`` are positions on its two axes
+    where the stations of all lines and the modes used stand.
+    """
+
+    shape: tuple[int, int]
+    by_node: bool
+    station: NDArray[np.intp]
+    mode: NDArray[np.intp]
+
+    def by_station(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values of all rows, as (n, m)."""
+        grid = values.reshape(self.shape) if self.by_node else values.reshape(self.shape).T
+        in_order = np.array_equal(self.station, np.arange(len(grid))) and np.array_equal(
+            self.mode, np.arange(len(grid.T))
+        )
+        return grid if in_order else grid[np.ix_(self.station, self.mode)]
+
+
+def _grid(keys: _Keys, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Collection[int]) -> _Grid | None:
+    """Recognise a complete regular table, which needs no search for every row; None if anything is unusual."""
+    names, weld, node, mode = keys.names, keys.weld, keys.node, keys.mode
+    if not {line.weld for line in lines}.issuperset(names):
+        return None
+    width = min(_run(node), _run(weld))
+    by_node = width > 1
+    width = width if by_node else _run(mode)
+    if width == 0 or node.size % width:
+        return None
+    shape = (node.size // width, width)
+    of_node, of_mode = (slice(None, None, width), slice(width)) if by_node else (slice(width), slice(None, None, width))
+    for values, at in ((weld, of_node), (node, of_node), (mode, of_mode)):
+        axis = (slice(None), np.newaxis) if at.step else (np.newaxis, slice(None))
+        if np.any(values.reshape(shape) != values[at][axis]):
+            return None
+    station = _stations(names, weld[of_node], node[of_node], lines)
+    column = _positions(modes.mode, mode[of_mode])
+    ignored = column < 0
+    if not np.isin(mode[of_mode][ignored], list(ignore_modes)).all():
+        return None
+    stations = sum(line.node.size for line in lines)
+    for found, n in ((station, stations), (column[~ignored], modes.mode.size)):
+        if not np.array_equal(np.sort(found), np.arange(n)):
+            return None
+    return _Grid(shape, by_node, np.argsort(station), np.argsort(column)[np.count_nonzero(ignored) :])
+
+
+def _run(values: NDArray[Any]) -> int:
+    """Count the equal values at the beginning."""
+    other = values != values[:1]
+    return int(other.argmax()) if other.any() else values.size
+
+
+def _slots(
+    table: Table, keys: _Keys, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Collection[int]
+) -> NDArray[np.int64]:
     """Position of each row among the (station, mode) of all lines (r,), -1 where it is not used.
 
     Every slot is filled by exactly one row, or the table is refused.
     """
-    names, code = table.groups("weld")
-    node, mode = table.integers("node"), table.integers("mode")
+    names, code, node, mode = keys.names, keys.weld, keys.node, keys.mode
     table.known("weld", names, code, {line.weld for line in lines}, "the welds")
     column = _mode_columns(table, mode, modes, ignore_modes)
     table.refuse()

@@ -1,7 +1,11 @@
-"""Histories of modal coordinates in the neutral format: ``time_s`` and one column ``q_<mode>`` for every mode."""
+"""Histories of modal coordinates in the neutral format: ``time_s`` and one column ``q_<mode>`` for every mode.
+
+One column of a Parquet file is in memory at a time, besides what has been read if that is wanted as an array.
+"""
 
 import re
 from collections.abc import Collection
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -9,24 +13,65 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.life.history import ModalHistory
+from fatigue.life.spool import Samples, create_spool
 from fatigue.readers.tables import Table, open_table
 
 STEP_TOLERANCE = 1e-3  # of a step
 
 
+@dataclass(frozen=True, slots=True)
+class TimeGrid:
+    """Times of a record: number of samples, time step [s], file time of the first sample [s]."""
+
+    samples: int
+    step: float
+    start: float
+
+
 def read_history(
-    path: Path, event: str, modes: NDArray[np.int64], ignore_modes: Collection[int], *, strict: bool
+    path: Path,
+    event: str,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    *,
+    strict: bool,
+    scratch: Path | None = None,
 ) -> tuple[ModalHistory, list[Problem]]:
     """Read the whole record of one event, (m, t) in the order of ``modes``; float32 where the file has float32.
 
-    The step is (last time - first time) / (samples - 1).
+    The step is (last time - first time) / (samples - 1). The samples go to the file ``scratch``, if one is given.
 
     Raises
     ------
     DataError
         a mode of the body without column or the reverse, unless it is ignored; fewer than 2 samples; steps that differ
-        by more than 1e-3; a value that is no finite number
+        by more than 1e-3; a value that is no finite number; no room for ``scratch``
     """
+    table, names, grid = _open(path, modes, ignore_modes, strict)
+    kind: np.dtype[np.floating] = np.dtype(np.float32) if table.single_precision(names) else np.dtype(np.float64)
+    shape = (modes.size, grid.samples)
+    q: Samples = np.empty(shape, dtype=kind) if scratch is None else create_spool(scratch, shape, kind)
+    for i, name in enumerate(names):
+        q[i : i + 1, :] = table.numbers(name)[None]
+    table.refuse()
+    return ModalHistory(event=event, mode=modes, q=q, step=grid.step, start=grid.start), table.warnings
+
+
+def check_history(
+    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], *, strict: bool
+) -> tuple[TimeGrid, list[Problem]]:
+    """Read a record and keep nothing but its times; raises what `read_history` raises."""
+    table, names, grid = _open(path, modes, ignore_modes, strict)
+    for name in names:
+        table.numbers(name)
+    table.refuse()
+    return grid, table.warnings
+
+
+def _open(
+    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool
+) -> tuple[Table, list[str], TimeGrid]:
+    """Open a table, match its columns with the modes, and check its times."""
     table = open_table(path)
     names = _mode_columns(table, modes, ignore_modes)
     ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
@@ -34,12 +79,7 @@ def read_history(
     table.refuse()
     time = table.numbers("time_s").astype(np.float64)
     table.refuse()
-    step = _step(table, time)
-    q = np.empty((modes.size, table.rows), dtype=np.float32 if table.single_precision(names) else np.float64)
-    for row, name in zip(q, names, strict=True):
-        row[:] = table.numbers(name)
-    table.refuse()
-    return ModalHistory(event=event, mode=modes, q=q, step=step, start=float(time[0])), table.warnings
+    return table, names, TimeGrid(table.rows, _step(table, time), float(time[0]))
 
 
 def _mode_of(column: str) -> int | None:

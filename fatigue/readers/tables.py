@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.files import Columns, open_columns
 
+MOST_GUESSES = 20  # at what an unknown text was meant to be: each compares it with all that are known
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
@@ -177,17 +179,18 @@ class Table:
         self, name: str, names: Sequence[str], code: NDArray[np.int32], allowed: Collection[str], of: str
     ) -> None:
         """Note every text of ``groups`` that another table does not have."""
-        for i, text in enumerate(names):
-            if text and text not in allowed:
-                near = difflib.get_close_matches(text, allowed, n=1)
-                remedy = f"Write {near[0]!r}" if near else f"Add it to {of} or remove its rows"
-                where = self.where(name, int((code == i).argmax()))
-                self.problems.append(Problem("unknown_id", where, f"{text!r} is not one of {of}", remedy))
+        unknown = [(i, text) for i, text in enumerate(names) if text and text not in allowed]
+        for count, (i, text) in enumerate(unknown):
+            near = difflib.get_close_matches(text, allowed, n=1) if count < MOST_GUESSES else []
+            remedy = f"Write {near[0]!r}" if near else f"Add it to {of} or remove its rows"
+            where = self.where(name, int((code == i).argmax()))
+            self.problems.append(Problem("unknown_id", where, f"{text!r} is not one of {of}", remedy))
 
     def complete(self, name: str, names: Sequence[str], wanted: Sequence[str], of: str) -> None:
         """Note every wanted text that no row has."""
+        present = set(names)
         for text in wanted:
-            if text not in names and name not in self.spoilt:
+            if text not in present and name not in self.spoilt:
                 self.problems.append(
                     Problem("missing_id", self.where(name), f"{name} {text!r} has no {of}", f"Add its {of}")
                 )
@@ -255,7 +258,11 @@ class Table:
 
 def open_table(path: Path, *, texts: Collection[str] = ()) -> Table:
     """Open a table; ``texts`` are the columns of names, which stay texts even where they look like numbers."""
-    columns = open_columns(path, texts)
+    return named(path, open_columns(path, texts))
+
+
+def named(path: Path, columns: Columns) -> Table:
+    """Make a table of columns that are open; two of one name are refused."""
     position: dict[str, int] = {}
     problems = [
         Problem("duplicate_column", f"{path.name}: column {name}", "the column appears twice", "Remove one of them")

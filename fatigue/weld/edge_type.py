@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.weld.line import WeldLine, step_lengths
+from fatigue.weld.line import Lines, WeldLine, is_closed, neighbours, step_lengths
 from fatigue.weld.line_load import line_load
 
 ZIGZAG_SHARE = 0.5  # of the line load as linear edges; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing
@@ -20,16 +20,22 @@ ZIGZAG_DROP = 0.3  # of it left as parabolic edges; white noise over six compone
 SHORTEST = 5  # nodes: on a single parabolic edge one zigzag in three nodes proves nothing
 
 
+def jumpy_lines(line: Lines, load: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Lines of a stack, by position, whose load, (n, ...), zigzags from node to node though they mark no mid nodes."""
+    zigzag, norm = _norms(line, load)
+    marked = np.logical_or.reduceat(line.edge_mid, line.begin[:-1])
+    long_enough = np.diff(line.begin) >= SHORTEST
+    return np.flatnonzero(long_enough & ~marked & (zigzag > ZIGZAG_SHARE * norm))
+
+
 def edge_type_warnings(line: WeldLine, nodal: NDArray[np.floating], where: str) -> list[Problem]:
     """Warn, with the code ``edge_type``, if nodal forces, (n, ...), fit parabolic edges and the line marks none."""
-    if line.edge_mid.any() or line.node.size < SHORTEST:
-        return []
-    load = line_load(line, nodal).reshape(line.node.size, -1)
-    zigzag = _zigzag(line, load)
-    if zigzag <= ZIGZAG_SHARE * np.linalg.norm(load):
+    load = line_load(line, nodal)
+    if not jumpy_lines(line, load).size:
         return []
     parabolic = [replace(line, edge_mid=np.arange(line.node.size) % 2 == odd) for odd in (1, 0) if _pairs_up(line, odd)]
-    if all(_zigzag(other, line_load(other, nodal).reshape(load.shape)) > ZIGZAG_DROP * zigzag for other in parabolic):
+    zigzag, _ = _norms(line, load)
+    if all(_norms(other, line_load(other, nodal))[0] > ZIGZAG_DROP * zigzag for other in parabolic):
         return []
     return [
         Problem(
@@ -44,17 +50,43 @@ def edge_type_warnings(line: WeldLine, nodal: NDArray[np.floating], where: str) 
 
 def _pairs_up(line: WeldLine, odd: int) -> bool:
     """Whether every other node, from the second (1) or the first (0) on, lies amid its neighbours."""
-    steps = step_lengths(line)
+    steps = step_lengths(line)[: line.node.size - (not line.closed)]
     if steps.size % 2 or (odd == 0 and not line.closed):
         return False
     pairs = np.roll(steps, 1 - odd).reshape(-1, 2)
     return bool(np.all(pairs.max(axis=1) < 3 * pairs.min(axis=1)))
 
 
-def _zigzag(line: WeldLine, load: NDArray[np.float64]) -> float:
-    """Norm of the differences between each inner value, (n, k), and the one interpolated between its neighbours."""
-    steps = step_lengths(line)
-    at = np.arange(line.node.size) if line.closed else np.arange(1, line.node.size - 1)
-    before, after = steps[at - 1, np.newaxis], steps[at, np.newaxis]
-    neighbours = (after * load[at - 1] + before * load[(at + 1) % line.node.size]) / (before + after)
-    return float(np.linalg.norm(load[at] - neighbours))
+def _norms(line: Lines, load: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Norms over each line, (k,), of the load's jumps and of the load, (n, ...).
+
+    A jump is the difference between the value at a node and the one interpolated between its neighbours.
+    """
+    before, after = neighbours(line)
+    to_next = step_lengths(line)
+    to_last = to_next[before]
+    a = to_next / (to_next + to_last)  # weight of the value before
+    b = 1 - a
+    square, with_next, across = _dots(load.reshape(len(load), -1), line.begin, before, after)
+    jump = square + a**2 * square[before] + b**2 * square[after]
+    jump -= 2 * (a * with_next[before] + b * with_next - a * b * across)
+    is_open = ~is_closed(line)
+    jump[line.begin[:-1][is_open]] = jump[line.begin[1:][is_open] - 1] = 0
+    zigzag, norm = np.sqrt(np.add.reduceat(np.maximum([jump, square], 0), line.begin[:-1], axis=1))
+    return zigzag, norm
+
+
+def _dots(
+    load: NDArray[np.float64], begin: NDArray[np.int64], before: NDArray[np.int64], after: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Products of each node's values, (n, k), with themselves, of them and the next, of the last and the next, (n,)."""
+    products = "nk,nk->n"
+    square, with_next, across = np.zeros((3, len(load)))
+    np.einsum(products, load, load, out=square)
+    np.einsum(products, load[:-1], load[1:], out=with_next[:-1])
+    np.einsum(products, load[:-2], load[2:], out=across[1:-1])
+    first, last = begin[:-1], begin[1:] - 1
+    with_next[last] = np.einsum(products, load[last], load[first])
+    ends = np.concatenate([first, last])
+    across[ends] = np.einsum(products, load[before[ends]], load[after[ends]])
+    return square, with_next, across

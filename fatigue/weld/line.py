@@ -1,11 +1,14 @@
 """A weld line: its nodes, its edges, its local axes and its straight parts.
 
 Every edge is treated as a parabola through three points, a linear edge being one whose middle point is the centre of
-its chord: one set of formulas serves linear, parabolic and mixed lines.
+its chord: one set of formulas serves linear, parabolic and mixed lines. A body has thousands of lines of a few dozen
+nodes, so whatever is computed by node or by edge takes one line or a stack of them.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,12 +52,85 @@ class WeldLine:
     corner_start: bool = False
     corner_end: bool = False
 
+    @property
+    def lines(self) -> tuple["WeldLine", ...]:
+        """The line itself, as the only one of a stack."""
+        return (self,)
 
-def edge_nodes(line: WeldLine) -> NDArray[np.int64]:
-    """Positions on the line of each edge's first, mid and last node, (e, 3); mid is -1 on a linear edge."""
+    @property
+    def begin(self) -> NDArray[np.int64]:
+        """Position of the first node, and the number of nodes."""
+        return np.array([0, self.node.size])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineStack:
+    """Weld lines laid one after another, k lines with n nodes in all.
+
+    Attributes
+    ----------
+    lines : the lines
+    begin : (k + 1,) position of each line's first node in the stack, and n
+    node, xyz, thickness, normal, outward, edge_mid : as in ``WeldLine``, of all nodes
+    """
+
+    lines: tuple[WeldLine, ...]
+    begin: NDArray[np.int64]
+    node: NDArray[np.int64]
+    xyz: Vectors
+    thickness: NDArray[np.float64]
+    normal: Vectors
+    outward: Vectors
+    edge_mid: NDArray[np.bool_]
+
+
+Lines: TypeAlias = WeldLine | LineStack
+
+
+def stacked(lines: Sequence[WeldLine]) -> LineStack:
+    """Lay lines one after another."""
+    return LineStack(
+        lines=tuple(lines),
+        begin=np.cumsum([0, *(line.node.size for line in lines)]),
+        node=np.concatenate([line.node for line in lines]),
+        xyz=np.concatenate([line.xyz for line in lines]),
+        thickness=np.concatenate([line.thickness for line in lines]),
+        normal=np.concatenate([line.normal for line in lines]),
+        outward=np.concatenate([line.outward for line in lines]),
+        edge_mid=np.concatenate([line.edge_mid for line in lines]),
+    )
+
+
+def line_of_node(line: Lines) -> NDArray[np.int64]:
+    """Which line of the stack each node belongs to, (n,)."""
+    return np.repeat(np.arange(len(line.lines)), np.diff(line.begin))
+
+
+def neighbours(line: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Positions of the nodes before and after each node, (n,) each; closed and open lines wrap alike."""
+    n = line.node.size
+    before, after = np.arange(-1, n - 1), np.arange(1, n + 1)
+    before[line.begin[:-1]], after[line.begin[1:] - 1] = line.begin[1:] - 1, line.begin[:-1]
+    return before, after
+
+
+def is_closed(line: Lines) -> NDArray[np.bool_]:
+    """Whether each line of the stack is closed, (k,)."""
+    return np.array([one.closed for one in line.lines])
+
+
+def edge_nodes(line: Lines) -> NDArray[np.int64]:
+    """Positions of each edge's first, mid and last node, (e, 3); mid is -1 on a linear edge."""
     vertex = np.flatnonzero(~line.edge_mid)
-    first, last = (vertex, np.roll(vertex, -1)) if line.closed else (vertex[:-1], vertex[1:])
-    after = (first + 1) % line.node.size
+    owner = line_of_node(line)[vertex]
+    begins = np.flatnonzero(np.diff(owner, prepend=-1))
+    last = np.roll(vertex, -1)
+    ends = np.flatnonzero(np.diff(owner, append=-1))
+    last[ends] = vertex[begins]
+    is_edge = np.ones(vertex.size, dtype=bool)
+    is_edge[ends] = is_closed(line)[owner[ends]]
+    first, last = vertex[is_edge], last[is_edge]
+    after = neighbours(line)[1][first]
     return np.column_stack([first, np.where(line.edge_mid[after], after, -1), last])
 
 
@@ -63,7 +139,7 @@ def edges(line: WeldLine) -> list[tuple[int, ...]]:
     return [(first, last) if mid < 0 else (first, mid, last) for first, mid, last in edge_nodes(line).tolist()]
 
 
-def edge_points(line: WeldLine) -> Vectors:
+def edge_points(line: Lines) -> Vectors:
     """First, middle and last point of each edge, (e, 3, 3) [mm]; the middle of a linear edge is its centre."""
     nodes = edge_nodes(line)
     points: Vectors = line.xyz[nodes]
@@ -79,24 +155,22 @@ def edge_derivative(points: Vectors, xi: NDArray[np.float64]) -> Vectors:
     return half_chord[:, np.newaxis] + xi[..., np.newaxis] * bend[:, np.newaxis]
 
 
-def step_lengths(line: WeldLine) -> NDArray[np.float64]:
-    """Arc length from each node to the next, (n - 1,), on closed lines (n,) with the way back to the first [mm]."""
+def step_lengths(line: Lines) -> NDArray[np.float64]:
+    """Arc length from each node to the next, (n,) [mm]; from the last of a ring to the first, of an open line 0."""
     nodes, points = edge_nodes(line), edge_points(line)
-    halves = [
-        np.linalg.norm(edge_derivative(points, (GAUSS_POINT + side) / 2), axis=-1) @ GAUSS_WEIGHT / 2
-        for side in (-1, 1)
-    ]
-    first, mid, _ = nodes.T
-    linear = mid < 0
-    steps = np.empty(line.node.size if line.closed else line.node.size - 1)
-    steps[first] = np.where(linear, halves[0] + halves[1], halves[0])
-    steps[mid[~linear]] = halves[1][~linear]
+    steps = np.zeros(line.node.size)
+    steps[nodes[:, 0]] = np.linalg.norm(points[:, 2] - points[:, 0], axis=1)
+    parabolic = nodes[:, 1] >= 0
+    for side, at in ((-1, 0), (1, 1)):
+        speed = np.linalg.norm(edge_derivative(points[parabolic], (GAUSS_POINT + side) / 2), axis=-1)
+        steps[nodes[parabolic, at]] = speed @ GAUSS_WEIGHT / 2
     return steps
 
 
-def arc_length(line: WeldLine) -> NDArray[np.float64]:
-    """Arc length of each node from the first, (n,) [mm]."""
-    return np.concatenate([[0.0], np.cumsum(step_lengths(line))])[: line.node.size]
+def arc_length(line: Lines) -> NDArray[np.float64]:
+    """Arc length of each node from the first of its line, (n,) [mm]."""
+    steps = step_lengths(line)
+    return np.concatenate([np.cumsum(np.append(0.0, steps[a : b - 1])) for a, b in pairwise(line.begin)])
 
 
 def length(line: WeldLine) -> float:
@@ -104,7 +178,7 @@ def length(line: WeldLine) -> float:
     return float(step_lengths(line).sum())
 
 
-def local_axes(line: WeldLine) -> Vectors:
+def local_axes(line: Lines) -> Vectors:
     """Local axes of each node, (n, 3, 3) with the rows x' along the line, y' out of the assessed plate, z' its normal.
 
     The tangent at a node is the normalised sum of the unit tangents of its two edges; z' is kept, y' is the in-plane
@@ -114,12 +188,12 @@ def local_axes(line: WeldLine) -> Vectors:
     tangent = tangents(line)
     z = unit(line.normal)
     across = unit(np.cross(z, tangent))
-    side = np.sign(np.sum(unit(line.outward) * across))
-    y = side * across
+    reach = np.add.reduceat(np.sum(unit(line.outward) * across, axis=1), line.begin[:-1])
+    y = np.sign(reach)[line_of_node(line), np.newaxis] * across
     return np.stack([np.cross(y, z), y, z], axis=1)
 
 
-def kink_angles(line: WeldLine) -> NDArray[np.float64]:
+def kink_angles(line: Lines) -> NDArray[np.float64]:
     """Angle by which the line turns at each node, (n,) [deg]; 0 at open ends and at mid-side nodes."""
     before, after = edge_tangents(line)
     turn = np.linalg.norm(np.cross(before, after), axis=1)
@@ -127,7 +201,7 @@ def kink_angles(line: WeldLine) -> NDArray[np.float64]:
     return angle
 
 
-def corners(line: WeldLine) -> NDArray[np.bool_]:
+def corners(line: Lines) -> NDArray[np.bool_]:
     """Nodes where the line turns by more than 30 degrees, (n,)."""
     return kink_angles(line) > KINK_LIMIT + KINK_TOLERANCE
 
@@ -179,7 +253,7 @@ def unit(vectors: Vectors) -> Vectors:
     return scaled
 
 
-def edge_tangents(line: WeldLine) -> tuple[Vectors, Vectors]:
+def edge_tangents(line: Lines) -> tuple[Vectors, Vectors]:
     """Return the unit tangents before and after each node, (n, 3) each; zero where an open line has no edge."""
     first, mid, last = edge_nodes(line).T
     at_first, at_mid, at_last = np.moveaxis(unit(edge_derivative(edge_points(line), np.array([-1.0, 0.0, 1.0]))), 1, 0)
@@ -190,7 +264,7 @@ def edge_tangents(line: WeldLine) -> tuple[Vectors, Vectors]:
     return before, after
 
 
-def tangents(line: WeldLine) -> Vectors:
+def tangents(line: Lines) -> Vectors:
     """Return the unit tangent at each node, (n, 3): the normalised sum of those before and after it."""
     before, after = edge_tangents(line)
     return unit(before + after)

@@ -1,4 +1,8 @@
-"""What makes a weld line unfit for assessment (refusals), and what makes it doubtful (warnings)."""
+"""What makes a weld line unfit for assessment (refusals), and what makes it doubtful (warnings).
+
+The judgements take a line or a stack of lines. Thousands of lines are judged together first, and the few that stand
+out then one by one, in words.
+"""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -7,11 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.weld.line import WeldLine, edge_nodes, edge_points, edge_tangents, tangents, unit
+from fatigue.weld.line import (
+    Lines,
+    WeldLine,
+    edge_nodes,
+    edge_points,
+    edge_tangents,
+    is_closed,
+    line_of_node,
+    neighbours,
+    tangents,
+    unit,
+)
 
 
 class _Finding(NamedTuple):
-    """The nodes something is wrong at, (n,), and what it is."""
+    """The nodes something is wrong at, (n,), and what it is, in words for a single line."""
 
     at: NDArray[np.bool_]
     code: str
@@ -30,22 +45,44 @@ def check_line(line: WeldLine, where: str) -> None:
         With all that is wrong: too few nodes, misplaced mid-side nodes, values that are no numbers, a node named
         twice, edges without length, a thickness that is not positive, no usable plate normal or outward vector.
     """
-    n, least = line.node.size, 3 if line.closed else 2
+    n, least = line.node.size, int(_least_nodes(line)[0])
     if n < least:
         what = f"{n} node{'s' * (n != 1)}, a {'closed ' * line.closed}line needs {least} or more"
         refuse(DataError, [Problem("few_nodes", where, what, "Add the missing nodes")])
-    for findings in (_wrong_rows, _wrong_edges, _wrong_directions, _wrong_sides):
+    for findings in _REFUSALS:
         refuse(DataError, _problems(line, where, findings(line)))
+
+
+def unfit_lines(line: Lines) -> NDArray[np.intp]:
+    """Lines of a stack, by their position, that ``check_line`` refuses."""
+    unfit = np.diff(line.begin) < _least_nodes(line)
+    with np.errstate(all="ignore"):
+        for findings in _REFUSALS:
+            unfit |= _touched(line, findings(line))
+    return np.flatnonzero(unfit)
 
 
 def line_warnings(line: WeldLine, where: str) -> list[Problem]:
     """Doubts about a line that passes ``check_line``: short edges, steps of thickness, crooked geometry."""
+    return _problems(line, where, _doubts(line))
+
+
+def doubtful_lines(line: Lines) -> NDArray[np.intp]:
+    """Lines of a stack, all fit for assessment, by position, about which ``line_warnings`` has something to say."""
+    return np.flatnonzero(_touched(line, _doubts(line)))
+
+
+def _doubts(line: Lines) -> list[_Finding]:
+    """Judge what does not forbid an assessment."""
     nodes, points, t = edge_nodes(line), edge_points(line), line.thickness
+    owner = line_of_node(line)
     chord = np.linalg.norm(points[:, 2] - points[:, 0], axis=1)
-    short = chord < np.maximum(0.2 * np.median(chord), 0.1 * t[nodes[:, 0]])
+    of_edge = owner[nodes[:, 0]]
+    short = chord < np.maximum(0.2 * _medians(chord, of_edge)[of_edge], 0.1 * t[nodes[:, 0]])
     fraction, _ = _mid_position(points)
     tilt = np.degrees(np.arcsin(np.abs(np.sum(unit(line.normal) * tangents(line), axis=1))))
-    findings = [
+    first = t[line.begin[:-1]][owner]
+    return [
         _Finding(
             _marked(line, nodes[short, 0]),
             "short_edge",
@@ -54,7 +91,7 @@ def line_warnings(line: WeldLine, where: str) -> list[Problem]:
             "Mesh the line evenly: short edges amplify the noise of the nodal forces",
         ),
         _Finding(
-            np.abs(t - t[0]) > 0.01 * t[0],
+            np.abs(t - first) > 0.01 * first,
             "thickness_step",
             f"thickness_mm varies along the line from {t.min():g} to {t.max():g}",
             "End one weld and begin another where the plate changes",
@@ -72,31 +109,35 @@ def line_warnings(line: WeldLine, where: str) -> list[Problem]:
             "Check normal_x, normal_y and normal_z",
         ),
     ]
-    return _problems(line, where, findings)
 
 
-def _wrong_rows(line: WeldLine) -> list[_Finding]:
+def _least_nodes(line: Lines) -> NDArray[np.int64]:
+    """Count the nodes that each line needs, (k,)."""
+    return np.where(is_closed(line), 3, 2)
+
+
+def _wrong_rows(line: Lines) -> list[_Finding]:
     """Judge the rows of the table one by one."""
-    _, index, count = np.unique(line.node, return_inverse=True, return_counts=True)
+    first, last, closed = line.begin[:-1], line.begin[1:] - 1, is_closed(line)
     thin = ~(np.isfinite(line.thickness) & (line.thickness > 0))
-    endless = np.zeros_like(line.edge_mid)
-    endless[[0, -1]] = not line.closed
-    repeats_first = line.closed and line.node[0] == line.node[-1]
+    is_end = np.zeros_like(line.edge_mid)
+    is_end[first] = is_end[last] = ~closed
+    repeats_first = np.any(closed & (line.node[first] == line.node[last]))
     return [
         _Finding(
-            count[index] > 1,
+            _repeated(line_of_node(line), line.node),
             "repeated_node",
             "the node occurs more than once on the line",
             "Do not repeat the first node of a closed line" if repeats_first else "Name every node once",
         ),
         _Finding(
-            line.edge_mid & endless,
+            line.edge_mid & is_end,
             "mid_at_end",
             "a mid-side node begins or ends an open line",
             "Let the line end at an element corner or correct edge_mid",
         ),
         _Finding(
-            line.edge_mid & np.roll(line.edge_mid, -1),
+            line.edge_mid & line.edge_mid[neighbours(line)[1]],
             "mid_after_mid",
             "two mid-side nodes follow each other",
             "Add the element corner between them or correct edge_mid",
@@ -135,20 +176,25 @@ def _wrong_rows(line: WeldLine) -> list[_Finding]:
     ]
 
 
-def _wrong_edges(line: WeldLine) -> list[_Finding]:
-    """Judge the edges between the nodes."""
-    gap = np.linalg.norm(np.roll(line.xyz, -1, axis=0) - line.xyz, axis=1)
-    coincident = gap <= 1e-9 * np.linalg.norm(np.ptp(line.xyz, axis=0))
-    coincident[-1] &= line.closed
-    if coincident.any():
-        return [
-            _Finding(
-                coincident,
-                "zero_edge",
-                "the next node of the line has the same coordinates",
-                "Merge coincident nodes or correct the coordinates",
-            )
-        ]
+def _coincident_nodes(line: Lines) -> list[_Finding]:
+    """Judge the distances between the nodes."""
+    first, last = line.begin[:-1], line.begin[1:] - 1
+    gap = np.linalg.norm(line.xyz[neighbours(line)[1]] - line.xyz, axis=1)
+    size = np.linalg.norm(np.maximum.reduceat(line.xyz, first) - np.minimum.reduceat(line.xyz, first), axis=1)
+    coincident = gap <= 1e-9 * size[line_of_node(line)]
+    coincident[last] &= is_closed(line)
+    return [
+        _Finding(
+            coincident,
+            "zero_edge",
+            "the next node of the line has the same coordinates",
+            "Merge coincident nodes or correct the coordinates",
+        )
+    ]
+
+
+def _wrong_mid_nodes(line: Lines) -> list[_Finding]:
+    """Judge where the mid-side nodes lie."""
     nodes = edge_nodes(line)
     fraction, sagitta = _mid_position(edge_points(line))
     astray = (np.abs(fraction - 0.5) >= 0.25) | (sagitta >= 0.5)
@@ -162,19 +208,20 @@ def _wrong_edges(line: WeldLine) -> list[_Finding]:
     ]
 
 
-def _wrong_directions(line: WeldLine) -> list[_Finding]:
-    """Judge what tangent and plate normal need."""
+def _turns_back(line: Lines) -> list[_Finding]:
+    """Judge whether every node has a tangent."""
     before, after = edge_tangents(line)
     back = np.linalg.norm(before + after, axis=1) < 0.02
-    if back.any():
-        return [
-            _Finding(
-                back, "turns_back", "the line turns back on itself", "Check the order, or make two welds of the line"
-            )
-        ]
+    return [
+        _Finding(back, "turns_back", "the line turns back on itself", "Check the order, or make two welds of the line")
+    ]
+
+
+def _wrong_normals(line: Lines) -> list[_Finding]:
+    """Judge the plate normals."""
     z = unit(line.normal)
-    flips = np.sum(z * np.roll(z, -1, axis=0), axis=1) < 0
-    flips[-1] &= line.closed
+    flips = np.sum(z * z[neighbours(line)[1]], axis=1) < 0
+    flips[line.begin[1:] - 1] &= is_closed(line)
     return [
         _Finding(
             np.linalg.norm(np.cross(z, tangents(line)), axis=1) < 0.1,
@@ -191,11 +238,12 @@ def _wrong_directions(line: WeldLine) -> list[_Finding]:
     ]
 
 
-def _wrong_sides(line: WeldLine) -> list[_Finding]:
+def _wrong_sides(line: Lines) -> list[_Finding]:
     """Judge on which side of the line the assessed plate lies."""
     across = unit(np.cross(unit(line.normal), tangents(line)))
     reach = np.sum(unit(line.outward) * across, axis=1)
     blind = np.abs(reach) < 0.01
+    sides = np.add.reduceat(reach, line.begin[:-1])[line_of_node(line)]
     return [
         _Finding(
             blind,
@@ -204,12 +252,34 @@ def _wrong_sides(line: WeldLine) -> list[_Finding]:
             "Give a vector from the assessed plate across the line",
         ),
         _Finding(
-            ~blind & (reach * reach.sum() <= 0),
+            ~blind & (reach * sides <= 0),
             "outward_changes_side",
             "the outward vector points to the other side of the line than at most of its nodes",
             "Let all outward vectors of a line point out of the assessed plate",
         ),
     ]
+
+
+_REFUSALS = (_wrong_rows, _coincident_nodes, _wrong_mid_nodes, _turns_back, _wrong_normals, _wrong_sides)
+"""In this order: each takes for granted what those before it refuse."""
+
+
+def _repeated(owner: NDArray[np.int64], node: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Mark the nodes that occur more than once on their line, (n,)."""
+    order = np.lexsort((node, owner))
+    same = (np.diff(owner[order]) == 0) & (np.diff(node[order]) == 0)
+    repeated = np.zeros(node.size, dtype=bool)
+    repeated[order[1:][same]] = repeated[order[:-1][same]] = True
+    return repeated
+
+
+def _medians(values: NDArray[np.float64], group: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Median of the values of each group, (k,); no group is empty."""
+    ascending = values[np.lexsort((values, group))]
+    count = np.bincount(group)
+    first = np.cumsum(count) - count
+    medians: NDArray[np.float64] = (ascending[first + (count - 1) // 2] + ascending[first + count // 2]) / 2
+    return medians
 
 
 def _mid_position(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -221,7 +291,14 @@ def _mid_position(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDA
     return fraction, beside / np.sqrt(square)
 
 
-def _marked(line: WeldLine, at: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _touched(line: Lines, findings: Iterable[_Finding]) -> NDArray[np.bool_]:
+    """Lines of a stack that any finding concerns, (k,)."""
+    nodes = np.any([found.at for found in findings], axis=0)
+    touched: NDArray[np.bool_] = np.logical_or.reduceat(nodes, line.begin[:-1])
+    return touched
+
+
+def _marked(line: Lines, at: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Mark the nodes at the given positions, (n,)."""
     mask = np.zeros(line.node.size, dtype=bool)
     mask[at] = True

@@ -6,25 +6,28 @@ The work-equivalent nodal forces of a line load f(s) interpolated like the edges
 first would lose a factor on curved lines.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, triu
 
 from fatigue.weld.line import (
     GAUSS_POINT,
     GAUSS_WEIGHT,
-    WeldLine,
+    Lines,
     arc_length,
     edge_derivative,
     edge_nodes,
     edge_points,
+    is_closed,
+    line_of_node,
 )
 
 
-def line_load_matrix(line: WeldLine) -> csr_array:
+def line_load_matrix(line: Lines) -> csr_array:
     """Consistent matrix A of ``A f = F``, (n, n) [mm], for linear and parabolic, straight and curved edges."""
     nodes = edge_nodes(line)
     shape = _shape_functions(nodes, GAUSS_POINT)
@@ -36,25 +39,25 @@ def line_load_matrix(line: WeldLine) -> csr_array:
     return csr_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=(n, n))
 
 
-def line_load(line: WeldLine, nodal: NDArray[np.floating]) -> NDArray[np.float64]:
+def line_load(line: Lines, nodal: NDArray[np.floating]) -> NDArray[np.float64]:
     """Solve ``A f = F`` for the line load, (n, ...) [N/mm or N], of nodal forces or moments, (n, ...) [N or N mm].
 
     A is symmetric, positive definite, banded and, scaled to a unit diagonal, has eigenvalues in [0.5, 1.5] for any
-    spacing: a plain banded Cholesky factorisation needs no regularisation.
+    spacing: a plain banded Cholesky factorisation needs no regularisation. Lines of one band width are solved together.
     """
-    n = line.node.size
-    place = _folded(n) if line.closed else np.arange(n)
-    matrix = line_load_matrix(line).tocoo()
-    row, column = place[matrix.row], place[matrix.col]
-    above = column - row
-    width = above.max()
-    upper = above >= 0
-    band = np.zeros((width + 1, n))
-    band[width - above[upper], column[upper]] = matrix.data[upper]
-    right_sides = np.empty((n, nodal[0].size))
-    right_sides[place] = nodal.reshape(n, -1)
-    solution: NDArray[np.float64] = solveh_banded(band, right_sides, overwrite_ab=True, overwrite_b=True)[place]
-    return solution.reshape(nodal.shape)
+    matrix, right_sides = line_load_matrix(line), nodal.reshape(line.node.size, -1)
+    order = _band_order(line)
+    width = _band_width(line, matrix, order)[line_of_node(line)]
+    load: NDArray[np.float64] = np.empty(right_sides.shape, order="F")
+    for one in np.unique(width):
+        nodes = order[width[order] == one]
+        at = slice(None) if np.array_equal(nodes, np.arange(line.node.size)) else nodes
+        upper = triu(matrix[at][:, at]).tocoo()
+        band = np.zeros((one + 1, nodes.size))
+        band[one + upper.row - upper.col, upper.col] = upper.data
+        ordered = np.array(right_sides[at], dtype=np.float64, order="F")
+        load[at] = solveh_banded(band, ordered, overwrite_ab=True, overwrite_b=True)
+    return load.reshape(nodal.shape)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,49 +67,74 @@ class EndTreatment:
     Attributes
     ----------
     value : (n, ...) line load, in the end zones replaced by its mean over the zone [N/mm or N]
+    treated : (n,) replaced by a mean
     at_end : (n,) within the zone of a weld end; the end node itself also where nothing is treated
     unresolved : (n,) end node whose edge is longer than the zone
     """
 
     value: NDArray[np.float64]
+    treated: NDArray[np.bool_]
     at_end: NDArray[np.bool_]
     unresolved: NDArray[np.bool_]
 
 
-def treat_ends(line: WeldLine, load: NDArray[np.float64]) -> EndTreatment:
-    """Replace the line load, (n, ...), near the ends of an open line by its mean over the end zone.
+def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
+    """Replace the line load, (n, ...), near the ends of open lines by its mean over the end zone.
 
     The plate solution is singular at a weld end, and at a corner, so the value there grows under mesh refinement while
     its mean over a fixed length ``a`` does not. ``a`` is the line's end length, the plate thickness by default, and
     at most half the line; nodes with s <= a take the mean over [0, a], the node in the middle that lies in both
     zones the mean of both.
     """
-    at_end, unresolved = np.zeros((2, line.node.size), dtype=bool)
-    if line.closed:
-        return EndTreatment(load, at_end, unresolved)
-    s = arc_length(line)
-    total = s[-1]
-    wanted = line.thickness[[0, -1]] if line.end_length is None else np.full(2, line.end_length)
-    zone_length = np.minimum(wanted, total / 2)
-    to_zone, to_other, to_end = _integral_weights(line, s, np.array([zone_length[0], total - zone_length[1], total]))
-    first, _, last = edge_nodes(line).T
-    edge = s[last] - s[first]
-    sum_of_means, zones = np.zeros_like(load), np.zeros(line.node.size)
-    for end, a, weights, is_corner in (
-        (0, zone_length[0], to_zone, line.corner_start),
-        (-1, zone_length[1], to_end - to_other, line.corner_end),
+    owner, s = line_of_node(line), arc_length(line)
+    total = s[line.begin[1:] - 1]
+    given = np.array([np.nan if one.end_length is None else one.end_length for one in line.lines])
+    nodes, points = edge_nodes(line), edge_points(line)
+    zones, at_end, unresolved = np.zeros((3, 2, line.node.size), dtype=bool)
+    means = []
+    for side, end, is_corner in (
+        (0, line.begin[:-1], np.array([one.corner_start for one in line.lines])),
+        (1, line.begin[1:] - 1, np.array([one.corner_end for one in line.lines])),
     ):
-        zone = np.abs(s - s[end]) <= a + 1e-9 * total
-        if not is_corner:
-            at_end |= zone
-        if a > 0:
-            sum_of_means[zone] += np.tensordot(weights / a, load, axes=1)
-            zones += zone
-            unresolved[end] = edge[end] > a * (1 + 1e-9)
-    value = load.copy()
-    treated = zones > 0
-    value[treated] = sum_of_means[treated] / zones[treated].reshape(-1, *[1] * (load.ndim - 1))
-    return EndTreatment(value, at_end, unresolved)
+        a = np.minimum(np.where(np.isnan(given), line.thickness[end], given), total / 2)
+        a[is_closed(line)] = -np.inf
+        distance = np.abs(s - s[end][owner])
+        zone = distance <= (a + 1e-9 * total)[owner]
+        at_end[side] = zone & ~is_corner[owner]
+        zones[side] = zone & (a > 0)[owner]
+        away = slice(None, None, -1 if side else 1)  # edges from the end of the line inwards
+        near, far = nodes[:, away][:, 0], nodes[:, away][:, 2]
+        of_edge = a[owner[near]]
+        last_edge = (near == end[owner[near]]) & (of_edge > 0) & (distance[far] > of_edge * (1 + 1e-9))
+        unresolved[side, near[last_edge]] = True
+        inside = distance[near] < of_edge
+        weights = _integral_weights(nodes[inside, away], points[inside, away], (of_edge - distance[near])[inside])
+        means.append(_sums(line, nodes[inside, away], weights / of_edge[inside, np.newaxis], load))
+    treated: NDArray[np.bool_] = np.logical_or(*zones)
+    share = zones[:, treated] / zones[:, treated].sum(axis=0)
+    mean = np.einsum("zt,zt...->t...", share, np.stack(means)[:, owner[treated]])
+    value = load.copy(order="K")
+    value[treated] = mean
+    return EndTreatment(value, treated, np.logical_or(*at_end), np.logical_or(*unresolved))
+
+
+def _band_order(line: Lines) -> NDArray[np.int64]:
+    """Nodes in the order in which A is banded: rings are pressed flat (0, n-1, 1, n-2, ...), open lines stay."""
+    order = np.arange(line.node.size)
+    for i in np.flatnonzero(is_closed(line)):
+        ring = order[line.begin[i] : line.begin[i + 1]].copy()
+        order[line.begin[i] : line.begin[i + 1] : 2] = ring[: (ring.size + 1) // 2]
+        order[line.begin[i] + 1 : line.begin[i + 1] : 2] = ring[: (ring.size - 1) // 2 : -1]
+    return order
+
+
+def _band_width(line: Lines, matrix: csr_array, order: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Count the bands above the diagonal of each line's part of A in that order, (k,)."""
+    place = np.argsort(order)
+    entries = matrix.tocoo()
+    width = np.zeros(len(line.lines), dtype=np.int64)
+    np.maximum.at(width, line_of_node(line)[entries.row], np.abs(place[entries.row] - place[entries.col]))
+    return width
 
 
 def _shape_functions(nodes: NDArray[np.int64], xi: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -121,26 +149,29 @@ def _with_dummy_mid(nodes: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.where(nodes < 0, nodes[:, :1], nodes)
 
 
-def _folded(n: int) -> NDArray[np.int64]:
-    """Place of each ring node when the ring is pressed flat (0, n-1, 1, n-2, ...): a cyclic matrix becomes banded."""
-    at = np.arange(n)
-    return np.where(2 * at < n, 2 * at, 2 * (n - at) - 1)
-
-
-def _integral_weights(line: WeldLine, s: NDArray[np.float64], stops: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights w, (k, n) [mm], for which ``w @ f`` are the integrals of f over the arc length from 0 to each stop."""
-    nodes, points = edge_nodes(line), edge_points(line)
-    half = (_local_coordinates(points, stops[:, np.newaxis] - s[nodes[:, 0]])[..., np.newaxis] + 1) / 2
+def _integral_weights(
+    nodes: NDArray[np.int64], points: NDArray[np.float64], s: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Weights of the nodes of each edge, (e, 3) [mm], in the integral from its first node over the arc length ``s``."""
+    half = (_local_coordinates(points, s)[:, np.newaxis] + 1) / 2
     xi = half * (GAUSS_POINT + 1) - 1
     ds = np.linalg.norm(edge_derivative(points, xi), axis=-1) * half * GAUSS_WEIGHT
-    integral = np.einsum("keg,kegi->eik", ds, _shape_functions(nodes, xi))
-    weights = np.zeros((line.node.size, stops.size))
-    np.add.at(weights, _with_dummy_mid(nodes), integral)
-    return weights.T
+    weights: NDArray[np.float64] = np.einsum("eg,egi->ei", ds, _shape_functions(nodes, xi))
+    return weights
+
+
+def _sums(
+    line: Lines, nodes: NDArray[np.int64], weights: NDArray[np.float64], load: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Weighted sums of the line load over the given nodes of each line, (k, ...)."""
+    at = _with_dummy_mid(nodes).ravel()
+    of_line = csr_array((weights.ravel(), (line_of_node(line)[at], np.arange(at.size))), (len(line.lines), at.size))
+    sums: NDArray[np.float64] = of_line @ load[at].reshape(at.size, math.prod(load.shape[1:]))
+    return sums.reshape(-1, *load.shape[1:])
 
 
 def _local_coordinates(points: NDArray[np.float64], s: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Local coordinate xi, (k, e), of the arc length ``s``, (k, e), from each edge's first node, within [-1, 1]."""
+    """Local coordinate xi of the arc length ``s`` from each edge's first node, (e,), within [-1, 1]."""
     whole = _arc_to(points, np.ones(len(points)))
     wanted = np.clip(s, 0, whole)
     xi = 2 * wanted / whole - 1  # exact on straight edges with a central mid node; Newton's method mends the others
@@ -148,7 +179,7 @@ def _local_coordinates(points: NDArray[np.float64], s: NDArray[np.float64]) -> N
         speed = np.linalg.norm(edge_derivative(points, xi[..., np.newaxis]), axis=-1)[..., 0]
         change = (wanted - _arc_to(points, xi)) / speed
         xi = np.clip(xi + change, -1, 1)
-        if np.abs(change).max() < 1e-14:
+        if np.abs(change).max(initial=0) < 1e-14:
             break
     return xi
 

@@ -5,12 +5,13 @@ traction sigma(z) y' has the resultant f_y' = int sigma dz and the moment m_x' =
 tau(z) x' the moment m_y' = int z tau dz (Dong, Int. J. Fatigue 23 (2001) 865; ASME VIII-2 5.5.5.2 and Annex 5-A).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.weld.line import WeldLine, corners, local_axes
+from fatigue.weld.line import Lines, WeldLine, corners, local_axes
 from fatigue.weld.line_load import line_load, treat_ends
 
 
@@ -36,19 +37,27 @@ class StructuralStress:
     transverse_shear: NDArray[np.float64]
 
 
-def structural_stress(line: WeldLine, load: NDArray[np.float64]) -> StructuralStress:
+def structural_stress(line: Lines, load: NDArray[np.float64]) -> StructuralStress:
     """Structural stress of a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
-    to_local = local_axes(line).swapaxes(1, 2)
-    fx, fy, fz = np.moveaxis(load[..., :3] @ to_local, -1, 0)
-    mx, my, _ = np.moveaxis(load[..., 3:] @ to_local, -1, 0)
-    t = line.thickness[:, np.newaxis]
+    return _of_section(local_axes(line), line.thickness, load)
+
+
+def _of_section(axes: NDArray[np.float64], t: NDArray[np.float64], load: NDArray[np.float64]) -> StructuralStress:
+    """Structural stress at nodes with the given local axes, (n, 3, 3), and thickness, (n,) [mm]."""
+    x, y, z = np.moveaxis(axes, 1, 0) / t[:, np.newaxis]
+    force, moment = load[..., :3], load[..., 3:]
     return StructuralStress(
-        membrane=fy / t,
-        bending=-6 * mx / t**2,
-        in_plane_shear=fx / t,
-        twist_shear=6 * my / t**2,
-        transverse_shear=fz / t,
+        membrane=_component(force, y),
+        bending=_component(moment, -6 * x / t[:, np.newaxis]),
+        in_plane_shear=_component(force, x),
+        twist_shear=_component(moment, 6 * y / t[:, np.newaxis]),
+        transverse_shear=_component(force, z),
     )
+
+
+def _component(vectors: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Product of each node's vectors, (n, m, 3), with a vector of its own, (n, 3), as (n, m)."""
+    return np.ascontiguousarray(np.einsum("nmc,nc->nm", vectors, along, order="F"))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,16 +82,39 @@ class LineStress:
 
 def assess_line(line: WeldLine, nodal_force: NDArray[np.floating]) -> LineStress:
     """Structural stress of nodal forces and moments on the assessed elements, (n, m, 6) [N, N mm], in global axes."""
-    load = line_load(line, nodal_force)
-    ends = treat_ends(line, load)
-    at_corner = corners(line)
-    at_corner[0] |= line.corner_start
-    at_corner[-1] |= line.corner_end
-    return LineStress(
-        line=line,
-        raw=structural_stress(line, load),
-        treated=structural_stress(line, ends.value),
-        at_end=ends.at_end,
-        at_corner=at_corner,
-        unresolved=ends.unresolved,
+    (solved,) = line_stresses(line, line_load(line, nodal_force))
+    return solved
+
+
+def line_stresses(line: Lines, load: NDArray[np.float64]) -> tuple[LineStress, ...]:
+    """Structural stress of each line, as loaded by a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
+    axes, ends, at_corner = local_axes(line), treat_ends(line, load), corners(line)
+    raw = _of_section(axes, line.thickness, load)
+    near = ends.treated
+    mended = _of_section(axes[near], line.thickness[near], ends.value[near])
+    pairs = zip(_parts(raw), _parts(mended), strict=True)
+    treated = StructuralStress(*(_replaced(old, near, new) for old, new in pairs))
+    at_corner[line.begin[:-1]] |= [one.corner_start for one in line.lines]
+    at_corner[line.begin[1:] - 1] |= [one.corner_end for one in line.lines]
+    return tuple(
+        LineStress(
+            line=one,
+            raw=StructuralStress(*(part[nodes] for part in _parts(raw))),
+            treated=StructuralStress(*(part[nodes] for part in _parts(treated))),
+            at_end=ends.at_end[nodes],
+            at_corner=at_corner[nodes],
+            unresolved=ends.unresolved[nodes],
+        )
+        for one, (a, b) in zip(line.lines, pairwise(line.begin), strict=True)
+        for nodes in (slice(a, b),)
     )
+
+
+def _parts(stress: StructuralStress) -> list[NDArray[np.float64]]:
+    return [getattr(stress, part.name) for part in fields(stress)]
+
+
+def _replaced(old: NDArray[np.float64], at: NDArray[np.bool_], new: NDArray[np.float64]) -> NDArray[np.float64]:
+    mended = old.copy()
+    mended[at] = new
+    return mended

@@ -114,6 +114,29 @@ def test_any_row_and_column_order(tmp_path_factory, body, rows, names, suffix):
         np.testing.assert_array_equal(force, wanted)
 
 
+@SUFFIXES
+@pytest.mark.parametrize("slow", ["node", "mode"])
+@pytest.mark.parametrize("ignored", [False, True])
+def test_a_regular_table_needs_no_search(tmp_path, body, monkeypatch, suffix, slow, ignored):
+    """Node by node or mode by mode, nodes and modes in any order, ignored modes among them: same forces."""
+    modes, lines = body
+    monkeypatch.setattr(forces, "_slots", None)
+    nodes, ids = [5, 2, 1, 7, 4, 3, 6], [12, 3, 7] + [40] * ignored
+    keys = [(n, m) for n in nodes for m in ids] if slow == "node" else [(n, m) for m in ids for n in nodes]
+    columns = {
+        "weld": [WELD_NODES["weld"][n - 1] for n, _ in keys],
+        "node": [WELD_NODES["node"][n - 1] for n, _ in keys],
+        "mode": [m for _, m in keys],
+    }
+    for i, name in enumerate(COMPONENTS):
+        columns[name] = [1000.0 * WELD_NODES["node"][n - 1] + 10.0 * m + i for n, m in keys]
+    path = write(tmp_path / f"f{suffix}", columns)
+    read, warnings = read_forces(path, lines, modes, "on_element", (40,), strict=True)
+    assert warnings == []
+    for force, wanted in zip(read, expected(lines, modes), strict=True):
+        np.testing.assert_array_equal(force, wanted)
+
+
 def test_lookup_in_blocks(tmp_path, body, monkeypatch):
     """Rows are looked up in blocks; where they are cut does not matter."""
     modes, lines = body

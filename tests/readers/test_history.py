@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
-from fatigue.readers.history import read_history
+from fatigue.life.spool import Spool
+from fatigue.readers.history import TimeGrid, check_history, read_history
 from tests.readers.neutral import changed, history, picked, without, write
 
 MODES = np.array([3, 7, 12])
@@ -17,9 +18,12 @@ SUFFIXES = pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 
 
 def refusal_of(path: Path, ignore_modes=(), strict=False) -> str:
-    """Message of the refusal."""
+    """Message of the refusal, the same whether the samples are kept or not."""
     with pytest.raises(DataError) as refusal:
         read_history(path, "run", MODES, ignore_modes, strict=strict)
+    with pytest.raises(DataError) as same:
+        check_history(path, MODES, ignore_modes, strict=strict)
+    assert str(same.value) == str(refusal.value)
     return str(refusal.value)
 
 
@@ -36,6 +40,20 @@ def test_history(tmp_path, suffix):
     assert read.step == pytest.approx(0.01)
     assert read.start == 2.0
     assert read.duration == pytest.approx(0.05)
+
+
+@SUFFIXES
+def test_a_history_may_go_to_disk(tmp_path, suffix):
+    """The same samples in the same precision, in a file of which slices are read."""
+    path = write(tmp_path / f"q{suffix}", history())
+    read, _ = read_history(path, "run", MODES, (), strict=True)
+    spooled, warnings = read_history(path, "run", MODES, (), strict=True, scratch=tmp_path / "scratch" / "q")
+    assert warnings == []
+    assert isinstance(spooled.q, Spool)
+    assert spooled.q.dtype == read.q.dtype
+    np.testing.assert_array_equal(np.asarray(spooled.q), read.q)
+    grid, _ = check_history(path, MODES, (), strict=True)
+    assert grid == TimeGrid(5, read.step, read.start)
 
 
 @pytest.mark.parametrize(("double", "dtype"), [((), np.float32), (("q_7",), np.float64)])
