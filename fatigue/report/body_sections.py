@@ -20,9 +20,8 @@ PROBED = ("arc_length_mm", "life_km", "load_factor", "dirlik_ratio", "max_range_
 
 def lives(result: Result, figs: Figures) -> Shown:
     """Draw the lives of the welds against the target."""
-    assessed = result.welds[result.welds["status"] == "assessed"]
-    fig = figures.weld_lives(assessed, result.target_km, WELDS_DRAWN)
-    caption = "Life of the worst point of each weld against the target" + _part(len(assessed), WELDS_DRAWN)
+    fig = figures.weld_lives(result.assessed, result.target_km, WELDS_DRAWN)
+    caption = "Life of the worst point of each weld against the target" + _part(result, WELDS_DRAWN)
     return figs.add("lives", fig, caption)
 
 
@@ -34,10 +33,12 @@ def where(result: Result, body: Body | None, links: Mapping[str, str], figs: Fig
     scene = figures.scene(stations, rows, result.target_km, body)
     views = figures.projections(stations, rows, result.target_km, body)
     strips = figures.weld_strips(result.nodes, result.target_km, STRIPS_DRAWN)
-    unrolled = "Every weld line unrolled, coloured by life" + _part(stations["weld"].nunique(), STRIPS_DRAWN)
+    unrolled = "Every weld line unrolled, coloured by life" + _part(result, STRIPS_DRAWN)
+    worst = _part(result, len(result.drawn))
+    in_space = "Weld lines" if worst else "All weld lines"
     return {
-        "scene": figs.add("scene", scene, "All weld lines, coloured by the shorter life of the toe faces"),
-        "projections": figs.add("views", views, "Side view and plan of the weld lines, coloured by life"),
+        "scene": figs.add("scene", scene, f"{in_space}, coloured by the shorter life of the toe faces{worst}"),
+        "projections": figs.add("views", views, f"Side view and plan of the weld lines, coloured by life{worst}"),
         "strips": figs.add("strips", strips, unrolled),
         "points": _probe(stations, rows, result, links),
     }
@@ -104,19 +105,19 @@ def event_shares(result: Result) -> pd.DataFrame:
 
 def domains(result: Result, figs: Figures) -> dict[str, Any]:
     """Compare time and frequency domain at all points; nothing where no event has a spectrum."""
-    ratio = result.nodes["dirlik_ratio"].to_numpy(dtype=np.float64)
-    ratio = ratio[np.isfinite(ratio) & (ratio > 0.0)]
+    ratio, drawn = result.domains.ratio, result.domains.drawn
     if not len(ratio):
         return {"scatter": None, "histogram": None, "ratio": None, "verdicts": []}
-    drawn = int(figures.drawn_points(result.nodes).sum())
-    of_all = f"; {wording.whole(drawn)} of {wording.whole(len(ratio))} points, those that disagree first"
+    of_all = f"; {wording.whole(len(drawn))} of {wording.whole(len(ratio))} points, those that disagree first"
     caption = "Life by Dirlik against life by rainflow, both with one bending ratio"
-    caption += of_all if drawn < len(ratio) else ", all points"
+    caption += of_all if len(drawn) < len(ratio) else ", all points"
     low, middle, high = np.quantile(ratio, [0.05, 0.5, 0.95])
     return {
-        "scatter": figs.add("domains", figures.time_against_frequency(result.nodes), caption),
+        "scatter": figs.add("domains", figures.time_against_frequency(drawn), caption),
         "histogram": figs.add(
-            "ratios", figures.ratio_histogram(result.nodes), "Spread of the damage ratio over all points"
+            "ratios",
+            figures.ratio_histogram(pd.DataFrame({"dirlik_ratio": ratio})),
+            "Spread of the damage ratio over all points",
         ),
         "ratio": {
             "points": len(ratio),
@@ -126,9 +127,10 @@ def domains(result: Result, figs: Figures) -> dict[str, Any]:
             "within": float(np.mean((ratio >= 0.5) & (ratio <= 2.0))),
             "spread": float(np.log10(ratio).std()),
         },
-        "verdicts": [(name.replace("_", " "), n) for name, n in result.nodes["dirlik_verdict"].value_counts().items()],
+        "verdicts": [(name.replace("_", " "), points) for name, points in result.domains.verdicts],
     }
 
 
-def _part(total: int, drawn: int) -> str:
+def _part(result: Result, drawn: int) -> str:
+    total = len(result.assessed)
     return f", the {drawn} worst of {total} welds" if total > drawn else ""

@@ -27,12 +27,13 @@ def recomputed(result: Result) -> list[Recomputed]:
     welds = result.welds.set_index("weld")
     for weld in result.detailed:
         known = result.worst(weld)["damage_per_km"]
-        cycles = result.cycles[result.cycles["weld"] == weld]
+        cycles = result.cycles(weld, ["event", "count", "equivalent_range_dS"])
         used = assumptions_of(result.record, welds.loc[weld, "curve"])
         again = damage_per_km(cycles["equivalent_range_dS"].to_numpy(), how_often(cycles, result.passes_per_km), used)
         of_weld = result.damage[result.damage["weld"] == weld]
         summed = float((of_weld["damage_per_pass"] * of_weld["event"].map(result.passes_per_km)).sum())
-        from_cycles.append(_difference(again, known))
+        if len(cycles) or known == 0.0:  # of a screened job, not every weld's cycles are kept
+            from_cycles.append(_difference(again, known))
         from_events.append(_difference(summed, known))
     return [
         Recomputed("damage per km of the worst points from their listed cycles and the S-N curve", max(from_cycles)),

@@ -18,6 +18,8 @@ COMPONENTS = {
     "in-plane shear": "in_plane_shear_MPa",
 }
 
+_OF_LARGEST = ("event", "start_s", "end_s", "count", "damage")
+
 
 @dataclass(slots=True, eq=False)
 class Detail:
@@ -39,13 +41,14 @@ class _Weld:
     """A weld while its details are gathered.
 
     ``worst`` (m,) is the stress of its worst point per unit modal coordinate, ``stations`` (n, m) are the components at
-    all its stations; ``cycles`` are those of the worst point.
+    all its stations; ``largest`` are the instants of the most damaging cycle of its worst point in that event [s], None
+    where its cycles are not kept.
     """
 
     worst: NDArray[np.float64]
     stations: Mapping[str, NDArray[np.float64]]
     governing_event: str | None
-    cycles: pd.DataFrame
+    largest: tuple[float, float] | None
 
 
 def weld_details(result: Result, inputs: Inputs) -> tuple[dict[str, Detail], dict[str, float]]:
@@ -87,10 +90,9 @@ def _add_records(detail: Detail, record: Record, weld: _Weld) -> None:
     detail.deviation = {name: signals.deviations(record, shape) for name, shape in weld.stations.items()}
     detail.variance_share = signals.variance_shares(record, weld.worst)
     detail.envelope = signals.envelope(record, weld.worst)
-    cycles = weld.cycles[weld.cycles["event"] == record.history.event]
-    largest = cycles.loc[(cycles["damage"] / cycles["count"]).idxmax()]
     dominant = np.argsort(-np.abs(detail.variance_share), kind="stable")[: signals.DOMINANT_MODES]
-    detail.excerpts = signals.excerpts(record, weld.worst, largest["start_s"], largest["end_s"], dominant.tolist())
+    if weld.largest is not None:
+        detail.excerpts = signals.excerpts(record, weld.worst, *weld.largest, dominant.tolist())
 
 
 def _welds(result: Result) -> dict[str, _Weld]:
@@ -105,6 +107,15 @@ def _welds(result: Result) -> dict[str, _Weld]:
             worst=components["membrane"][at] + sign * components["bending"][at],
             stations=components,
             governing_event=None if pd.isna(governing[name]) else governing[name],
-            cycles=result.cycles[result.cycles["weld"] == name],
+            largest=_largest(result.cycles(name, _OF_LARGEST), governing[name]),
         )
     return {name: welds[name] for name in result.detailed}
+
+
+def _largest(cycles: pd.DataFrame, event: str | None) -> tuple[float, float] | None:
+    """Find the instants of the most damaging cycle of an event [s]."""
+    cycles = cycles[cycles["event"] == event]
+    if cycles.empty:
+        return None
+    largest = cycles.loc[(cycles["damage"] / cycles["count"]).idxmax()]
+    return float(largest["start_s"]), float(largest["end_s"])

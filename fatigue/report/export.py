@@ -1,13 +1,15 @@
 """The tables of a result in formats that people open: an Excel workbook, and CSV files."""
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 
 from fatigue.errors import DataError, Problem
 from fatigue.report.wording import LONGEST
-from fatigue.results import TABLES, Column, read_provenance, read_table
+from fatigue.results import TABLES, Column, read_provenance, read_table, row_groups
 
 WORKBOOK = "nodes.xlsx"
 CSV_TABLES = ("nodes", "damage", "cycles", "welds")
@@ -37,13 +39,13 @@ def write_xlsx(folder: Path) -> Path:
             )
         ) from None
     record = read_provenance(folder)
-    tables = {name: read_table(folder, name).to_pandas() for name in ("nodes", "welds")}
-    if len(tables["nodes"]) > _MOST_ROWS:
+    points = len(read_table(folder, "nodes", ["node"]))
+    if points > _MOST_ROWS:
         raise DataError(
             Problem(
                 "too_many_rows",
                 WORKBOOK,
-                f"{len(tables['nodes'])} points do not fit into a sheet of {_MOST_ROWS} rows",
+                f"{points} points do not fit into a sheet of {_MOST_ROWS} rows",
                 "Use nodes.parquet or CSV",
             )
         )
@@ -57,8 +59,8 @@ def write_xlsx(folder: Path) -> Path:
     with xlsxwriter.Workbook(str(path), options) as book:
         book.set_properties({"title": record["title"], "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
         formats = {name: book.add_format(look) for name, look in _FORMATS.items()}
-        for name, frame in tables.items():
-            _write_sheet(book.add_worksheet(name), frame, TABLES[name], formats)
+        for name in ("nodes", "welds"):
+            _write_sheet(book.add_worksheet(name), row_groups(folder, name), TABLES[name], formats)
         _write_meanings(book.add_worksheet("columns"), formats)
     return path
 
@@ -75,14 +77,14 @@ _FORMATS = {
 _LARGE = ("life_km", "life_km_dirlik", "life_km_tb", "life_km_same_ratio", "life_km_raw_end", "life_years")
 
 
-def _write_sheet(sheet, frame: pd.DataFrame, columns: tuple[Column, ...], formats) -> None:  # type: ignore[no-untyped-def]
+def _write_sheet(sheet, pieces: Iterable[pa.Table], columns: tuple[Column, ...], formats) -> None:  # type: ignore[no-untyped-def]
     for i, column in enumerate(columns):
         unit = f"\n[{column.unit}]" if column.unit != "-" else ""
         sheet.write_string(0, i, f"{column.name}{unit}", formats["head"])
         sheet.set_column(i, i, 24 if column.type == "text" else 13)
-    cells = [_cells(frame[column.name], column) for column in columns]
     looks = [formats[_look(column)] for column in columns]
-    for row, values in enumerate(zip(*cells, strict=True), start=1):
+    row = 0
+    for row, values in enumerate(_rows(pieces, columns), start=1):
         for i, value in enumerate(values):
             if value is None:
                 continue
@@ -95,7 +97,14 @@ def _write_sheet(sheet, frame: pd.DataFrame, columns: tuple[Column, ...], format
             )
             write(row, i, value, looks[i])
     sheet.freeze_panes(1, 1)
-    sheet.autofilter(0, 0, len(frame), len(columns) - 1)
+    sheet.autofilter(0, 0, row, len(columns) - 1)
+
+
+def _rows(pieces: Iterable[pa.Table], columns: tuple[Column, ...]) -> Iterator[tuple[str | bool | float | None, ...]]:
+    """Give the cells of a table row by row."""
+    for piece in pieces:
+        frame = piece.to_pandas()
+        yield from zip(*(_cells(frame[column.name], column) for column in columns), strict=True)
 
 
 def _cells(values: pd.Series, column: Column) -> list[str | bool | float | None]:
@@ -140,12 +149,14 @@ def write_csv(folder: Path) -> list[Path]:
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:
-        frame = read_table(folder, name).to_pandas()
-        for column in TABLES[name]:
-            if column.type == "text":
-                frame[column.name] = frame[column.name].map(_harmless, na_action="ignore")
+        texts = [column.name for column in TABLES[name] if column.type == "text"]
         paths.append(folder / f"{name}.csv")
-        frame.to_csv(paths[-1], index=False, encoding="utf-8", lineterminator="\n")
+        with paths[-1].open("w", encoding="utf-8", newline="") as file:
+            for number, piece in enumerate(row_groups(folder, name)):
+                frame = piece.to_pandas()
+                for text in texts:
+                    frame[text] = frame[text].map(_harmless, na_action="ignore")
+                frame.to_csv(file, index=False, header=number == 0, lineterminator="\n")
     return paths
 
 

@@ -56,6 +56,9 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85")
             for words in _unique(chosen["residue"].values())
         ),
+        Rule(
+            "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
+        ),
         Rule("Upsampling before counting", str(chosen["upsample"]), "case file: counting.upsample"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(
@@ -91,6 +94,7 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
         ("Weld ends", chosen["weld_ends"]),
+        ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
 
@@ -129,6 +133,18 @@ def _extension(chosen: Mapping[str, Any]) -> str:
         "cutoff": f"cut-off at {number(chosen['knee_cycles'])} cycles",
     }
     return words[chosen["extension"]]
+
+
+def _screening(screening: Mapping[str, Any]) -> str:
+    """Say which points have bounds in place of counted damage."""
+    share, stations = screening["share_of_limit"], screening["stations"]
+    if share == 0.0:
+        return "none: cycles are counted at every point"
+    counted, settled = stations["counted"], sum(stations.values())
+    return (
+        f"{settled - counted} of {settled} stations have proven upper bounds of damage, below {number(share)} of the "
+        "limit and below the worst point of their weld, which is counted exactly"
+    )
 
 
 def _unique(words: Any) -> Sequence[str]:

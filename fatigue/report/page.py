@@ -6,6 +6,7 @@ from typing import Any
 
 import jinja2
 import numpy as np
+import pandas as pd
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
@@ -21,6 +22,8 @@ from fatigue.report.weld_page import weld_page
 from fatigue.report.why import read_why
 
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
+MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only those of the worst welds are
+MOST_LISTED = 2000  # welds in the register of the page, and warnings of a kind
 WORST_POINTS = 50
 
 
@@ -49,7 +52,7 @@ def write_report(folder: Path, case_path: Path | None = None, verification: Sequ
 
 def report_page(folder: Path, case_path: Path | None = None, verification: Sequence[Mapping[str, Any]] = ()) -> str:
     """Return the page as text; see `write_report`."""
-    result = read_result(folder, MOST_DETAILED)
+    result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
     record = result.record
     inputs = find_inputs(record, folder, case_path)
     missing: list[Problem] = []
@@ -66,16 +69,19 @@ def report_page(folder: Path, case_path: Path | None = None, verification: Seque
         "assumptions": method.assumptions(record),
         "warnings": _warnings(record),
         "worst_welds": tables.weld_table(result.welds, links),
-        "worst_ten": tables.point_table(result.nodes, links, 10, "worst-ten"),
+        "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
         # figures are numbered in the order of these lines, which is that of the page
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
         "pages": [weld_page(result, weld, details.get(weld), why, figs, links[weld]) for weld in result.detailed],
         **body_sections.domains(result, figs),
-        "undetailed": int((result.welds["status"] == "assessed").sum()) - len(result.detailed),
-        "worst_points": tables.point_table(result.nodes, links, WORST_POINTS, "worst-points", "Find a point"),
-        "register": tables.register_table(result.welds, links),
+        "undetailed": len(result.assessed) - len(result.detailed),
+        "undrawn": len(result.assessed) - len(result.drawn),
+        "worst_points": tables.point_table(result.worst_points, links, WORST_POINTS, "worst-points", "Find a point"),
+        "register": tables.register_table(_listed(result), links),
+        "most_listed": MOST_LISTED,
+        "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
         "modes": tables.mode_table(record["modes"]),
         "rules": method.rules(record),
@@ -132,7 +138,7 @@ def _body(inputs: Inputs, missing: list[Problem]) -> Body | None:
 
 def _head(result: Result) -> dict[str, Any]:
     """Collect what the first lines of the page say."""
-    welds = result.welds[result.welds["status"] == "assessed"]
+    welds = result.assessed
     mission = result.record["mission"]
     missed = int((~welds["fulfilled"].astype(bool)).sum())
     return {
@@ -140,13 +146,19 @@ def _head(result: Result) -> dict[str, Any]:
         "missed": missed,
         "welds": len(welds),
         "excluded": len(result.welds) - len(welds),
-        "points": int(result.nodes["toe"].sum()),
+        "points": result.toes,
         "worst": welds.iloc[0],
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),
         "target_km": mission["target_km"],
         "target_years": mission["target_km"] / mission["km_per_year"],
         "km_per_year": mission["km_per_year"],
     }
+
+
+def _listed(result: Result) -> pd.DataFrame:
+    """Keep the welds of the register that have a row: the worst, and those that are excluded."""
+    listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
+    return result.welds[listed]
 
 
 def _warnings(record: Mapping[str, Any]) -> list[tuple[str, list[Mapping[str, str]]]]:

@@ -1,4 +1,4 @@
-"""A finished result read for its report: every point, the welds worst first, details of the points that govern."""
+"""A finished result read for its report: the welds worst first, points that are drawn, details of those that govern."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -7,37 +7,51 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
-import pyarrow.compute as pc
-import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from fatigue.results import read_provenance, read_table
+from fatigue.report.domains import Domains, read_domains
+from fatigue.results import read_provenance, read_rows, read_table, rows_of_welds, worst_toes
 
 POINT = ("weld", "part", "order", "surface")
+_WORST = ("weld", "worst_part", "worst_order", "worst_surface")
+_OF_CYCLE = ("event", "range_MPa", "mean_MPa", "count", "bending_ratio", "equivalent_range_dS", "damage")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Result:
-    """What a report needs of a result folder.
+    """What a report needs of a result folder: never all points of a train.
 
     Attributes
     ----------
     record : provenance
     welds : the register, worst first
-    nodes : all points, with the kurtosis of the stress in the governing event of each
+    drawn : the welds, worst first, whose lines are drawn
+    nodes : all points of the drawn welds
+    worst_points : the worst toe points of all welds, worst first
+    toes : number of toe points of all welds
+    domains : both domains at the points of all welds
     detailed : the welds, worst first, whose worst point is shown in detail
-    damage, cycles : the worst points of the detailed welds only
+    damage : the worst points of the detailed welds only
+    cycle_rows : of each detailed weld, row numbers in the table of cycles
     folder : where the tables lie
     """
 
     record: Mapping[str, Any]
     welds: pd.DataFrame
+    drawn: tuple[str, ...]
     nodes: pd.DataFrame
+    worst_points: pd.DataFrame
+    toes: int
+    domains: Domains
     detailed: tuple[str, ...]
     damage: pd.DataFrame
-    cycles: pd.DataFrame
+    cycle_rows: Mapping[str, NDArray[np.int64]]
     folder: Path
+
+    @property
+    def assessed(self) -> pd.DataFrame:
+        """The register without the excluded welds, worst first."""
+        return self.welds[self.welds["status"] == "assessed"]
 
     @property
     def target_km(self) -> float:
@@ -55,11 +69,13 @@ class Result:
         return {event["event"]: float(event["passes_per_km"]) for event in self.events}
 
     def worst(self, weld: str) -> pd.Series:
-        """Row of the worst point of a weld in the table of nodes."""
-        row = self.welds.set_index("weld").loc[weld]
-        nodes = self.nodes
-        found = (nodes["weld"] == weld) & (nodes["part"] == row["worst_part"]) & (nodes["order"] == row["worst_order"])
-        return nodes[found & (nodes["surface"] == row["worst_surface"])].iloc[0]
+        """Row of the worst point of a detailed weld in the table of nodes."""
+        return self._worst_of(weld, self.nodes[self.nodes["weld"] == weld]).iloc[0]
+
+    def cycles(self, weld: str, columns: Sequence[str] = _OF_CYCLE) -> pd.DataFrame:
+        """Read the cycles of a detailed weld's worst point; none where they are not kept."""
+        cycles = read_rows(self.folder, "cycles", self.cycle_rows[weld], [*POINT, *columns]).to_pandas()
+        return self._worst_of(weld, cycles).reset_index(drop=True)
 
     def stress_shapes(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
@@ -68,51 +84,65 @@ class Result:
         order of the table, which lists all modes of a station one after the other.
         """
         modes = len(self.record["modes"]["used"])
-        rows = _rows(self.folder, "structural_stress", self.detailed, ["weld", "part", "order", *columns])
+        rows = rows_of(self.folder, "structural_stress", self.detailed, ["weld", "part", "order", *columns])
         found = {}
         for weld, of_weld in rows.groupby("weld", sort=False):
             stations = of_weld[["part", "order"]].iloc[::modes].reset_index(drop=True)
             found[str(weld)] = (stations, of_weld[list(columns)].to_numpy().T.reshape(len(columns), -1, modes))
         return found
 
+    def _worst_of(self, weld: str, rows: pd.DataFrame) -> pd.DataFrame:
+        """Keep the rows of the worst point among those of a weld."""
+        row = self.welds.set_index("weld").loc[weld]
+        at = (rows["part"] == row["worst_part"]) & (rows["order"] == row["worst_order"])
+        return rows[at & (rows["surface"] == row["worst_surface"])]
 
-def read_result(folder: Path, most_detailed: int) -> Result:
-    """Read a result folder; details for the worst points of at most so many welds.
+
+def read_result(folder: Path, most_detailed: int, most_stations: int, worst_points: int) -> Result:
+    """Read a result folder.
+
+    Parameters
+    ----------
+    most_detailed : welds whose worst point is shown in detail
+    most_stations : on the lines that are drawn; beyond, those of the worst welds are
+    worst_points : toe points that are listed
 
     Raises
     ------
     DataError : no finished result there, or a table is damaged
     """
     record = read_provenance(folder)
+    domains = read_domains(folder, [event["event"] for event in record["mission"]["events"]])
+    toes = int(np.count_nonzero(read_table(folder, "nodes", ["toe"])["toe"].to_numpy()))
+    worst = read_rows(folder, "nodes", worst_toes(folder, worst_points)).to_pandas()
     welds = read_table(folder, "welds").to_pandas()
     welds = welds.sort_values("utilisation", ascending=False, kind="stable", na_position="last", ignore_index=True)
-    nodes = read_table(folder, "nodes").to_pandas()
-    nodes["kurtosis"] = _kurtosis(folder, nodes)
-    assessed = welds[welds["status"] == "assessed"].head(most_detailed)
-    detailed = tuple(assessed["weld"])
-    worst = assessed[["weld", "worst_part", "worst_order", "worst_surface"]].set_axis(list(POINT), axis=1)
-    damage = _rows(folder, "damage", detailed).merge(worst, on=list(POINT))
-    cycles = _rows(folder, "cycles", detailed).merge(worst, on=list(POINT))
-    return Result(record, welds, nodes, detailed, damage, cycles, folder)
+    assessed = welds[welds["status"] == "assessed"]
+    detailed = tuple(assessed["weld"].head(most_detailed))
+    fitting = int(np.searchsorted(assessed["nodes"].cumsum(), most_stations, side="right"))
+    drawn = tuple(assessed["weld"].head(max(fitting, most_detailed)))
+    return Result(
+        record=record,
+        welds=welds,
+        drawn=drawn,
+        nodes=rows_of(folder, "nodes", drawn),
+        worst_points=worst,
+        toes=toes,
+        domains=domains,
+        detailed=detailed,
+        damage=rows_of_worst_points(folder, "damage", welds, detailed),
+        cycle_rows=rows_of_welds(folder, "cycles", detailed),
+        folder=folder,
+    )
 
 
-def _rows(folder: Path, table: str, welds: Sequence[str], columns: Sequence[str] | None = None) -> pd.DataFrame:
-    """Read the rows of some welds only: the whole table may not fit into memory."""
-    read_table(folder, table, ["weld"])  # refuses a table that is missing or damaged
-    wanted = pc.field("weld").isin(pa.array(welds, pa.string()))
-    return pq.read_table(folder / f"{table}.parquet", columns=columns, filters=wanted).to_pandas()
+def rows_of(folder: Path, table: str, welds: Sequence[str], columns: Sequence[str] | None = None) -> pd.DataFrame:
+    """Read the rows of some welds in the order of the table."""
+    rows = rows_of_welds(folder, table, welds).values()
+    return read_rows(folder, table, np.sort(np.concatenate([*rows])), columns).to_pandas()
 
 
-def _kurtosis(folder: Path, nodes: pd.DataFrame) -> NDArray[np.float64]:
-    """Kurtosis of the stress of every point in its governing event; NaN where nothing damages.
-
-    The table of damage lists all events of every point in the order of the table of nodes.
-    """
-    table = read_table(folder, "damage", ["event", "kurtosis"]).combine_chunks()
-    event = table.column("event").chunk(0).dictionary_encode()
-    governing = pc.index_in(pa.array(nodes["governing_event"], pa.string()), value_set=event.dictionary)
-    column = governing.to_numpy(zero_copy_only=False)
-    events = table.num_rows // len(nodes)
-    is_governing = event.indices.to_numpy().reshape(-1, events) == column[:, None]
-    kurtosis = table.column("kurtosis").to_numpy().reshape(-1, events)
-    return np.where(is_governing.any(axis=1), np.nansum(np.where(is_governing, kurtosis, 0.0), axis=1), np.nan)
+def rows_of_worst_points(folder: Path, table: str, welds: pd.DataFrame, some: Sequence[str]) -> pd.DataFrame:
+    """Read the rows of the worst points of some welds; ``welds`` is the register."""
+    worst = welds.loc[welds["weld"].isin(some), list(_WORST)].set_axis(list(POINT), axis=1)
+    return rows_of(folder, table, some).merge(worst, on=list(POINT))

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import ModalHistory
-from fatigue.spectrum.moments import has_spectrum, segment_spectra
+from fatigue.life.history import ModalHistory, mean_and_covariance, stress_history
+from fatigue.spectrum.moments import cross_densities, has_spectrum, segment_spectra
 
 CLOSE_UP_SAMPLES = 75  # before and after an instant of a cycle
 ENVELOPE_BINS = 600  # of the whole record
@@ -16,9 +16,14 @@ DOMINANT_MODES = 4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
-    """One event as every point needs it: modal coordinates with the stress factor applied, and their covariance."""
+    """One event as every point needs it: modal coordinates, and their mean and covariance.
+
+    The stress factor is applied to the stress shapes of a point, and to ``covariance`` already.
+    """
 
     history: ModalHistory
+    stress_factor: float
+    mean: NDArray[np.float64]
     covariance: NDArray[np.float64]
 
 
@@ -52,10 +57,9 @@ class Envelope:
 
 
 def prepared(history: ModalHistory, stress_factor: float) -> Record:
-    """Scale a record with its stress factor and compute the covariance of its modal coordinates."""
-    q = history.q * stress_factor
-    centred = q - q.mean(axis=1, keepdims=True, dtype=np.float64)
-    return Record(replace(history, q=q), np.asarray(centred @ centred.T, dtype=np.float64) / q.shape[1])
+    """Join a record with its stress factor and compute mean and covariance of its modal coordinates."""
+    mean, covariance = mean_and_covariance(history.q)
+    return Record(history, stress_factor, mean, stress_factor**2 * covariance)
 
 
 def spectrum(record: Record, shape: NDArray[np.float64], segment_s: float, upper_hz: float) -> Spectrum | None:
@@ -63,10 +67,9 @@ def spectrum(record: Record, shape: NDArray[np.float64], segment_s: float, upper
     if not has_spectrum(record.history, segment_s):
         return None
     history = record.history
-    stress = replace(history, q=(shape @ history.q)[None])
+    stress = replace(history, q=stress_history(record.stress_factor * shape[None], history.q))
     spectra = segment_spectra(stress, segment_s, upper_hz)
-    density = np.mean(np.abs(spectra.amplitude[:, :, 0]) ** 2, axis=0)
-    return Spectrum(history.event, spectra.frequency, density)
+    return Spectrum(history.event, spectra.frequency, cross_densities(spectra)[:, 0, 0])
 
 
 def variance_shares(record: Record, shape: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -86,7 +89,7 @@ def excerpts(
 
     ``modes`` are the rows of q whose parts of the stress are shown.
     """
-    history = record.history
+    history, factors = record.history, record.stress_factor * shape
     last = history.q.shape[1] - 1
     at = sorted(min(max(round((t - history.start) / history.step), 0), last) for t in (start_s, end_s))
     groups = [at] if at[1] - at[0] <= 2 * CLOSE_UP_SAMPLES else [at[:1], at[1:]]
@@ -98,8 +101,8 @@ def excerpts(
             Excerpt(
                 instants=tuple(history.start + history.step * i for i in group),
                 time=history.start + history.step * (first + np.arange(q.shape[1])),
-                stress=shape @ q,
-                parts={int(history.mode[k]): shape[k] * (q[k] - history.q[k].mean(dtype=np.float64)) for k in modes},
+                stress=factors @ q,
+                parts={int(history.mode[k]): factors[k] * (q[k] - record.mean[k]) for k in modes},
             )
         )
     return found
@@ -108,7 +111,7 @@ def excerpts(
 def envelope(record: Record, shape: NDArray[np.float64]) -> Envelope:
     """Extremes of the stress over the whole kept record, in at most ``ENVELOPE_BINS`` spans."""
     history = record.history
-    stress = shape @ history.q
+    stress = stress_history(record.stress_factor * shape, history.q)
     starts = np.linspace(0, len(stress), min(ENVELOPE_BINS, len(stress)), endpoint=False).astype(np.int64)
     return Envelope(
         event=history.event,

@@ -108,8 +108,12 @@ def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) ->
 
 
 def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: str, label: str = "") -> Table:
-    """Worst toe points of all welds."""
-    worst = nodes[nodes["toe"]].sort_values("utilisation", ascending=False, kind="stable").head(most)
+    """Worst toe points of all welds, those that a bound has settled left out."""
+    worst = (
+        nodes[nodes["toe"] & (nodes["screened"] == "")]
+        .sort_values("utilisation", ascending=False, kind="stable")
+        .head(most)
+    )
     rows = tuple(
         (
             integer(rank),

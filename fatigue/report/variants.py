@@ -76,7 +76,8 @@ def variants(
     Returns
     -------
     table with ``assumption``, ``choice``, ``used`` (the choice of the assessment) and ``damage_factor``, its damage
-    over that of the assessment (NaN where nothing damages). Factors of mean stress, shear and weld end come from
+    over that of the assessment (NaN where nothing damages). Without cycles of a point that is damaged, because they are
+    not kept, the choices that need them are left out. Factors of mean stress, shear and weld end come from
     the point's own row and are left out where the assessment had no number for them.
     """
     per_km = how_often(cycles, passes_per_km)
@@ -86,7 +87,9 @@ def variants(
     def factor(changed: Assumptions, scale: NDArray[np.float64] | float = 1.0) -> float:
         return damage_per_km(ranges * scale, per_km, changed) / assessed if assessed > 0.0 else np.nan
 
-    rows = [*_curve_variants(used, factor), *_stress_variants(point, cycles, used, factor), *_point_variants(point)]
+    counted = [*_curve_variants(used, factor), *_stress_variants(point, cycles, used, factor)]
+    kept = len(cycles) > 0 or point["damage_per_km"] == 0.0
+    rows = [*(counted if kept else ()), *_point_variants(point)]
     return pd.DataFrame(rows, columns=["assumption", "choice", "used", "damage_factor"])
 
 

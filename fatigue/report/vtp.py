@@ -1,17 +1,17 @@
 """Weld lines for ParaView: one poly-line per line part, every column of both faces as point data (VTK XML PolyData)."""
 
 import base64
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.results import NODES, read_table
+from fatigue.results import NODES, Column, read_codes, read_table
 from fatigue.weld.line import WeldLine
 
 STATION = (
@@ -27,8 +27,9 @@ STATION = (
     "at_end",
     "at_corner",
 )
-_XYZ = ["x_mm", "y_mm", "z_mm"]
+_XYZ = ("x_mm", "y_mm", "z_mm")
 _VTK_TYPE = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}
+_DTYPE = {"float": "f8", "int": "i8", "flag": "u1"}
 
 
 def write_vtp(folder: Path) -> Path:
@@ -42,26 +43,59 @@ def write_vtp(folder: Path) -> Path:
     ------
     DataError : the folder holds no result
     """
-    nodes = read_table(folder, "nodes").to_pandas()
-    closed = read_table(folder, "welds", ["weld", "closed", "parts"]).to_pandas().set_index("weld")
-    top = nodes[nodes["surface"] == "top"].reset_index(drop=True)
-    bottom = nodes[nodes["surface"] == "bottom"].reset_index(drop=True)
+    surface, faces = read_codes(folder, "nodes", "surface")
+    register = read_table(folder, "welds", ["weld", "closed", "parts"]).to_pydict()
+    rows = {face: np.flatnonzero(surface == i) for i, face in enumerate(faces)}
+    xyz = np.stack([read_table(folder, "nodes", [name])[name].to_numpy()[rows["top"]] for name in _XYZ], axis=1)
+    path = folder / "weld_lines.vtp"
+    with path.open("w", encoding="ascii", newline="\n") as file:
+        file.writelines(_poly_lines(xyz, _pieces(folder, rows["top"], register), _point_data(folder, rows, register)))
+    return path
 
-    ring = (closed["closed"] & (closed["parts"] == 1)).to_dict()
-    pieces = []
-    for (weld, _), rows in top.groupby(["weld", "part"], sort=False).indices.items():
-        pieces.append(np.append(rows, rows[0]) if ring[weld] else rows)
 
-    point_data = [_array(name, top[name]) for name in STATION if name not in _XYZ]
-    point_data.append(_array("weld_number", top["weld"].map({weld: i for i, weld in enumerate(closed.index, 1)})))
+def _pieces(folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequence[Any]]) -> list[NDArray[np.integer]]:
+    """Find the points of every line part, the first repeated at the end of a ring."""
+    weld, names = read_codes(folder, "nodes", "weld")
+    part = read_table(folder, "nodes", ["part"])["part"].to_numpy()
+    rings = {
+        name
+        for name, closed, parts in zip(register["weld"], register["closed"], register["parts"], strict=True)
+        if closed and parts == 1
+    }
+    key = weld[rows] * (part.max() + 1) + part[rows]
+    by_line = np.argsort(key, kind="stable")
+    lines = np.split(by_line, np.flatnonzero(np.diff(key[by_line])) + 1)
+    lines.sort(key=lambda line: line[0])
+    return [np.append(line, line[0]) if names[weld[rows[line[0]]]] in rings else line for line in lines]
+
+
+def _point_data(
+    folder: Path, rows: Mapping[str, NDArray[np.int64]], register: Mapping[str, Sequence[Any]]
+) -> Iterator[str]:
+    """Encode the columns of the table of nodes, one in memory at a time."""
+    of_station = {column.name: column for column in NODES if column.name in STATION}
+    for name in STATION:
+        if name not in _XYZ:
+            (array,) = _arrays(folder, of_station[name], {name: rows["top"]})
+            yield array
+    weld, names = read_codes(folder, "nodes", "weld")
+    place = {name: i for i, name in enumerate(register["weld"], 1)}
+    yield _data("weld_number", "i8", np.array([place[name] for name in names])[weld[rows["top"]]])
     for column in NODES:
         if column.name not in (*STATION, "surface"):
-            point_data += [
-                _array(f"{column.name}_{face}", rows[column.name]) for face, rows in (("top", top), ("bottom", bottom))
-            ]
-    path = folder / "weld_lines.vtp"
-    path.write_text(_poly_lines(top[_XYZ].to_numpy(), pieces, point_data), encoding="ascii", newline="\n")
-    return path
+            yield from _arrays(folder, column, {f"{column.name}_{face}": rows[face] for face in ("top", "bottom")})
+
+
+def _arrays(folder: Path, column: Column, wanted: Mapping[str, NDArray[np.int64]]) -> Iterator[str]:
+    """Encode some rows of a column, each under a name of its own: flags as 0 and 1, texts as strings."""
+    if column.type == "text":
+        codes, texts = read_codes(folder, "nodes", column.name)
+        for name, rows in wanted.items():
+            yield _texts(name, codes[rows], texts)
+    else:
+        values = read_table(folder, "nodes", [column.name])[column.name].to_numpy()
+        for name, rows in wanted.items():
+            yield _data(name, _DTYPE[column.type], values[rows])
 
 
 def write_line_picture(path: Path, lines: Sequence[WeldLine], *, overwrite: bool) -> None:
@@ -80,7 +114,7 @@ def write_line_picture(path: Path, lines: Sequence[WeldLine], *, overwrite: bool
         for line, rows in zip(lines, (np.arange(i, j) for i, j in pairwise(first)), strict=True)
     ]
     data = [
-        _array("weld", pd.Series([line.weld for line in lines]).iloc[number - 1]),
+        _texts("weld", number - 1, [line.weld for line in lines]),
         _data("weld_number", "i8", number),
         _data("node", "i8", np.concatenate([line.node for line in lines])),
         _data("thickness_mm", "f8", np.concatenate([line.thickness for line in lines])),
@@ -88,44 +122,29 @@ def write_line_picture(path: Path, lines: Sequence[WeldLine], *, overwrite: bool
         _data("outward", "f8", np.concatenate([line.outward for line in lines]), components=3),
     ]
     xyz = np.concatenate([line.xyz for line in lines])
-    path.write_text(_poly_lines(xyz, pieces, data), encoding="ascii", newline="\n")
+    with path.open("w", encoding="ascii", newline="\n") as file:
+        file.writelines(_poly_lines(xyz, pieces, data))
 
 
-def _poly_lines(xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Sequence[str]) -> str:
+def _poly_lines(
+    xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Iterable[str]
+) -> Iterator[str]:
     """Lay out points, poly-lines and the arrays of the points."""
-    return "\n".join(
-        [
-            '<?xml version="1.0"?>',
-            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">',
-            "<PolyData>",
-            f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(pieces)}">',
-            "<Points>",
-            _data("Points", "f8", xyz, components=3),
-            "</Points>",
-            "<Lines>",
-            _data("connectivity", "i8", np.concatenate(pieces)),
-            _data("offsets", "i8", np.cumsum([len(piece) for piece in pieces])),
-            "</Lines>",
-            "<PointData>",
-            *point_data,
-            "</PointData>",
-            "</Piece>",
-            "</PolyData>",
-            "</VTKFile>\n",
-        ]
-    )
+    yield '<?xml version="1.0"?>\n'
+    yield '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
+    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(pieces)}">\n'
+    yield f"<Points>\n{_data('Points', 'f8', xyz, components=3)}</Points>\n<Lines>\n"
+    yield _data("connectivity", "i8", np.concatenate(pieces))
+    yield _data("offsets", "i8", np.cumsum([len(piece) for piece in pieces]))
+    yield "</Lines>\n<PointData>\n"
+    yield from point_data
+    yield "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n"
 
 
-def _array(name: str, column: pd.Series) -> str:
-    """Write one column: flags as 0 and 1, whole numbers and floats as they are, all else as text."""
-    if pd.api.types.is_bool_dtype(column):
-        return _data(name, "u1", column.to_numpy(dtype=np.uint8))
-    if pd.api.types.is_integer_dtype(column):
-        return _data(name, "i8", column.to_numpy())
-    if pd.api.types.is_float_dtype(column):
-        return _data(name, "f8", column.to_numpy())
-    texts = "\0".join(["" if pd.isna(text) else text.replace("\0", " ") for text in column]) + "\0"
-    return _element(name, "String", texts.encode(), components=1)
+def _texts(name: str, codes: NDArray[np.integer], texts: Sequence[str]) -> str:
+    """Encode ``texts[codes]``; a missing text, code -1, is empty."""
+    plain = np.array([*(text.replace("\0", " ") for text in texts), ""], dtype=object)
+    return _element(name, "String", ("\0".join(plain[codes]) + "\0").encode(), components=1)
 
 
 def _data(name: str, dtype: str, values: NDArray[np.generic], components: int = 1) -> str:
@@ -137,5 +156,5 @@ def _element(name: str, kind: str, content: bytes, components: int) -> str:
     encoded = base64.b64encode(len(content).to_bytes(8, "little") + content).decode()
     return (
         f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{components}" format="binary">'
-        f"{encoded}</DataArray>"
+        f"{encoded}</DataArray>\n"
     )

@@ -21,7 +21,10 @@ SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED, EVENTS_LISTED = 6, 8, 4, 20
 
 @dataclass(frozen=True, slots=True)
 class WeldPage:
-    """One weld in detail; what only a diagnosis knows is empty without one."""
+    """One weld in detail; what only a diagnosis knows is empty without one.
+
+    ``bounded`` points of it have a lower bound of life in place of a counted one.
+    """
 
     id: str
     name: str
@@ -35,13 +38,14 @@ class WeldPage:
     levers: Table | None
     reasons: list[tuple[str, str, str]]
     exponents: Mapping[str, float]
+    bounded: int
 
 
 def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
     """Gather all that is shown of one weld; ``detail`` is None where the records were not found."""
     row = result.welds.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
-    cycles = result.cycles[result.cycles["weld"] == weld]
+    cycles = result.cycles(weld)
     used = assumptions_of(result.record, row["curve"])
     event = None if pd.isna(row["governing_event"]) else str(row["governing_event"])
     why = None if why is None else why.of_weld(weld)
@@ -77,6 +81,7 @@ def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None,
         levers=None if why is None or why.levers.empty else weld_tables.lever_table(f"{id_}-levers", why.levers),
         reasons=[] if why is None else why.reasons(),
         exponents={} if why is None else exponents(why),
+        bounded=int((points["screened"] != "").sum()),
     )
 
 
@@ -120,7 +125,8 @@ def _record_figures(
     colours = figures.event_colours([e["event"] for e in result.events])
     names, natural = _mode_names(result.record["modes"])
     history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
-    caption = f"Stress in event {wording.short(event)}, and close by at its most damaging cycle"
+    close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
+    caption = f"Stress in event {wording.short(event)}{close_by}"
     shown = [figs.add(f"{id_}-history", history, caption, wide=True)]
     leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
     parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}

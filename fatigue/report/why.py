@@ -7,11 +7,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
-import pyarrow.compute as pc
-import pyarrow.parquet as pq
 
-from fatigue.report.result import POINT, Result
+from fatigue.report.result import Result, rows_of_worst_points
 
 TABLES = ("attribution", "track", "diagnosis", "levers")
 
@@ -41,11 +38,7 @@ def read_why(folder: Path, result: Result) -> Why | None:
     """Read the tables of a diagnosis; None where the result was not diagnosed."""
     if not all((folder / f"{name}.parquet").is_file() for name in TABLES):
         return None
-    welds = result.welds[result.welds["weld"].isin(result.detailed)]
-    worst = welds[["weld", "worst_part", "worst_order", "worst_surface"]].set_axis(list(POINT), axis=1)
-    wanted = pc.field("weld").isin(pa.array(result.detailed, pa.string()))
-    tables = (pq.read_table(folder / f"{name}.parquet", filters=wanted).to_pandas() for name in TABLES)
-    return Why(*(table.merge(worst, on=list(POINT)) for table in tables))
+    return Why(*(rows_of_worst_points(folder, name, result.welds, result.detailed) for name in TABLES))
 
 
 def mode_shares(why: Why) -> pd.DataFrame:

@@ -15,8 +15,10 @@ from fatigue.results.columns import (
     WELDS,
     Column,
 )
+from fatigue.results.parts import read_codes, read_rows, row_groups, rows_of_welds, worst_toes
 from fatigue.results.store import (
     TableWriter,
+    coded,
     input_register,
     json_ready,
     read_provenance,
@@ -44,14 +46,20 @@ __all__ = [
     "WELDS",
     "Column",
     "TableWriter",
+    "coded",
     "input_register",
     "json_ready",
+    "read_codes",
     "read_provenance",
+    "read_rows",
     "read_table",
     "result_tables",
+    "row_groups",
+    "rows_of_welds",
     "schema",
     "sha256",
     "software_versions",
     "table_writer",
+    "worst_toes",
     "write_json",
 ]

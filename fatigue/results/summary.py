@@ -8,12 +8,13 @@ from typing import Any
 import pandas as pd
 
 from fatigue.errors import DataError, Problem
-from fatigue.results import read_provenance, read_table
+from fatigue.results import read_provenance, read_rows, read_table, worst_toes
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
+MOST_WELDS = 200  # printed: a train has thousands
 
 _POINT_COLUMNS = (
-    "weld", "part", "node", "order", "surface", "toe", "arc_length_mm", "life_km", "life_years", "utilisation",
+    "weld", "part", "node", "order", "surface", "arc_length_mm", "life_km", "life_years", "utilisation",
     "fulfilled", "load_factor", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict", "governing_event", "max_range_MPa",
     "bending_ratio", "at_end", "at_corner",
 )  # fmt: skip
@@ -51,7 +52,8 @@ class Summary:
         verdict = (
             "every weld meets its target" if not missed else f"{missed} of {len(self.welds)} welds miss their target"
         )
-        welds = self.welds.rename(columns={"worst_node": "node", "worst_surface": "face"})
+        welds = self.welds.head(MOST_WELDS).rename(columns={"worst_node": "node", "worst_surface": "face"})
+        others = len(self.welds) - len(welds)
         return "\n".join(
             [
                 f"{self.title}: {verdict} of {_km(self.target_km)}",
@@ -61,6 +63,7 @@ class Summary:
                     welds,
                     ["weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event"],
                 ),
+                *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
                 "",
                 f"The {len(self.points)} worst points",
                 _text_table(
@@ -91,23 +94,18 @@ def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summa
     record = read_provenance(folder)
     welds = read_table(folder, "welds").to_pandas()
     welds = welds[welds["status"] == "assessed"].astype({"fulfilled": bool, "worst_node": int})
-    points = read_table(folder, "nodes", _POINT_COLUMNS).to_pandas()
     unknown = sorted(set(only) - set(welds["weld"]))
     if unknown:
-        raise DataError(
-            Problem(
-                "unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {', '.join(welds['weld'])}"
-            )
-        )
+        names = ", ".join(welds["weld"].head(MOST_WELDS))
+        raise DataError(Problem("unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {names}"))
     if only:
-        welds, points = welds[welds["weld"].isin(only)], points[points["weld"].isin(only)]
-    points = points[points["toe"]].sort_values("utilisation", ascending=False, kind="stable").head(top)
+        welds = welds[welds["weld"].isin(only)]
     return Summary(
         title=record["title"],
         assumptions=assumptions(record),
         target_km=record["mission"]["target_km"],
         welds=welds.sort_values("utilisation", ascending=False, kind="stable"),
-        points=points.drop(columns="toe"),
+        points=read_rows(folder, "nodes", worst_toes(folder, top, only), _POINT_COLUMNS).to_pandas(),
     )
 
 
@@ -118,9 +116,11 @@ def assumptions(record: dict[str, Any]) -> str:
     extension = (
         "no knee" if rules["extension"] == "none" else f"{rules['extension']} at {rules['knee_cycles']:g} cycles"
     )
+    screening = rules["screening"]
+    screened = "" if screening["share_of_limit"] == 0.0 else f"; points proven below {screening['share_of_limit']:g} "
     return (
         f"Curve {curves}; thickness {rules['thickness_rule']}; {extension}; mean stress {rules['mean_stress']}; "
-        f"damage limit {record['mission']['damage_limit']:g}"
+        f"damage limit {record['mission']['damage_limit']:g}{screened and screened + 'of it have bounds only'}"
     )
 
 

@@ -246,6 +246,33 @@ def test_many_welds_have_their_rows_and_few_their_figures(tmp_path, monkeypatch)
     assert "the other 5 have their row" in page.words
 
 
+def test_of_very_many_welds_the_worst_are_drawn_and_listed(tmp_path, monkeypatch):
+    """Lines, register and warnings have a limit each; the page says what is left out and where it is."""
+    for limit, value in (("MOST_DETAILED", 2), ("MOST_STATIONS", 9), ("MOST_LISTED", 5)):
+        monkeypatch.setattr(f"fatigue.report.page.{limit}", value)
+    doubts = tuple({"code": "doubt", "where": f"weld {i}", "what": "w", "remedy": "r"} for i in range(7))
+    page = made(tmp_path, welds=tuple(f"W{i}" for i in range(8)), stations=3, warnings=doubts)
+    assert "Weld lines, coloured by the shorter life of the toe faces, the 3 worst of 8 welds" in page.words
+    assert len(values(page.figures["scene"]["data"][0]["x"])) == 3 * (3 + 1)
+    assert [row[0] for row in page.tables["weld-register"][1:]] == [f"W{i}" for i in range(5)]
+    assert "The 3 assessed welds with the longest lives are left out here; they are in welds.parquet" in page.words
+    assert "the other 6 have all their numbers in the tables" in page.words
+    assert "and 2 more, see provenance.json" in page.words
+    assert "48 toe points were assessed" in page.words
+
+
+def test_a_weld_without_listed_cycles_has_its_page(tmp_path):
+    """The cycles of welds far from the limit are not kept: what needs them is left out, nothing is taken for wrong."""
+    folder = write_result(tmp_path)
+    cycles = pd.read_parquet(folder / "cycles.parquet")
+    cycles[cycles["weld"] != "W2 hanger"].to_parquet(folder / "cycles.parquet", index=False)
+    page = Page(report_page(folder))
+    assert {"weld-2-along", "weld-2-psd"} <= page.figures.keys()
+    assert "weld-2-matrix" not in page.figures
+    assert "✕ differs" not in page.words
+    assert not re.search(r"\b(inf|nan|None)\b", page.words)
+
+
 def test_the_report_is_written_beside_the_tables(tmp_path):
     """The file is UTF-8 and small enough to send."""
     path = write_report(write_result(tmp_path))

@@ -12,9 +12,13 @@ from fatigue.report.variants import Assumptions, assumptions_of, damage_per_km, 
 @pytest.fixture(scope="module")
 def worst(result_folder):
     """Worst point of a weld with its cycles, the passes of its events and the assumptions."""
-    result = read_result(result_folder, 2)
-    cycles = result.cycles[result.cycles["weld"] == "W1 bracket"]
-    return result.worst("W1 bracket"), cycles, result.passes_per_km, assumptions_of(result.record, "master-aluminium")
+    result = read_result(result_folder, 2, 100, 50)
+    return (
+        result.worst("W1 bracket"),
+        result.cycles("W1 bracket"),
+        result.passes_per_km,
+        assumptions_of(result.record, "master-aluminium"),
+    )
 
 
 def factors(table, assumption):

@@ -3,12 +3,14 @@
 import json
 
 import numpy as np
+import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
 from fatigue.results import (
     TABLES,
+    coded,
     input_register,
     json_ready,
     read_provenance,
@@ -53,15 +55,51 @@ def test_tables_round_trip_with_null_for_nan_and_infinity_kept(tmp_path, table):
             assert found.column(column.name).to_pylist()[:3] == [1.5, np.inf, None]
 
 
-def test_the_same_rows_in_other_pieces_give_the_same_bytes(tmp_path):
+@pytest.mark.parametrize("pieces", [(7, 7, 7), (1, 20), (21,)])
+def test_the_same_rows_in_other_pieces_give_the_same_row_groups(tmp_path, monkeypatch, pieces):
     """Row groups are cut by number of rows, not by how the rows arrive."""
-    for name, pieces in (("a", (3, 3)), ("b", (1, 2, 3))):
-        (tmp_path / name).mkdir()
-        with table_writer(tmp_path / name, "welds") as writer:
-            for n in pieces:
-                writer.write({k: (v * 2)[:n] if len(v) < n else v[:n] for k, v in rows("welds").items()})
-    a, b = (pq.read_table(tmp_path / name / "welds.parquet") for name in "ab")
-    assert a.num_rows == b.num_rows
+    monkeypatch.setattr("fatigue.results.store._ROWS_PER_GROUP", 8)
+    names = [f"weld {i // 2}" for i in range(21)]
+    with table_writer(tmp_path, "nodes") as writer:
+        first = 0
+        for n in pieces:
+            writer.write(columns(names[first : first + n]))
+            first += n
+    file = pq.ParquetFile(tmp_path / "nodes.parquet")
+    assert [file.metadata.row_group(i).num_rows for i in range(file.num_row_groups)] == [8, 8, 5]
+    assert file.read()["weld"].to_pylist() == names
+
+
+def columns(names):
+    """All columns of the table of nodes, with these names of welds."""
+    value = {"text": "x", "int": 1, "flag": True, "float": 0.5}
+    return {c.name: [value[c.type]] * len(names) for c in TABLES["nodes"]} | {"weld": names}
+
+
+def test_coded_texts_are_plain_texts_to_every_reader(tmp_path):
+    """Text in the schema, strings in pandas, null for a code below 0, whatever codes the pieces have."""
+    pieces = [(np.array([1, 0, 1]), ["b", "a"]), (np.array([0, -1]), ["c"]), (np.array([0, 2]), ["a", "c", "d"])]
+    with table_writer(tmp_path, "nodes") as writer:
+        for codes, texts in pieces:
+            writer.write(columns(["w"] * len(codes)) | {"governing_event": coded(codes, texts)})
+    found = pq.read_table(tmp_path / "nodes.parquet")
+    assert found.schema.equals(schema("nodes"), check_metadata=True)
+    assert found["governing_event"].to_pylist() == ["a", "b", "a", "c", None, "a", "d"]
+    assert pd.api.types.is_string_dtype(pd.read_parquet(tmp_path / "nodes.parquet")["weld"])
+    kept = pq.ParquetFile(tmp_path / "nodes.parquet").metadata.row_group(0)
+    events = next(c for c in (kept.column(i) for i in range(kept.num_columns)) if c.path_in_schema == "governing_event")
+    assert events.has_dictionary_page
+
+
+def test_the_numbers_are_the_same_bits(tmp_path):
+    """No encoding rounds: smallest, largest, negative zero, whole numbers beyond 2**53."""
+    numbers = np.array([5e-324, 1.7976931348623157e308, -0.0, np.pi, np.inf])
+    whole = np.array([2**62 + 1, -(2**62) - 1, 0, 1, -1])
+    with table_writer(tmp_path, "nodes") as writer:
+        writer.write(columns(["w"] * 5) | {"life_km": numbers, "node": whole})
+    found = pq.read_table(tmp_path / "nodes.parquet")
+    assert found["life_km"].to_numpy().tobytes() == numbers.tobytes()
+    assert found["node"].to_numpy().tobytes() == whole.tobytes()
 
 
 def test_a_missing_column_is_a_programming_error(tmp_path):

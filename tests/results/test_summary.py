@@ -29,3 +29,11 @@ def test_only_some_welds(small_result):
     assert set(result_summary(small_result, top=5, only=["A"]).points.weld) == {"A"}
     with pytest.raises(DataError, match=r"there is no weld 'Z'\. Choose of A, B"):
         result_summary(small_result, top=5, only=["Z"])
+
+
+def test_of_very_many_welds_the_worst_are_printed(small_result, monkeypatch):
+    """The others are counted, and the verdict is that of all."""
+    monkeypatch.setattr("fatigue.results.summary.MOST_WELDS", 1)
+    text = result_summary(small_result, top=3).as_text()
+    assert "2 of 2 welds miss" in text
+    assert "and 1 welds with a longer life, see welds.parquet" in text

@@ -45,7 +45,8 @@ def along_weld(
         ranges of the faces are drawn instead
     event : name of that event
 
-    Treated zones of weld ends are shaded, corners marked; faces without a toe are drawn thin.
+    Treated zones of weld ends are shaded, corners marked; faces without a toe are drawn thin, lives that are bounds as
+    open circles.
     """
     top = points[points["surface"] == "top"]
     place, breaks = _unrolled(top)
@@ -99,7 +100,7 @@ def _face(
         "x": _gaps(place, breaks),
         "mode": "lines+markers",
         "line": {"color": FACE[face], "width": 2 if toe else 1, "dash": FACE_DASH[face]},
-        "marker": {"size": 5 if toe else 3},
+        "marker": {"size": 5 if toe else 3, "symbol": _symbols(rows, breaks)},
         "opacity": 1.0 if toe else 0.6,
         "legendgroup": face,
         "name": f"{face} face" if toe else f"{face} face, no toe",
@@ -158,6 +159,14 @@ def _unrolled(top: pd.DataFrame) -> tuple[NDArray[np.float64], NDArray[np.int64]
 def _gaps(values: ArrayLike, breaks: NDArray[np.int64]) -> NDArray[np.float32]:
     """Insert a gap before each new part."""
     return single(np.insert(np.asarray(values, dtype=np.float64), breaks, np.nan))
+
+
+def _symbols(rows: pd.DataFrame, breaks: NDArray[np.int64]) -> str | list[str]:
+    """Open circles where a life is a bound, one symbol where none is."""
+    bounded = (rows["screened"] != "").to_numpy()
+    if not bounded.any():
+        return "circle"
+    return np.insert(np.where(bounded, "circle-open", "circle"), breaks, "circle").tolist()
 
 
 def _end_zones(at_end: NDArray[np.bool_], place: NDArray[np.float64]) -> list[tuple[float, float]]:

@@ -30,7 +30,8 @@ PSD_DECADES = 6
 def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> go.Figure:
     """Stress over the whole record of an event, and close by around the instants of one cycle with the parts of modes.
 
-    ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. One or two excerpts.
+    ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. One or two excerpts, or none:
+    the whole record is drawn alone then.
     """
     both = np.column_stack([envelope.low, envelope.high]).ravel()
     data: list[Trace] = [
@@ -44,6 +45,8 @@ def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mappi
             "hovertemplate": "%{x:.4g} s: %{y:.4g} MPa<extra></extra>",
         }
     ]
+    if not excerpts:
+        return figure(data, height=240, xaxis=axis("time of the record [s]"), yaxis=axis("stress [MPa]"))
     layout = {"xaxis": axis("", anchor="y"), "yaxis": axis("stress [MPa]", domain=[0.68, 1.0])}
     width = 1.0 / len(excerpts)
     for i, excerpt in enumerate(excerpts):

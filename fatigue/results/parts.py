@@ -1,0 +1,131 @@
+"""Parts of a result table that as a whole may not fit into memory: some of its rows, or one column of texts.
+
+One row group is in memory at a time. Numbers of all rows, a column at a time, are what `read_table` is for.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from fatigue.results.columns import TABLES
+from fatigue.results.store import read_table, readable
+
+
+def read_rows(folder: Path, table: str, rows: NDArray[np.integer], columns: Sequence[str] | None = None) -> pa.Table:
+    """Read rows by their numbers, in the order of these.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    ascending = np.argsort(rows, kind="stable")
+    wanted = rows[ascending]
+    with _opened(folder, table) as file:
+        names = [name for name in file.schema_arrow.names if columns is None or name in columns]
+        end = np.cumsum([0, *(file.metadata.row_group(i).num_rows for i in range(file.num_row_groups))])
+        group = np.searchsorted(end, wanted, side="right") - 1
+        pieces = [file.schema_arrow.empty_table().select(names)]
+        for number in np.unique(group):
+            piece = file.read_row_group(number, names)
+            pieces.append(piece.take(pa.array(wanted[group == number] - end[number])))
+    found = _plain(pa.concat_tables(pieces).unify_dictionaries())
+    return found if (np.diff(rows) > 0).all() else found.take(pa.array(np.argsort(ascending)))
+
+
+def row_groups(folder: Path, table: str) -> Iterator[pa.Table]:
+    """Read a table, one row group after the other; at least one, be it empty.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    with _opened(folder, table) as file:
+        if file.num_row_groups == 0:
+            yield _plain(file.schema_arrow.empty_table())
+        for number in range(file.num_row_groups):
+            yield _plain(file.read_row_group(number))
+
+
+def rows_of_welds(folder: Path, table: str, welds: Sequence[str]) -> dict[str, NDArray[np.int64]]:
+    """Find the numbers of the rows of each of some welds, ascending.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    found: dict[str, list[NDArray[np.int64]]] = {weld: [np.zeros(0, dtype=np.int64)] for weld in welds}
+    first = 0
+    with _opened(folder, table) as file:
+        at = file.schema_arrow.names.index("weld")
+        for number in range(file.num_row_groups):
+            group = file.metadata.row_group(number)
+            if _may_hold(group.column(at).statistics, welds):
+                codes, names = _coded(file.read_row_group(number, ["weld"]))
+                for code, name in enumerate(names.to_pylist()):
+                    if name in found:
+                        found[name].append(first + np.flatnonzero(codes == code))
+            first += group.num_rows
+    return {weld: np.concatenate(rows) for weld, rows in found.items()}
+
+
+def worst_toes(folder: Path, top: int, welds: Sequence[str] = ()) -> NDArray[np.int64]:
+    """Find the rows of the worst toe points in the table of nodes that were counted, worst first: of some welds or all.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    table = read_table(folder, "nodes", ["toe", "utilisation"])
+    toe, utilisation = table["toe"].to_numpy(), table["utilisation"].to_numpy()
+    tier, names = read_codes(folder, "nodes", "screened")
+    rows = np.flatnonzero(toe & (np.array(names)[tier] == ""))
+    if welds:
+        of_welds = np.concatenate([*rows_of_welds(folder, "nodes", welds).values()])
+        rows = np.intersect1d(rows, of_welds)
+    return rows[np.argsort(-utilisation[rows], kind="stable")[:top]]
+
+
+def read_codes(folder: Path, table: str, column: str) -> tuple[NDArray[np.int32], list[str]]:
+    """Read a column of texts as codes (n,), -1 for a missing one, and the texts they stand for.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    with _opened(folder, table) as file:
+        codes, names = _coded(file.read([column]))
+    return codes, names.to_pylist()
+
+
+@contextmanager
+def _opened(folder: Path, table: str) -> Iterator[pq.ParquetFile]:
+    """Open a table, its texts to be read as codes."""
+    texts = [column.name for column in TABLES[table] if column.type == "text"]
+    path = folder / f"{table}.parquet"
+    with readable(path), pq.ParquetFile(path, read_dictionary=texts) as file:
+        yield file
+
+
+def _may_hold(statistics: pq.Statistics | None, welds: Sequence[str]) -> bool:
+    """Whether some of the welds may be in a row group, by the first and last name in it."""
+    if statistics is None or not statistics.has_min_max:
+        return True
+    return any(statistics.min <= weld <= statistics.max for weld in welds)
+
+
+def _plain(table: pa.Table) -> pa.Table:
+    """Turn coded texts into texts."""
+    fields = [f.with_type(f.type.value_type) if pa.types.is_dictionary(f.type) else f for f in table.schema]
+    return table.cast(pa.schema(fields, metadata=table.schema.metadata))
+
+
+def _coded(table: pa.Table) -> tuple[NDArray[np.int32], pa.Array]:
+    """Codes and texts of the one column of a table."""
+    column = table.unify_dictionaries().column(0).combine_chunks()
+    return pc.fill_null(column.indices, -1).to_numpy(), column.dictionary
