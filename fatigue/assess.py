@@ -1,37 +1,34 @@
 """The assessment as a story: files, stress shapes, cycles and spectra, damage, kilometres, tables."""
 
 import logging
-import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case
-from fatigue.errors import NumericalError, Problem
-from fatigue.life.mission import Plan
-from fatigue.pipeline.body import Body, conversion_file, read_body, register_file
-from fatigue.pipeline.checkpoint import Checkpoint, locked, state_key
+from fatigue.errors import Problem
+from fatigue.pipeline.body import Body, read_body
+from fatigue.pipeline.checkpoint import Checkpoint, locked
 from fatigue.pipeline.cycles import point_cycles
-from fatigue.pipeline.event_block import assess_event_block
-from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.events import event_loads, mission_plan
+from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.folder import publish, refuse_foreign, result_log
-from fatigue.pipeline.mission_block import mission_block
-from fatigue.pipeline.model import GROUP, Model, check_forces, solve_group, weld_groups
+from fatigue.pipeline.model import check_forces, toe_faces, weld_groups
+from fatigue.pipeline.orders import Order
 from fatigue.pipeline.provenance import provenance_record
-from fatigue.pipeline.register import PointLives, excluded_rows, toe_faces, weld_rows, worst_points
+from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, worst_points
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
-from fatigue.pipeline.stations import BLOCK, Block, cut_blocks, shapes_of
+from fatigue.pipeline.settle import TIERS
+from fatigue.pipeline.work import Work, inputs_of, key_of, open_work
+from fatigue.pipeline.workers import Group, by_orders, by_threads
 from fatigue.report.page import write_report
 from fatigue.report.vtp import write_vtp
-from fatigue.results import TableWriter, input_register, result_tables, software_versions, write_json
+from fatigue.results import TableWriter, result_tables, write_json
 from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
 
 log = logging.getLogger(__name__)
@@ -41,13 +38,16 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assessment:
-    """What a finished assessment says at a glance; the numbers are in the tables of ``folder``."""
+    """What a finished assessment says at a glance; the numbers are in the tables of ``folder``.
+
+    ``groups`` of welds were assessed, ``groups_reused`` of them by an earlier run that was interrupted.
+    """
 
     folder: Path
     fulfilled: bool
     warnings: tuple[Problem, ...]
-    blocks: int
-    blocks_reused: int
+    groups: int
+    groups_reused: int
 
 
 def assess(
@@ -55,6 +55,8 @@ def assess(
     folder: Path,
     *,
     threads: int | None = None,
+    executor: Executor | None = None,
+    share: float | None = None,
     strict: bool = False,
     force: bool = False,
     report: bool = True,
@@ -68,11 +70,14 @@ def assess(
     case : the checked case
     folder : where the result goes; an interrupted run in it is continued
     threads : worker threads, by default one per processor core; the bytes of the tables do not depend on it
+    executor : instead of threads, any executor whose workers see the same files: it is given names, not data
+    share : of the damage limit; points proven to stay below it need no counting. 0: count every point; by default 0.1
+        for jobs of more than 5e9 stress samples, and 0 for smaller ones
     strict : take unknown columns in the tables for errors
     force : overwrite files that fatigue did not write
     report : write the report and the ParaView file as well
     verification : checks of the program to show in the report, as ``fatigue.verify`` gives them
-    progress : called with a label, blocks done and blocks in all
+    progress : called with a label, stations done and stations in all
 
     Raises
     ------
@@ -81,9 +86,8 @@ def assess(
     """
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
-    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
-    inputs = input_register(sorted(files), case.path.parent)
-    key = state_key({"inputs": inputs, "software": software_versions(), "blocks": (GROUP, BLOCK)})
+    inputs = inputs_of(case)
+    key = key_of(inputs, share)
 
     refuse_foreign(folder, force=force)
     with locked(folder), one_blas_thread(), Checkpoint(folder, key) as state:
@@ -91,136 +95,77 @@ def assess(
         check_forces(groups)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            loads = event_loads(groups, plan)
-            done = Tally(total=sum(len(line.node) for line in body.lines) * len(loads), progress=progress)
+            work = open_work(groups, plan, share, state.folder)
+            if executor is None:
+                assessed = by_threads(work, state, threads)
+            else:
+                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, share, key, 0))
+            done = Tally(total=sum(len(line.node) for line in body.lines), progress=progress)
             unpublished = state.folder / "tables"
-            with workers(threads) as executor, result_tables(unpublished) as tables:
-                for number in range(len(groups)):
-                    model = solve_group(groups, number)
-                    blocks = cut_blocks(model.stations, model.curve_of_weld)
-                    parts = count_group(number, model, blocks, loads, state, executor, done)
-                    write_group(tables, model, blocks, parts, loads, plan, state, done)
+            with result_tables(unpublished) as tables, closing(assessed):
+                for group in assessed:
+                    done.add(group, work, write_group(tables, group, work))
                 tables["welds"].write(excluded_rows(body.excluded))
-            log.info("%d of %d blocks were there from an earlier run", state.reused, done.blocks)
+            log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
-            write_json(unpublished / "provenance.json", provenance_record(body, plan, loads, folder, inputs, warnings))
+            record = provenance_record(body, work, done.stations, folder, inputs, warnings)
+            write_json(unpublished / "provenance.json", record)
             if report:
                 write_vtp(unpublished)
                 write_report(unpublished, case.path, verification)
             publish(unpublished, folder)
             log.info("the result is complete")
-    return Assessment(folder, done.fulfilled, warnings, done.blocks, state.reused)
+    return Assessment(folder, done.fulfilled, warnings, done.groups, done.reused)
 
 
 @dataclass(slots=True, eq=False)
 class Tally:
-    """What adds up while groups of welds stream by: progress, verdict, doubts, and the sampling of the records."""
+    """What adds up while groups of welds stream by.
+
+    ``stations`` are counted by the tier that settled them, ``samples_per_peak`` is the smallest of each event.
+    """
 
     total: int
     progress: Progress
-    stations: int = 0
-    blocks: int = 0
+    groups: int = 0
+    reused: int = 0
     fulfilled: bool = True
+    stations: dict[str, int] = field(default_factory=dict)
     warnings: list[Problem] = field(default_factory=list)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
 
-    def finished(self, block: Block) -> None:
-        """Count a finished block of one event; raw end values come on top of the stations."""
-        self.blocks += 1
-        self.stations += 0 if block.raw else len(block.rows)
-        self.progress("assessing", min(self.stations, self.total), self.total)
-
-    def sampled(self, event: str, samples_per_peak: NDArray[np.float64]) -> None:
-        """Remember the fewest samples per peak of an event."""
-        fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
-        self.samples_per_peak[event] = min(fewest, self.samples_per_peak.get(event, np.inf))
-
-
-def count_group(
-    number: int,
-    model: Model,
-    blocks: Sequence[Block],
-    loads: Sequence[EventLoad],
-    state: Checkpoint,
-    executor: Executor,
-    done: Tally,
-) -> list[list[str]]:
-    """Count every event on every block of a group of welds, except what an earlier run has finished.
-
-    Returns the names of the finished parts, (block, event).
-    """
-    curve = model.case.curve
-    parts = [[f"group-{number:05d}-block-{b.index:03d}-event-{e:04d}" for e in range(len(loads))] for b in blocks]
-
-    def count(block: Block, load: EventLoad, part: str) -> Block:
-        shapes = shapes_of(model.stations, block, model.curves, curve.thickness_rule)
-        try:
-            with np.errstate(over="raise"):
-                result = assess_event_block(shapes, load, curve.yield_MPa, curve.mean_stress == "asme")
-        except FloatingPointError:
-            raise NumericalError(_overflow(model, block, load)) from None
-        state.save(part, result)
-        return block
-
-    waiting = []
-    for block, names in zip(blocks, parts, strict=True):
-        for load, part in zip(loads, names, strict=True):
-            if state.has(part):
-                done.finished(block)
-            else:
-                waiting.append(executor.submit(count, block, load, part))
-    for finished in as_completed(waiting):
-        done.finished(finished.result())
-    return parts
+    def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
+        """Count a group of welds that has been written, ``worst`` the points that decide about them."""
+        result = group.result
+        self.groups += 1
+        self.reused += group.reused
+        self.fulfilled &= all(result.mission.utilisation[point.station, point.face] <= 1.0 for point in worst)
+        for number, tier in enumerate(TIERS):
+            settled = int(np.count_nonzero(result.tier == number))
+            self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
+        self.warnings += group.model.warnings
+        for passed, event in zip(work.plan.passes, result.events, strict=True):
+            fewest = float(np.nanmin(event.samples_per_peak, initial=np.inf))
+            self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
+        self.progress("assessing", min(sum(self.stations.values()), self.total), self.total)
 
 
-def _overflow(model: Model, block: Block, load: EventLoad) -> Problem:
-    welds = sorted({model.welds[i].name for i in model.stations.weld[block.rows]})
-    return Problem(
-        "overflow",
-        f"event '{load.counted.event}', welds {welds[0]} to {welds[-1]}",
-        "stresses or damage exceed what double precision can hold",
-        "Check the units of forces and modal coordinates, and look for a value that is far too large",
-    )
-
-
-def write_group(
-    tables: Mapping[str, TableWriter],
-    model: Model,
-    blocks: Sequence[Block],
-    parts: Sequence[Sequence[str]],
-    loads: Sequence[EventLoad],
-    plan: Plan,
-    state: Checkpoint,
-    done: Tally,
-) -> None:
-    """Weight the events of a group of welds with the mission and write its rows of every table."""
+def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
+    """Write the rows of a group of welds to every table, and return the worst point of each weld."""
+    model, result, plan = group.model, group.result, work.plan
     stations, welds = model.stations, [weld.name for weld in model.welds]
-    lives = PointLives.empty(len(stations))
-    toes = toe_faces(model)
-    raw_life = np.full((len(stations), 2), np.nan)
-    # raw values of the ends first: the rows of the nodes want them
-    for block, names in sorted(zip(blocks, parts, strict=True), key=lambda pair: not pair[0].raw):
-        events = [state.load(name) for name in names]
-        mission = mission_block(events, plan, model.curves[block.curve].law)
-        if block.raw:
-            raw_life[block.rows] = mission.life_km
-            continue
-        lives.put(block.rows, mission)
-        raw = np.where(np.isnan(raw_life[block.rows]), mission.life_km, raw_life[block.rows])
-        tables["nodes"].write(node_rows(stations, block.rows, mission, raw, toes[block.rows], plan, welds))
-        tables["damage"].write(damage_rows(stations, block.rows, events, plan, welds))
-        tables["structural_stress"].write(stress_rows(stations, block.rows, model.modes.mode, welds))
-        for passed, event in zip(plan.passes, events, strict=True):
-            done.sampled(passed.event, event.samples_per_peak)
-
-    worst = worst_points(model, lives)
-    for load in loads:
-        for point in worst:
-            tables["cycles"].write(point_cycles(model, load, point))
-    tables["welds"].write(weld_rows(model, plan, lives, worst))
-    done.fulfilled &= all(lives.utilisation[point.station, point.face] <= 1.0 for point in worst)
-    done.warnings += model.warnings
+    worst, screened = worst_points(model, result), np.repeat(result.tier[:, None], 2, axis=1)
+    tables["nodes"].write(
+        node_rows(stations, result.mission, result.raw_life_km, toe_faces(model), screened, plan, welds)
+    )
+    tables["damage"].write(damage_rows(stations, result.events, plan, welds))
+    tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds))
+    shown = [p for p in worst if result.mission.utilisation[p.station, p.face] >= work.kept_from]
+    for load in work.loads:
+        for rows in point_cycles(model, load, shown):
+            tables["cycles"].write(rows)
+    tables["welds"].write(weld_rows(model, plan, result.mission, worst))
+    return worst
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
@@ -237,16 +182,6 @@ def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
         for event, samples in done.samples_per_peak.items()
         if samples < FEW_SAMPLES_PER_PEAK
     ]
-
-
-@contextmanager
-def workers(threads: int | None) -> Iterator[Executor]:
-    """Give a pool of threads that drops what has not begun when the run is interrupted."""
-    executor = ThreadPoolExecutor(threads or os.cpu_count() or 1, thread_name_prefix="fatigue")
-    try:
-        yield executor
-    finally:
-        executor.shutdown(cancel_futures=True)
 
 
 def one_blas_thread() -> threadpool_limits:

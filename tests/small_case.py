@@ -49,10 +49,14 @@ class SmallCase:
         return path
 
 
-def small_case(seconds: float = 12.0) -> SmallCase:
-    """Two welds (one with a toe on top only), three modes, a sine event, a random event and one counted by number."""
-    welds = pd.DataFrame({"weld": ["A", "B"], "surface": ["both", "top"]})
-    nodes = pd.concat([_line("A", 100, 0.0), _line("B", 200, 500.0)], ignore_index=True)
+def small_case(seconds: float = 12.0, pairs: int = 1) -> SmallCase:
+    """Two welds (one with a toe on top only), three modes, a sine event, a random event and one counted by number.
+
+    With more ``pairs`` of welds the body is cut into groups that are assessed one by one, eight pairs give three.
+    """
+    names = [f"{side}{pair or ''}" for pair in range(pairs) for side in "AB"]
+    welds = pd.DataFrame({"weld": names, "surface": ["both", "top"] * pairs})
+    nodes = pd.concat([_line(w, 100 * i + 100, 500.0 * i) for i, w in enumerate(names)], ignore_index=True)
     t = np.arange(round(seconds / STEP)) * STEP
     rng = np.random.default_rng(7)
     noise = np.stack([np.convolve(rng.standard_normal(len(t)), np.ones(6) / 6, mode="same") for _ in range(3)])
@@ -62,7 +66,7 @@ def small_case(seconds: float = 12.0) -> SmallCase:
         ),
         welds=welds,
         weld_nodes=nodes,
-        nodal_forces=pd.concat([_forces(nodes[nodes.weld == w], i) for i, w in enumerate("AB")], ignore_index=True),
+        nodal_forces=pd.concat([_forces(nodes[nodes.weld == w], i) for i, w in enumerate(names)], ignore_index=True),
         histories={
             "sine": pd.DataFrame({"time_s": t, "q_1": 30.0 * np.sin(2 * np.pi * 5.0 * t), "q_2": 0.0, "q_7": 0.0}),
             "noise": pd.DataFrame({"time_s": t, "q_1": 20 * noise[0], "q_2": 15 * noise[1], "q_7": 10 * noise[2]}),

@@ -4,7 +4,7 @@ import json
 import logging
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +80,15 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
     "-o", "--output", type=_FOLDER, required=True, metavar="DIR", help="Result folder, made if it is not there."
 )
 @click.option("--threads", type=click.IntRange(min=1), default=None, help="Threads; default: one per processor core.")
+@click.option("--exact", is_flag=True, help="Count every point of a large job, also those a bound would settle.")
+@click.option(
+    "--screen",
+    type=click.FloatRange(0.0, 1.0, min_open=True),
+    metavar="SHARE",
+    help="Do not count points proven to stay below this share of the damage limit.  [default: 0.1 for jobs of more "
+    "than 5e9 stress samples, else every point is counted]",
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask.distributed cluster (extra `cluster`).")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue did not write.")
 @click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
@@ -91,6 +100,9 @@ def assess(
     case_file: Path,
     output: Path,
     threads: int | None,
+    exact: bool,
+    screen: float | None,
+    scheduler: str | None,
     force: bool,
     no_report: bool,
     exit_zero: bool,
@@ -105,16 +117,22 @@ def assess(
     Example:
       fatigue assess body/case.toml -o result
     """
+    if exact and screen is not None:
+        raise click.UsageError("--exact counts every point: leave out --screen")
     from fatigue.assess import assess as run
     from fatigue.case import load_case
+    from fatigue.cluster import cluster_executor
     from fatigue.results.summary import result_summary
 
     case = load_case(case_file)
-    with _progress(quiet=options["quiet"]) as progress:
+    workers = cluster_executor(scheduler) if scheduler else nullcontext()
+    with _progress(quiet=options["quiet"]) as progress, workers as executor:
         done = run(
             case,
             output,
             threads=threads,
+            executor=executor,
+            share=0.0 if exact else screen,
             strict=strict,
             force=force,
             report=not no_report,

@@ -1,10 +1,13 @@
 """One event of the multibody simulation: its modal coordinates over time."""
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+
+from fatigue.life.spool import Samples, Spool, create_spool, time_slices
 
 Residue = Literal["repeat", "half"]
 
@@ -17,14 +20,14 @@ class ModalHistory:
     ----------
     event : name of the event
     mode : (m,) mode ids
-    q : (m, t) modal coordinates, time contiguous [unit modal coordinate]
+    q : (m, t) modal coordinates, time contiguous [unit modal coordinate]; those of a long record are on disk
     step : time step [s]
     start : file time of the first sample [s]
     """
 
     event: str
     mode: NDArray[np.int64]
-    q: NDArray[np.floating]
+    q: Samples
     step: float
     start: float
 
@@ -34,28 +37,65 @@ class ModalHistory:
         return float(self.q.shape[1] * self.step)
 
 
+def first_kept(step: float, start_s: float) -> int:
+    """Index of the first sample with ``time - time[0] >= start_s - step / 2``."""
+    return max(0, int(np.ceil(start_s / step - 0.5)))
+
+
 def kept(history: ModalHistory, start_s: float) -> ModalHistory:
-    """Cut the start-up: keep the samples with ``time - time[0] >= start_s - step / 2``."""
-    first = max(0, int(np.ceil(start_s / history.step - 0.5)))
-    return replace(history, q=np.ascontiguousarray(history.q[:, first:]), start=history.start + first * history.step)
+    """Cut the start-up, see `first_kept`."""
+    first, q = first_kept(history.step, start_s), history.q
+    cut = q.later(first) if isinstance(q, Spool) else np.ascontiguousarray(q[:, first:])
+    return replace(history, q=cut, start=history.start + first * history.step)
 
 
-def upsampled(history: ModalHistory, factor: int, residue: Residue) -> ModalHistory:
+def stress_history(shape: NDArray[np.float64], q: Samples) -> NDArray[np.float64]:
+    """Recover stress histories (..., t) [MPa] of shapes (..., m) [MPa per unit modal coordinate].
+
+    Takes the modal coordinates (m, t) a bounded number of samples at a time, whatever their precision.
+    """
+    stress = np.empty((*shape.shape[:-1], q.shape[1]))
+    for piece in time_slices(q.shape):
+        stress[..., piece] = shape @ q[:, piece].astype(np.float64, copy=False)
+    return stress
+
+
+def mean_and_covariance(q: Samples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Time mean (m,) and covariance (m, m) of modal coordinates (m, t).
+
+    Taken from the first sample, so that a record at rest has exactly no variance.
+    """
+    first, total = q[:, :1].astype(np.float64), np.zeros(q.shape[0])
+    for piece in time_slices(q.shape):
+        total += (q[:, piece] - first).sum(axis=1)
+    offset = total / q.shape[1]
+    covariance = np.zeros((q.shape[0], q.shape[0]))
+    for piece in time_slices(q.shape):
+        centred = q[:, piece] - first
+        centred -= offset[:, None]
+        covariance += centred @ centred.T
+    return first[:, 0] + offset, covariance / q.shape[1]
+
+
+def upsampled(history: ModalHistory, factor: int, residue: Residue, scratch: Path | None = None) -> ModalHistory:
     """Interpolate the record by FFT onto a grid ``factor`` times finer.
 
     A record that repeats is periodic as it stands; a single pass is mirrored about its ends first, so that no jump
-    between its last and first sample rings through it.
+    between its last and first sample rings through it. One mode is transformed at a time, in about five times the
+    memory of its fine samples, ten times for a single pass. The result goes to the file ``scratch``, if one is given.
     """
     if factor == 1:
         return history
-    q = history.q.astype(np.float64)
-    samples = q.shape[1]
-    if residue == "repeat":
-        fine = _fft_interpolate(q, factor)
-    else:
-        mirrored = np.concatenate([q, q[:, -2:0:-1]], axis=1)
-        fine = _fft_interpolate(mirrored, factor)[:, : (samples - 1) * factor + 1]
-    return replace(history, q=np.ascontiguousarray(fine), step=history.step / factor)
+    modes, samples = history.q.shape
+    shape = (modes, samples * factor if residue == "repeat" else (samples - 1) * factor + 1)
+    double = np.dtype(np.float64)
+    fine: Samples = np.empty(shape) if scratch is None else create_spool(scratch, shape, double)
+    for mode in range(modes):
+        q = history.q[mode : mode + 1, :].astype(np.float64)
+        if residue == "half":
+            q = np.concatenate([q, q[:, -2:0:-1]], axis=1)
+        fine[mode : mode + 1, :] = _fft_interpolate(q, factor)[:, : shape[1]]
+    return replace(history, q=fine, step=history.step / factor)
 
 
 def _fft_interpolate(q: NDArray[np.float64], factor: int) -> NDArray[np.float64]:

@@ -95,7 +95,7 @@ class _Block(NamedTuple):
     histogram: Floats
 
 
-class _Rules(NamedTuple):
+class Rules(NamedTuple):
     """The `DamageLaw` and the choices of `count_block`, in a form compiled code can read."""
 
     slopes: Floats
@@ -108,7 +108,17 @@ class _Rules(NamedTuple):
     mean_stress: bool
 
 
-class _Buffers(NamedTuple):
+class Point(NamedTuple):
+    """One surface of one point, ``side`` +1 or -1: its stresses (t,), and what is its own in the damage of a cycle."""
+
+    membrane: Floats
+    bending: Floats
+    side: float
+    size: float
+    same_ratio: float
+
+
+class Buffers(NamedTuple):
     """Work space for one signal."""
 
     path: Floats
@@ -129,7 +139,7 @@ def rainflow(signal: NDArray[np.generic], residue: Residue) -> Cycles:
     s = np.array(signal, dtype=np.float64)
     if not np.isfinite(s).all():
         raise not_finite(f"sample {np.flatnonzero(~np.isfinite(s))[0]} of the signal")
-    buffers = _buffers(s.size)
+    buffers = buffers_for(s.size)
     cycles = find_cycles(s, residue == "repeat", buffers)
     start, end = buffers.start[:cycles], buffers.end[:cycles]
     return Cycles(np.abs(s[end] - s[start]), 0.5 * (s[start] + s[end]), buffers.weight[:cycles], start, end)
@@ -167,37 +177,59 @@ def count_block(
     ------
     NumericalError : a sample is not finite; CaseError : ``mean_stress`` without a yield stress
     """
+    rules = rules_of(law, uses_bending_ratio, residue, yield_MPa, mean_stress)
+    refuse_not_finite(membrane, bending)
+    totals, histogram = nothing_counted(len(membrane), law)
+    count_rows(
+        _Block(plain(membrane), plain(bending), plain(size), plain(same_ratio), totals, histogram),
+        rules,
+        buffers_for(membrane.shape[1]),
+    )
+    return block_count(totals, histogram, rules)
+
+
+def rules_of(
+    law: DamageLaw, uses_bending_ratio: bool, residue: Residue, yield_MPa: float | None, mean_stress: bool
+) -> Rules:
+    """Put a law and the choices of `count_block` into the form for compiled code."""
     if mean_stress and yield_MPa is None:
         raise CaseError(Problem("yield", "mean stress", "f_M needs the yield stress, none is given", "Give yield_MPa"))
-    with np.errstate(invalid="ignore", over="ignore"):
-        row_sum = membrane.sum(axis=1) + bending.sum(axis=1)
-    if not np.isfinite(row_sum).all():
-        raise not_finite(f"row {np.flatnonzero(~np.isfinite(row_sum))[0]} of the block")
-    points, samples = membrane.shape
-    totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
-    histogram = np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
     yield_stress = math.inf if yield_MPa is None else float(yield_MPa)
-    curve = (_plain(law.slopes), _plain(law.log_constants), _plain(law.knees), float(law.cutoff))
-    count_rows(
-        _Block(_plain(membrane), _plain(bending), _plain(size), _plain(same_ratio), totals, histogram),
-        _Rules(*curve, uses_bending_ratio, residue == "repeat", yield_stress, mean_stress),
-        _buffers(samples),
-    )
-    if yield_MPa is None:
+    curve = (plain(law.slopes), plain(law.log_constants), plain(law.knees), float(law.cutoff))
+    return Rules(*curve, uses_bending_ratio, residue == "repeat", yield_stress, mean_stress)
+
+
+def nothing_counted(points: int, law: DamageLaw) -> tuple[NDArray[np.void], Floats]:
+    """Totals and histogram of a block before its first cycle."""
+    totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
+    return totals, np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
+
+
+def block_count(totals: NDArray[np.void], histogram: Floats, rules: Rules) -> BlockCount:
+    """Give the totals of a block their names."""
+    if rules.yield_stress == math.inf:
         totals["damage_mean_stress"] = np.nan
     return BlockCount(**{name: totals[name].copy() for name in _SCALARS}, histogram=histogram)
 
 
-def _plain(array: Floats) -> Floats:
+def refuse_not_finite(membrane: Floats, bending: Floats) -> None:
+    """Refuse a block with a row in which a sample is NaN or infinite."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        row_sum = membrane.sum(axis=1) + bending.sum(axis=1)
+    if not np.isfinite(row_sum).all():
+        raise not_finite(f"row {np.flatnonzero(~np.isfinite(row_sum))[0]} of the block")
+
+
+def plain(array: Floats) -> Floats:
     """Float64, contiguous and writable, so that one compiled version serves all callers."""
     return np.require(array, np.float64, ["C", "W"])
 
 
-def _buffers(samples: int) -> _Buffers:
+def buffers_for(samples: int) -> Buffers:
     """Room for the reversals of a signal whose first sample is repeated at its end."""
     reversal, start, end = (np.empty(samples + 2, np.intp) for _ in range(3))
     path, weight = np.empty(samples + 1), np.empty(samples + 1)
-    return _Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight)
+    return Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight)
 
 
 def not_finite(where: str) -> NumericalError:
@@ -258,7 +290,7 @@ def turning_points(s: Floats, step: NDArray[np.int8], reversal: Indices) -> int:
 
 
 @compiled()
-def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: _Buffers) -> int:
+def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: Buffers) -> int:
     """Pair the reversals into cycles, in the order in which they close, and return how many (ASTM E1049-85, 5.4.4).
 
     The latest range X closes the range Y before it if X >= Y. A Y that contains the starting point is a half cycle,
@@ -293,7 +325,7 @@ def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: _Buffers) -> 
 
 
 @compiled()
-def find_cycles(s: Floats, recurs: bool, buffers: _Buffers) -> int:
+def find_cycles(s: Floats, recurs: bool, buffers: Buffers) -> int:
     """Write the cycles of s into ``start``, ``end`` and ``weight`` of the buffers and return how many there are."""
     if not recurs or s.size == 0:
         return close_cycles(s, turning_points(s, buffers.step, buffers.reversal), False, buffers)
@@ -339,7 +371,7 @@ def mean_stress_factor(minimum: float, maximum: float, yield_stress: float) -> f
 
 
 @compiled()
-def cycle_damage(x: float, rules: _Rules) -> float:
+def cycle_damage(x: float, rules: Rules) -> float:
     """Damage d(x) of one cycle of the equivalent range x."""
     if x < rules.cutoff or x == 0.0:
         return 0.0
@@ -350,14 +382,13 @@ def cycle_damage(x: float, rules: _Rules) -> float:
 
 
 @compiled()
-def tally(block: _Block, point: tuple[int, int], rules: _Rules, buffers: _Buffers, cycles: int) -> None:
-    """Add the cycles of one row and surface to its totals and its histogram."""
-    row, surface = point
-    membrane, bending, size = block.membrane[row], block.bending[row], block.size[row]
-    total, histogram = block.totals[row, surface], block.histogram[row, surface]
-    side = 1.0 - 2.0 * surface
+def tally(
+    point: Point, total: NDArray[np.void], histogram: Floats, rules: Rules, buffers: Buffers, cycles: int
+) -> None:
+    """Add cycles of one point and surface to its totals and its histogram."""
+    membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rules.slopes[0]
-    same_scale = size / (ratio_factor(block.same_ratio[row, surface]) if rules.uses_bending_ratio else 1.0)
+    same_scale = size / (ratio_factor(point.same_ratio) if rules.uses_bending_ratio else 1.0)
     for c in range(cycles):
         i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
         s_i, s_j = membrane[i] + side * bending[i], membrane[j] + side * bending[j]
@@ -387,7 +418,7 @@ def tally(block: _Block, point: tuple[int, int], rules: _Rules, buffers: _Buffer
 
 
 @compiled()
-def count_rows(block: _Block, rules: _Rules, buffers: _Buffers) -> None:
+def count_rows(block: _Block, rules: Rules, buffers: Buffers) -> None:
     """Count both surfaces of every row of the block."""
     s = np.empty(block.membrane.shape[1])
     for row in range(block.membrane.shape[0]):
@@ -395,7 +426,9 @@ def count_rows(block: _Block, rules: _Rules, buffers: _Buffers) -> None:
             side = 1.0 - 2.0 * surface
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
-            total = block.totals[row, surface]
+            total, histogram = block.totals[row, surface], block.histogram[row, surface]
             total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
             total["r_largest"] = math.nan
-            tally(block, (row, surface), rules, buffers, find_cycles(s, rules.recurs, buffers))
+            same_ratio = block.same_ratio[row, surface]
+            point = Point(block.membrane[row], block.bending[row], side, block.size[row], same_ratio)
+            tally(point, total, histogram, rules, buffers, find_cycles(s, rules.recurs, buffers))

@@ -9,7 +9,6 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import fields
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -17,10 +16,9 @@ from typing import Any, Self
 import numpy as np
 
 from fatigue.errors import DataError, Problem
-from fatigue.pipeline.event_block import EventBlock
+from fatigue.pipeline.group import GroupResult, arrays_of, result_of
 
 _FOLDER = ".fatigue-state"
-_NUMBERS = tuple(f.name for f in fields(EventBlock) if f.name not in ("verdict", "histogram"))
 
 
 def state_key(record: Mapping[str, Any]) -> str:
@@ -29,7 +27,7 @@ def state_key(record: Mapping[str, Any]) -> str:
 
 
 class Checkpoint:
-    """Finished parts of one run, each a block of stations under one event, in a hidden folder of the result folder.
+    """Finished parts of one run, each a group of welds under all events, in a hidden folder of the result folder.
 
     A part is written beside its final name, forced to disk and renamed, so that a part is either whole or not there; a
     part that a power cut damaged all the same fails its checksum when it is read and is computed again.
@@ -38,7 +36,6 @@ class Checkpoint:
     def __init__(self, result_folder: Path, key: str) -> None:
         self.folder = result_folder / _FOLDER / key
         self._root = result_folder / _FOLDER
-        self.reused = 0
 
     def __enter__(self) -> Self:
         """Open the folder and drop what runs with other inputs left there."""
@@ -55,26 +52,18 @@ class Checkpoint:
         if kind is None or not any(self.folder.glob("*.npz")):
             shutil.rmtree(self._root, ignore_errors=True)
 
-    def has(self, part: str) -> bool:
-        """Whether an earlier run finished this part and it is whole; counts the parts reused."""
+    def load(self, part: str) -> GroupResult | None:
+        """Read what an earlier run finished, its checksums tested; None where there is none or it is damaged."""
         try:
-            self.load(part)
+            with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+                return result_of(arrays)
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
-            return False
-        self.reused += 1
-        return True
+            return None
 
-    def load(self, part: str) -> EventBlock:
-        """Read a finished part; its checksums are tested on the way."""
-        with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            numbers = dict(zip(_NUMBERS, arrays["numbers"], strict=True))
-            return EventBlock(**numbers, verdict=arrays["verdict"], histogram=arrays["histogram"])
-
-    def save(self, part: str, result: EventBlock) -> None:
+    def save(self, part: str, result: GroupResult) -> None:
         """Write a finished part so that it survives a kill or a power cut at any moment."""
         with replacing(self._path(part)) as unfinished, unfinished.open("wb") as file:
-            numbers = np.stack([getattr(result, name) for name in _NUMBERS])  # one array: its header is read but once
-            np.savez(file, numbers=numbers, verdict=result.verdict, histogram=result.histogram)
+            np.savez(file, allow_pickle=False, **arrays_of(result))
 
     def _path(self, part: str) -> Path:
         return self.folder / f"{part}.npz"

@@ -1,12 +1,15 @@
 """What an event brings to every station: its record ready to be counted, and its second-order statistics."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import ModalHistory, Residue, upsampled
+from fatigue.life.history import ModalHistory, Residue, mean_and_covariance, upsampled
+from fatigue.life.rainflow import not_finite
 from fatigue.life.rainflow_fast import Record, record_of
+from fatigue.life.spool import Samples, Spool, create_spool, time_slices
 from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnosis_matrices
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices
 
@@ -49,23 +52,43 @@ def prepare_event(
     top_mode_hz: float | None,
     *,
     single: bool = False,
+    scratch: Path | None = None,
 ) -> EventLoad:
-    """Compute once per event what all stations share, from its kept record; ``single``: for the fast kernel."""
-    q = history.q.astype(np.float64)
-    centred = q - q[:, :1]  # from the first sample, so that a record at rest has exactly no variance
-    offset = centred.mean(axis=1)
-    mean = q[:, 0] + offset
-    centred -= offset[:, None]
-    counted = upsampled(history, upsample, residue)
+    """Compute once per event what all stations share, from its kept record.
+
+    ``single``: for the fast kernel; ``scratch``: folder for whatever is as large as the record, None: in memory.
+    """
+    mean, covariance = mean_and_covariance(history.q)
+    counted = upsampled(history, upsample, residue, scratch and scratch / "upsampled")
     return EventLoad(
         counted=counted,
-        single=record_of(counted.q) if single else None,
+        single=fast_record(counted.q, scratch) if single else None,
         residue=residue,
         stress_factor=stress_factor,
         duration=history.duration,
         mean=mean,
-        covariance=centred @ centred.T / q.shape[1],
+        covariance=covariance,
         moments=None if spectra is None else moment_matrices(spectra),
         diagnosis=None if spectra is None else diagnosis_matrices(history, spectra),
         top_mode_hz=top_mode_hz,
     )
+
+
+def fast_record(q: Samples, scratch: Path | None) -> Record:
+    """Prepare modal coordinates for the kernel in single precision; those on disk go to the folder ``scratch`` again.
+
+    Raises
+    ------
+    NumericalError : a sample is not finite; DataError : the disk is full
+    """
+    if not isinstance(q, Spool) or scratch is None:
+        return record_of(np.asarray(q))
+    mean, covariance = mean_and_covariance(q)
+    if not np.isfinite(covariance).all():
+        raise not_finite("modal coordinates")
+    scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
+    path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
+    normalised = create_spool(path, q.shape, np.dtype(np.float32))
+    for piece in time_slices(q.shape):
+        normalised[:, piece] = ((q[:, piece] - mean[:, None]) / scale[:, None]).astype(np.float32)
+    return Record(q, normalised, scale, mean, covariance)

@@ -2,25 +2,27 @@
 
 import logging
 import math
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fatigue.case import Event, check_distance, event_length_km
+from fatigue.case import Case, Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, FatigueError, NumericalError, Problem, refuse
-from fatigue.life.history import ModalHistory, kept
+from fatigue.life.history import ModalHistory, first_kept, kept
 from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.event_load import EventLoad, prepare_event
 from fatigue.pipeline.model import WeldGroups, solve_group
-from fatigue.readers.history import read_history
+from fatigue.readers.history import TimeGrid, check_history, read_history
 from fatigue.spectrum.moments import (
     Spectra,
     has_spectrum,
     moment_matrices,
     point_moments,
-    samples_per_segment,
+    segment_count,
     segment_spectra,
-    segment_starts,
 )
 
 log = logging.getLogger(__name__)
@@ -29,6 +31,8 @@ FEW_SEGMENTS = 8  # below, the spectrum is an estimate from too little
 SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
 LARGEST_UPSAMPLE = 64
 DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (1e-7 of damage)
+RECORD = "record"  # file of the samples as they were read
+HELD_BYTES = 150e6  # of all records together, as they are in their files; the longest beyond that stay on disk
 
 
 def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
@@ -36,52 +40,71 @@ def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
     warnings: list[Problem] = []
     problems: list[Problem] = []
     passes: list[Pass] = []
-    for event in body.case.mission.event:
+    case = body.case
+    for event in case.mission.event:
+        path = case.resolve(event.history)
         try:
-            history, doubts = _record(body, event)
+            grid, doubts = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
+            samples = _kept_samples(case, event, grid)
         except FatigueError as error:
             problems += error.problems
             continue
-        warnings += doubts + _record_warnings(body, event, history)
+        warnings += doubts + _record_warnings(body, event, samples, grid.step)
         passes.append(
             Pass(
                 event=event.name,
-                samples=history.q.shape[1],
-                length=event_length_km(event, history.duration),
+                samples=samples,
+                length=event_length_km(event, samples * grid.step),
                 share=event.share,
                 per_1000_km=event.per_1000_km,
             )
         )
     refuse(DataError, problems)
-    mission = body.case.mission
+    mission = case.mission
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def event_loads(groups: WeldGroups, plan: Plan) -> tuple[EventLoad, ...]:
-    """Read the records of all events and compute what all stations share; they stay in memory while welds stream by."""
+def event_loads(groups: WeldGroups, plan: Plan, scratch: Path | None = None) -> tuple[EventLoad, ...]:
+    """Read the records of all events and compute what all stations share; they are kept while welds stream by.
+
+    ``scratch`` is a folder for the longest records where all of them are more than ``HELD_BYTES``; None: all are held
+    in memory, whatever their size.
+    """
     body, events = groups.body, groups.body.case.mission.event
+    sizes = np.array([len(body.modes.mode) * p.samples for p in plan.passes])
     factor = body.case.counting.upsample
-    factors = _automatic_factors(groups) if factor == "auto" else [factor] * len(events)
+    folders = _folders(4 * sizes, scratch)
+    factors = _automatic_factors(groups, folders) if factor == "auto" else [factor] * len(events)
     stations = sum(len(line.node) for line in body.lines)
     samples = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
     single = 2 * stations * samples > DOUBLE_PRECISION_SAMPLES
     log.info("cycles are counted in %s precision", "single" if single else "double")
+    bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
     return tuple(
-        event_load(body, event, upsample, single=single) for event, upsample in zip(events, factors, strict=True)
+        event_load(body, event, upsample, single=single, scratch=folder)
+        for event, upsample, folder in zip(events, factors, _folders(bytes_held, scratch), strict=True)
     )
 
 
-def event_load(body: Body, event: Event, upsample: int, *, single: bool = False) -> EventLoad:
-    """Read the record of one event and compute what all stations share."""
-    history, _ = _record(body, event)
+def event_load(
+    body: Body, event: Event, upsample: int, *, single: bool = False, scratch: Path | None = None
+) -> EventLoad:
+    """Read the record of one event and compute what all stations share; ``scratch``: folder to keep the record in."""
+    history = _record(body, event, scratch)
     if upsample > 1:
         log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     try:
         with np.errstate(over="raise"):
             spectra = event_spectra(body, history)
-            residue = body.case.residue(event)
-            return prepare_event(
-                history, residue, event.stress_factor, upsample, spectra, top_mode_hz(body), single=single
+            load = prepare_event(
+                history,
+                body.case.residue(event),
+                event.stress_factor,
+                upsample,
+                spectra,
+                top_mode_hz(body),
+                single=single,
+                scratch=scratch,
             )
     except FloatingPointError:
         problem = Problem(
@@ -91,6 +114,9 @@ def event_load(body: Body, event: Event, upsample: int, *, single: bool = False)
             "Look for a value that is far too large",
         )
         raise NumericalError(problem) from None
+    if upsample > 1 and scratch is not None:
+        (scratch / RECORD).unlink()
+    return load
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
@@ -115,40 +141,52 @@ def upper_hz(body: Body, history: ModalHistory) -> float:
     return 0.4 / history.step if top is None else min(0.4 / history.step, 1.5 * top)
 
 
-def _record(body: Body, event: Event) -> tuple[ModalHistory, list[Problem]]:
-    """Read the record of an event, cut its start-up, and check its length."""
+def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
+    """Read the record of an event and cut its start-up."""
     case = body.case
-    path = case.resolve(event.history)
-    whole, warnings = read_history(path, event.name, body.modes.mode, case.body.ignore_modes, strict=body.strict)
-    history = kept(whole, event.start_s)
-    if history.q.shape[1] < 2:
+    whole, _ = read_history(
+        case.resolve(event.history),
+        event.name,
+        body.modes.mode,
+        case.body.ignore_modes,
+        strict=body.strict,
+        scratch=scratch and scratch / RECORD,
+    )
+    return kept(whole, event.start_s)
+
+
+def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
+    """Count the samples behind the start-up of a record, and check its length."""
+    where = f"{case.path.name}: mission.event '{event.name}'"
+    samples = max(0, grid.samples - first_kept(grid.step, event.start_s))
+    if samples < 2:
         raise CaseError(
             Problem(
                 "short_record",
-                f"{case.path.name}: mission.event '{event.name}': start_s",
-                f"start_s = {event.start_s:g} leaves {history.q.shape[1]} samples of {path.name}, which lasts "
-                f"{whole.duration:g} s",
+                f"{where}: start_s",
+                f"start_s = {event.start_s:g} leaves {samples} samples of {case.resolve(event.history).name}, which "
+                f"lasts {grid.samples * grid.step:g} s",
                 "Cut less, or record longer",
             )
         )
-    check_distance(event, history.duration, f"{case.path.name}: mission.event '{event.name}'")
-    return history, warnings
+    check_distance(event, samples * grid.step, where)
+    return samples
 
 
-def _record_warnings(body: Body, event: Event, history: ModalHistory) -> list[Problem]:
+def _record_warnings(body: Body, event: Event, samples: int, step: float) -> list[Problem]:
     where = f"event '{event.name}'"
     segment_s = body.case.spectrum.segment_s
-    if not has_spectrum(history, segment_s):
+    segments = segment_count(samples, step, segment_s)
+    if segments == 0:
         return [
             Problem(
                 "no_spectrum",
                 where,
-                f"the record of {history.duration:g} s has no spectral segment of {segment_s:g} s (at least four "
+                f"the record of {samples * step:g} s has no spectral segment of {segment_s:g} s (at least four "
                 "samples), so there is no frequency-domain estimate",
                 "Record longer or shorten segment_s if you need one",
             )
         ]
-    segments = len(segment_starts(history.q.shape[1], samples_per_segment(history.step, segment_s)))
     if segments < FEW_SEGMENTS:
         return [
             Problem(
@@ -161,13 +199,27 @@ def _record_warnings(body: Body, event: Event, history: ModalHistory) -> list[Pr
     return []
 
 
-def _automatic_factors(groups: WeldGroups) -> list[int]:
-    """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak."""
+def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | None]:
+    """Folder of each record that does not fit in memory after all shorter ones; None for those that do."""
+    order = np.argsort(sizes, kind="stable")
+    held = np.empty(len(sizes), dtype=np.bool_)
+    held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
+    return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
+
+
+def _automatic_factors(groups: WeldGroups, folders: Sequence[Path | None]) -> list[int]:
+    """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak.
+
+    ``folders`` are those for the records of the events, None: in memory. One record is open at a time.
+    """
     body = groups.body
-    records = [_record(body, event)[0] for event in body.case.mission.event]
-    spectra = [event_spectra(body, history) for history in records]
-    moments = [None if s is None else moment_matrices(s) for s in spectra]
-    peaks_per_s = np.zeros(len(records))
+    steps, moments = [], []
+    for event, folder in zip(body.case.mission.event, folders, strict=True):
+        history = _record(body, event, folder)
+        spectra = event_spectra(body, history)
+        steps.append(history.step)
+        moments.append(None if spectra is None else moment_matrices(spectra))
+    peaks_per_s = np.zeros(len(steps))
     for number in range(len(groups)):
         stress = solve_group(groups, number).stations.treated
         faces = np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending])
@@ -176,5 +228,5 @@ def _automatic_factors(groups: WeldGroups) -> list[int]:
                 _, _, m2, m4 = point_moments(faces, matrices)
                 fastest = np.max(np.divide(m4, m2, out=np.zeros_like(m4), where=m2 > 0.0))
                 peaks_per_s[i] = max(peaks_per_s[i], np.sqrt(fastest))
-    wanted = SAMPLES_PER_PEAK * peaks_per_s * np.array([history.step for history in records])
+    wanted = SAMPLES_PER_PEAK * peaks_per_s * np.array(steps)
     return [min(LARGEST_UPSAMPLE, 2 ** max(0, math.ceil(math.log2(w)))) if w > 0.0 else 1 for w in wanted]

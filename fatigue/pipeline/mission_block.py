@@ -41,14 +41,19 @@ class MissionBlock:
 
 
 def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> MissionBlock:
-    """Weight the passes of every event with the mission: damage per km, life, load factor and what goes with them."""
+    """Weight the passes of every event with the mission: damage per km, life, load factor and what goes with them.
+
+    Where bounds stand for counting (``cycles`` is NaN), damage, life and load factor are on the safe side, and nothing
+    is said of what depends on the event that governs.
+    """
     k = float(law.slopes[0])
+    counted = not np.isnan(parts[0].cycles).any()
     damage = mission_sum(np.stack([p.damage for p in parts]), plan.passes)
     utilisation = damage * plan.target_km / plan.damage_limit
 
     weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
     share = weights * np.stack([p.damage for p in parts])
-    governing = np.where(damage > 0.0, share.argmax(axis=0), -1)
+    governing = np.where(counted & (damage > 0.0), share.argmax(axis=0), -1)
     largest = np.stack([p.max_range for p in parts]).argmax(axis=0)
 
     in_spectrum = [i for i, p in enumerate(parts) if not np.isnan(p.damage_dirlik).all()]
@@ -59,7 +64,7 @@ def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> Mi
         damage_per_km=damage,
         life_km=life_km(damage, plan.damage_limit),
         utilisation=utilisation,
-        load_factor=_load_factor(parts, utilisation, plan, law),
+        load_factor=_load_factor(parts, utilisation, plan, law, counted),
         life_km_dirlik=_life(dirlik, plan),
         life_km_tb=_life(tb, plan),
         life_km_same_ratio=_life(same_ratio, plan),
@@ -87,11 +92,13 @@ def _verdict(parts: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDArr
 
 
 def _load_factor(
-    parts: Sequence[EventBlock], utilisation: NDArray[np.float64], plan: Plan, law: DamageLaw
+    parts: Sequence[EventBlock], utilisation: NDArray[np.float64], plan: Plan, law: DamageLaw, counted: bool
 ) -> NDArray[np.float64]:
-    """Exact on a straight curve; from the stored spectrum on a curve with a knee."""
+    """Exact on a straight curve; from the stored spectrum on a curve with a knee, which only counting gives."""
     if law.is_straight:
         return straight_load_factor(utilisation, float(law.slopes[0]))
+    if not counted:
+        return np.full_like(utilisation, np.nan)
     spectrum = mission_sum(np.stack([p.histogram for p in parts]), plan.passes).reshape(utilisation.size, -1, 2)
     factor = load_factor(spectrum[..., 0], spectrum[..., 1], law, plan.target_km, plan.damage_limit)
     return factor.reshape(utilisation.shape)

@@ -1,7 +1,7 @@
 """Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -17,12 +17,14 @@ from fatigue.pipeline.stations import Stations, stations_of
 from fatigue.readers.body import Mesh, Modes, Weld
 from fatigue.readers.force_pieces import ForcePieces
 from fatigue.readers.forces import read_element_forces, read_nodal_forces, read_weld_elements
-from fatigue.weld.edge_type import edge_type_warnings
+from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.element_forces import ElementForces, balance, side_forces
-from fatigue.weld.line import WeldLine, split_at_kinks
-from fatigue.weld.structural_stress import LineStress, assess_line
+from fatigue.weld.line import WeldLine, split_at_kinks, stacked
+from fatigue.weld.line_load import line_load
+from fatigue.weld.structural_stress import LineStress, StructuralStress, assess_line, line_stresses
 
-GROUP = 2048  # stations whose forces are in memory at once; welds are never divided
+GROUPS = 16  # that a body is cut into, so that threads have something to share,
+SMALLEST_GROUP, LARGEST_GROUP = 32, 1024  # of so many stations: memory is bounded, matrices stay efficient
 IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
@@ -62,15 +64,28 @@ class Model:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class SideForces:
+    """Element forces of the assessed sides of all welds, in memory as a whole: some 60 bytes for each row of the file.
+
+    ``elements`` are those of each weld's side; ``warnings`` the doubts about both files.
+    """
+
+    file: str
+    forces: ElementForces
+    elements: Mapping[str, NDArray[np.int64]]
+    warnings: tuple[Problem, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class WeldGroups:
     """The welds of a body in groups that are solved one at a time, so that memory does not grow with the body.
 
-    ``pieces`` are the nodal forces of each group, None where the case has element forces.
+    ``forces`` are the nodal forces group by group, or the element forces, which do grow with it.
     """
 
     body: Body
     groups: tuple[slice, ...]
-    pieces: ForcePieces | None
+    forces: ForcePieces | SideForces
 
     def __len__(self) -> int:
         """Count the groups."""
@@ -89,12 +104,12 @@ def read_model(case: Case, *, strict: bool) -> Model:
 
 
 def weld_groups(body: Body, scratch: Path) -> WeldGroups:
-    """Cut the welds into groups of about ``GROUP`` stations and open their forces.
+    """Cut the welds into groups by their stations alone, and open their forces; no weld is ever divided.
 
     ``scratch`` is a folder for a sorted copy of the forces, should they need one.
     """
     sizes = np.cumsum([len(line.node) for line in body.lines])
-    group = (sizes - 1) // GROUP
+    group = (sizes - 1) // min(LARGEST_GROUP, max(SMALLEST_GROUP, int(sizes[-1]) // GROUPS))
     first = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), len(sizes)]
     return _open_groups(body, tuple(slice(a, b) for a, b in pairwise(first)), scratch)
 
@@ -115,10 +130,16 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     body = groups.body
     welds = body.welds[groups.groups[number]]
     lines, forces, warnings = _forces(groups, number)
-    solved = tuple(_solved(line, force) for line, force in zip(lines, forces, strict=True))
-    for line, force, result in zip(lines, forces, solved, strict=True):
+    together = stacked(lines)
+    load = line_load(together, np.concatenate(forces))
+    with np.errstate(over="ignore", invalid="ignore"):
+        solved = line_stresses(together, load)
+        _refuse_overflow(solved, forces)
+        jumpy = jumpy_lines(together, load)
+    for i, (line, force, result) in enumerate(zip(lines, forces, solved, strict=True)):
         where = f"{body.case.body.weld_nodes}: weld {line.weld}"
-        warnings += edge_type_warnings(line, force, where) + _end_warnings(result, where)
+        warnings += edge_type_warnings(line, force, where) if i in jumpy else []
+        warnings += _end_warnings(result, where)
     return Model(
         body=body,
         welds=welds,
@@ -128,46 +149,39 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     )
 
 
-def _solved(line: WeldLine, force: NDArray[np.floating]) -> LineStress:
-    try:
-        with np.errstate(over="raise", divide="raise"):
-            return assess_line(line, force)
-    except FloatingPointError:
-        problem = Problem(
-            "overflow",
-            f"weld {line.weld}",
-            "the structural stress per unit modal coordinate exceeds what double precision can hold",
-            "Check forces, coordinates and thickness of the weld for a value that is far too large or small",
-        )
-        raise NumericalError(problem) from None
+def toe_faces(model: Model) -> NDArray[np.bool_]:
+    """Mark the faces that carry a weld toe: (n, 2)."""
+    faces = {"top": (True, False), "bottom": (False, True), "both": (True, True)}
+    return np.array([faces[weld.surface] for weld in model.welds])[model.stations.weld]
+
+
+def _refuse_overflow(solved: Sequence[LineStress], forces: Sequence[NDArray[np.floating]]) -> None:
+    """Refuse a line that has grown beyond all bounds, also when it is solved without its neighbours."""
+    for result, force in zip(solved, forces, strict=True):
+        if not _is_finite(result) and not _is_finite(assess_line(result.line, force)):
+            problem = Problem(
+                "overflow",
+                f"weld {result.line.weld}",
+                "the structural stress per unit modal coordinate exceeds what double precision can hold",
+                "Check forces, coordinates and thickness of the weld for a value that is far too large or small",
+            )
+            raise NumericalError(problem)
+
+
+def _is_finite(solved: LineStress) -> bool:
+    return all(np.isfinite(getattr(solved.treated, part.name)).all() for part in fields(StructuralStress))
 
 
 def _open_groups(body: Body, groups: tuple[slice, ...], scratch: Path) -> WeldGroups:
     path = body.case.body.nodal_forces
     if path is None:
-        return WeldGroups(body, groups, None)
+        return WeldGroups(body, groups, _side_forces(body))
     names = [[line.weld for line in body.lines[group]] for group in groups]
     return WeldGroups(body, groups, ForcePieces(body.case.resolve(path), names, scratch))
 
 
-def _forces(
-    groups: WeldGroups, number: int
-) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...], list[Problem]]:
-    """Read the forces of a group of welds: their line parts, (n, m, 6) forces of each, and the doubts about them."""
-    body, files = groups.body, groups.body.case.body
-    welds, lines = body.welds[groups.groups[number]], body.lines[groups.groups[number]]
-    if groups.pieces is None:
-        return _forces_of_sides(body, welds, lines)
-    forces, warnings = read_nodal_forces(
-        groups.pieces.table(number), lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
-    )
-    return lines, forces, warnings
-
-
-def _forces_of_sides(
-    body: Body, welds: Sequence[Weld], lines: Sequence[WeldLine]
-) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...], list[Problem]]:
-    """Split lines at their kinks and sum the element forces of the assessed side per part."""
+def _side_forces(body: Body) -> SideForces:
+    """Read the element forces once for all groups and check their balance; only those of assessed sides are kept."""
     case, files = body.case, body.case.body
     assert files.element_forces is not None
     assert files.weld_elements is not None
@@ -177,13 +191,38 @@ def _forces_of_sides(
     )
     sides, doubts = read_weld_elements(case.resolve(files.weld_elements), body.welds, strict=body.strict)
     warnings += doubts + _checked_balance(path, forces, body.mesh)
+    return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
+
+
+def _forces(
+    groups: WeldGroups, number: int
+) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...], list[Problem]]:
+    """Read the forces of a group of welds: their line parts, (n, m, 6) forces of each, and the doubts about them."""
+    body, files = groups.body, groups.body.case.body
+    lines = body.lines[groups.groups[number]]
+    if isinstance(groups.forces, SideForces):
+        parts, summed = _sums_of_sides(groups.forces, lines, body.modes)
+        return parts, summed, list(groups.forces.warnings) if number == 0 else []
+    table = groups.forces.table(number)
+    forces, warnings = read_nodal_forces(
+        table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
+    )
+    of_file = {"unknown_column"} if number else set()  # told with the first group
+    return lines, forces, [warning for warning in warnings if warning.code not in of_file]
+
+
+def _sums_of_sides(
+    sides: SideForces, lines: Sequence[WeldLine], modes: Modes
+) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...]]:
+    """Split lines at their kinks and sum the element forces of the assessed side per part."""
     parts: list[WeldLine] = []
     summed: list[NDArray[np.float64]] = []
-    for weld, line in zip(welds, lines, strict=True):
+    for line in lines:
         split = split_at_kinks(line)
         parts += split
-        summed += side_forces(split, sides[weld.name], forces, body.modes.mode, f"{path.name}: weld {weld.name}")
-    return tuple(parts), tuple(summed), warnings
+        where = f"{sides.file}: weld {line.weld}"
+        summed += side_forces(split, sides.elements[line.weld], sides.forces, modes.mode, where)
+    return tuple(parts), tuple(summed)
 
 
 def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> list[Problem]:

@@ -1,17 +1,16 @@
 """Where every number of a result comes from: inputs, versions, curves, rules and doubts, as one record."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
-from fatigue.life.mission import Plan
 from fatigue.pipeline.body import Body
-from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.folder import OUTPUTS
 from fatigue.pipeline.rated_curves import RatedCurve
+from fatigue.pipeline.work import Work
 from fatigue.results import software_versions
 
 RESIDUE_RULES = {
@@ -22,17 +21,18 @@ RESIDUE_RULES = {
 
 def provenance_record(
     body: Body,
-    plan: Plan,
-    loads: Sequence[EventLoad],
+    work: Work,
+    stations: Mapping[str, int],
     folder: Path,
     inputs: Sequence[dict[str, Any]],
     warnings: Sequence[Problem],
 ) -> dict[str, Any]:
     """Collect what an assessor needs to trace or repeat a result; the same inputs give the same record.
 
-    ``case_path`` leads from the result folder to the case file, so that both can be moved together.
+    ``stations`` are numbers of stations by the tier of screening that settled them. ``case_path`` leads from the result
+    folder to the case file, so that both can be moved together.
     """
-    case = body.case
+    case, plan = body.case, work.plan
     return {
         "program": "fatigue",
         "software": software_versions(),
@@ -61,7 +61,9 @@ def provenance_record(
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
             "upsample": case.counting.upsample,
-            "precision": "double" if loads[0].single is None else "single, doubtful points in double",
+            "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
+            "screening": _screening_record(work, stations),
+            "cycles_kept_from_utilisation": work.kept_from,
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,
@@ -81,6 +83,18 @@ def provenance_record(
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
         "outputs": list(OUTPUTS),
+    }
+
+
+def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]:
+    """Say which points a bound has settled, and why that is safe."""
+    if work.screening is None:
+        return {"rule": "none: every point is counted", "share_of_limit": 0.0, "stations": dict(stations)}
+    return {
+        "rule": "a point is not counted if a proven upper bound of its damage stays below this share of the limit and "
+        "below the counted damage of the worst point of its weld",
+        "share_of_limit": work.screening.share,
+        "stations": dict(stations),
     }
 
 

@@ -1,4 +1,4 @@
-"""Rows of the result tables for a block of stations."""
+"""Rows of the result tables for some stations, those of a group of welds."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -9,44 +9,43 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.mission_block import MissionBlock
+from fatigue.pipeline.settle import TIERS
 from fatigue.pipeline.stations import Stations
+from fatigue.results import coded
 from fatigue.spectrum.diagnosis import VERDICTS
 
 FACES = ("top", "bottom")
 
 
-def point_columns(stations: Stations, rows: NDArray[np.int64], welds: Sequence[str], repeat: int = 1) -> dict[str, Any]:
-    """Key columns of the points of some stations, top before bottom, each ``repeat`` times."""
-    station = np.repeat(rows, 2 * repeat)
+def point_columns(stations: Stations, welds: Sequence[str], repeat: int = 1) -> dict[str, Any]:
+    """Key columns of the points of all stations, top before bottom, each ``repeat`` times."""
     return {
-        "weld": np.array(welds, dtype=object)[stations.weld[station]],
-        "part": stations.part[station],
-        "node": stations.node[station],
-        "order": stations.order[station],
-        "surface": np.tile(np.repeat(np.array(FACES, dtype=object), repeat), len(rows)),
+        "weld": coded(np.repeat(stations.weld, 2 * repeat), welds),
+        "part": np.repeat(stations.part, 2 * repeat),
+        "node": np.repeat(stations.node, 2 * repeat),
+        "order": np.repeat(stations.order, 2 * repeat),
+        "surface": coded(np.tile(np.repeat(np.arange(2), repeat), len(stations)), FACES),
     }
 
 
 def node_rows(
     stations: Stations,
-    rows: NDArray[np.int64],
     block: MissionBlock,
     life_km_raw_end: NDArray[np.float64],
     toe: NDArray[np.bool_],
+    screened: NDArray[np.integer],
     plan: Plan,
     welds: Sequence[str],
 ) -> dict[str, Any]:
-    """Rows of ``nodes.parquet`` for a block of stations; ``toe`` is (n, 2)."""
-    station = np.repeat(rows, 2)
-    events = np.array([p.event for p in plan.passes] + [None], dtype=object)
+    """Rows of ``nodes.parquet``; ``toe`` and ``screened``, an index into `TIERS`, are (n, 2) as all of ``block``."""
     return {
-        **point_columns(stations, rows, welds),
+        **point_columns(stations, welds),
         "toe": toe.ravel(),
-        "arc_length_mm": stations.arc_length[station],
-        "x_mm": stations.xyz[station, 0],
-        "y_mm": stations.xyz[station, 1],
-        "z_mm": stations.xyz[station, 2],
-        "thickness_mm": stations.thickness[station],
+        "arc_length_mm": np.repeat(stations.arc_length, 2),
+        "x_mm": np.repeat(stations.xyz[:, 0], 2),
+        "y_mm": np.repeat(stations.xyz[:, 1], 2),
+        "z_mm": np.repeat(stations.xyz[:, 2], 2),
+        "thickness_mm": np.repeat(stations.thickness, 2),
         "damage_per_km": block.damage_per_km.ravel(),
         "life_km": block.life_km.ravel(),
         "life_years": block.life_km.ravel() / plan.km_per_year,
@@ -57,7 +56,7 @@ def node_rows(
         "life_km_tb": block.life_km_tb.ravel(),
         "life_km_same_ratio": block.life_km_same_ratio.ravel(),
         "dirlik_ratio": block.dirlik_ratio.ravel(),
-        "dirlik_verdict": np.array(VERDICTS, dtype=object)[block.verdict.ravel()],
+        "dirlik_verdict": coded(block.verdict.ravel(), VERDICTS),
         "max_range_MPa": block.max_range.ravel(),
         "equivalent_range_2e6_MPa": block.equivalent_range.ravel(),
         "mean_stress_MPa": block.mean_stress.ravel(),
@@ -65,66 +64,59 @@ def node_rows(
         "damage_factor_if_mean_stress": block.factor_if_mean_stress.ravel(),
         "shear_ratio": block.shear_ratio.ravel(),
         "damage_factor_if_shear": block.factor_if_shear.ravel(),
-        "governing_event": events[block.governing.ravel()],
+        "governing_event": coded(block.governing.ravel(), [p.event for p in plan.passes]),
         "bending_ratio": block.bending_ratio.ravel(),
         "life_km_raw_end": life_km_raw_end.ravel(),
-        "at_end": stations.at_end[station],
-        "at_corner": stations.at_corner[station],
-        "screened": np.full(len(station), "", dtype=object),
+        "at_end": np.repeat(stations.at_end, 2),
+        "at_corner": np.repeat(stations.at_corner, 2),
+        "screened": coded(screened.ravel(), TIERS),
     }
 
 
-def damage_rows(
-    stations: Stations, rows: NDArray[np.int64], parts: Sequence[EventBlock], plan: Plan, welds: Sequence[str]
-) -> dict[str, Any]:
-    """Rows of ``damage.parquet`` for a block of stations: every event of every point, unweighted."""
+def damage_rows(stations: Stations, parts: Sequence[EventBlock], plan: Plan, welds: Sequence[str]) -> dict[str, Any]:
+    """Rows of ``damage.parquet``: every event of every point, unweighted."""
     length = np.array([np.nan if p.length is None else p.length for p in plan.passes])
 
-    def per_pass(name: str) -> NDArray[np.float64]:
-        return np.stack([getattr(p, name) for p in parts], axis=-1).ravel()
+    def per_pass(name: str) -> NDArray[Any]:
+        return np.stack([getattr(p, name) for p in parts], axis=-1)
 
-    def per_km(name: str) -> NDArray[np.float64]:
-        return np.asarray((np.stack([getattr(p, name) for p in parts], axis=-1) / length).ravel())
-
-    points = 2 * len(rows)
+    damage, same_ratio = per_pass("damage"), per_pass("damage_same_ratio")
+    dirlik, tb, cycles = per_pass("damage_dirlik"), per_pass("damage_tb"), per_pass("cycles")
     return {
-        **point_columns(stations, rows, welds, repeat=len(parts)),
-        "event": np.tile(np.array([p.event for p in plan.passes], dtype=object), points),
-        "damage_per_km": per_km("damage"),
-        "damage_per_pass": per_pass("damage"),
-        "damage_dirlik_per_km": per_km("damage_dirlik"),
-        "damage_tb_per_km": per_km("damage_tb"),
-        "damage_same_ratio_per_km": per_km("damage_same_ratio"),
-        "damage_dirlik_per_pass": per_pass("damage_dirlik"),
-        "damage_tb_per_pass": per_pass("damage_tb"),
-        "damage_same_ratio_per_pass": per_pass("damage_same_ratio"),
-        "cycles_per_km": per_km("cycles"),
-        "cycles_per_pass": per_pass("cycles"),
-        "max_range_MPa": per_pass("max_range"),
-        "max_equivalent_range_dS": per_pass("max_equivalent_range"),
-        "bending_ratio": per_pass("bending_ratio"),
-        "mean_stress_MPa": per_pass("mean"),
-        "kurtosis": per_pass("kurtosis"),
-        "irregularity": per_pass("irregularity"),
-        "peaks_per_s": per_pass("peaks_per_s"),
-        "samples_per_peak": per_pass("samples_per_peak"),
-        "verdict": np.array(VERDICTS, dtype=object)[np.stack([p.verdict for p in parts], axis=-1).ravel()],
+        **point_columns(stations, welds, repeat=len(parts)),
+        "event": coded(np.tile(np.arange(len(parts)), 2 * len(stations)), [p.event for p in plan.passes]),
+        "damage_per_km": (damage / length).ravel(),
+        "damage_per_pass": damage.ravel(),
+        "damage_dirlik_per_km": (dirlik / length).ravel(),
+        "damage_tb_per_km": (tb / length).ravel(),
+        "damage_same_ratio_per_km": (same_ratio / length).ravel(),
+        "damage_dirlik_per_pass": dirlik.ravel(),
+        "damage_tb_per_pass": tb.ravel(),
+        "damage_same_ratio_per_pass": same_ratio.ravel(),
+        "cycles_per_km": (cycles / length).ravel(),
+        "cycles_per_pass": cycles.ravel(),
+        "max_range_MPa": per_pass("max_range").ravel(),
+        "max_equivalent_range_dS": per_pass("max_equivalent_range").ravel(),
+        "bending_ratio": per_pass("bending_ratio").ravel(),
+        "mean_stress_MPa": per_pass("mean").ravel(),
+        "kurtosis": per_pass("kurtosis").ravel(),
+        "irregularity": per_pass("irregularity").ravel(),
+        "peaks_per_s": per_pass("peaks_per_s").ravel(),
+        "samples_per_peak": per_pass("samples_per_peak").ravel(),
+        "verdict": coded(per_pass("verdict").ravel(), VERDICTS),
     }
 
 
-def stress_rows(
-    stations: Stations, rows: NDArray[np.int64], modes: NDArray[np.int64], welds: Sequence[str]
-) -> Mapping[str, Any]:
-    """Rows of ``structural_stress.parquet`` for a block of stations: the five components of every mode."""
-    station = np.repeat(rows, len(modes))
+def stress_rows(stations: Stations, modes: NDArray[np.int64], welds: Sequence[str]) -> Mapping[str, Any]:
+    """Rows of ``structural_stress.parquet``: the five components of every mode."""
     columns: dict[str, Any] = {
-        "weld": np.array(welds, dtype=object)[stations.weld[station]],
-        "part": stations.part[station],
-        "order": stations.order[station],
-        "node": stations.node[station],
-        "mode": np.tile(modes, len(rows)),
+        "weld": coded(np.repeat(stations.weld, len(modes)), welds),
+        "part": np.repeat(stations.part, len(modes)),
+        "order": np.repeat(stations.order, len(modes)),
+        "node": np.repeat(stations.node, len(modes)),
+        "mode": np.tile(modes, len(stations)),
     }
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
-        columns[f"{component}_MPa"] = getattr(stations.treated, component)[rows].ravel()
-        columns[f"{component}_raw_MPa"] = getattr(stations.raw, component)[rows].ravel()
+        columns[f"{component}_MPa"] = getattr(stations.treated, component).ravel()
+        columns[f"{component}_raw_MPa"] = getattr(stations.raw, component).ravel()
     return columns

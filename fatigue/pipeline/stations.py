@@ -1,18 +1,16 @@
-"""The weld lines of a body as one long table of stations, cut into blocks for counting."""
+"""Weld lines as one long table of stations."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.damage import ThicknessRule, size_factor
-from fatigue.pipeline.event_block import Shapes
 from fatigue.pipeline.rated_curves import RatedCurve
-from fatigue.weld.line import arc_length
+from fatigue.pipeline.shapes import Shapes
+from fatigue.weld.line import arc_length, stacked
 from fatigue.weld.structural_stress import LineStress, StructuralStress
-
-BLOCK = 128  # stations; blocks are cut by this number alone, so that results do not depend on threads
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,16 +43,6 @@ class Stations:
         return len(self.node)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Block:
-    """Stations counted together: one S-N curve, and the treated shapes or the raw ones of weld ends."""
-
-    index: int
-    rows: NDArray[np.int64]
-    curve: str
-    raw: bool
-
-
 def stations_of(lines: Sequence[LineStress], weld_names: Sequence[str]) -> Stations:
     """Lay the solved line parts one after the other, welds in the order of the register."""
     place = {name: i for i, name in enumerate(weld_names)}
@@ -65,7 +53,7 @@ def stations_of(lines: Sequence[LineStress], weld_names: Sequence[str]) -> Stati
         part=np.concatenate([np.full(len(p.node), p.part) for p in parts]),
         order=np.concatenate([p.order for p in parts]),
         node=np.concatenate([p.node for p in parts]),
-        arc_length=np.concatenate([arc_length(p) for p in parts]),
+        arc_length=arc_length(stacked(parts)),
         xyz=np.concatenate([p.xyz for p in parts]),
         thickness=np.concatenate([p.thickness for p in parts]),
         at_end=np.concatenate([solved.at_end for solved in lines]),
@@ -75,35 +63,29 @@ def stations_of(lines: Sequence[LineStress], weld_names: Sequence[str]) -> Stati
     )
 
 
-def cut_blocks(stations: Stations, curve_of_weld: Sequence[str]) -> list[Block]:
-    """Cut the stations into blocks of one curve and at most ``BLOCK``, then the raw values of treated stations."""
-    curve = np.array(curve_of_weld)[stations.weld]
-    treated_here = np.flatnonzero(
-        (stations.treated.membrane != stations.raw.membrane).any(axis=1)
-        | (stations.treated.bending != stations.raw.bending).any(axis=1)
-    )
-    blocks: list[Block] = []
-    for rows, raw in ((np.arange(len(stations)), False), (treated_here, True)):
-        changes = np.flatnonzero(curve[rows][1:] != curve[rows][:-1]) + 1
-        for run in np.split(rows, changes):
-            for first in range(0, len(run), BLOCK):
-                some = run[first : first + BLOCK]
-                blocks.append(Block(len(blocks), some, str(curve[some[0]]), raw))
-    return blocks
+def treated_rows(stations: Stations) -> NDArray[np.intp]:
+    """Find the stations whose stress the end treatment has changed."""
+    changed = (stations.treated.membrane != stations.raw.membrane) | (stations.treated.bending != stations.raw.bending)
+    return np.flatnonzero(changed.any(axis=1))
 
 
 def shapes_of(
-    stations: Stations, block: Block, curves: Mapping[str, RatedCurve], thickness_rule: ThicknessRule
+    stations: Stations,
+    stress: StructuralStress,
+    rows: NDArray[np.intp],
+    rated: RatedCurve,
+    thickness_rule: ThicknessRule,
 ) -> Shapes:
-    """Stress shapes of a block with the law of its curve and the size factor of its plates."""
-    stress = stations.raw if block.raw else stations.treated
-    rated = curves[block.curve]
+    """Stress shapes of some stations, treated or raw, with the law of their curve and the size factor of their plates.
+
+    ``stress`` is ``stations.treated`` or ``stations.raw``.
+    """
     return Shapes(
-        membrane=stress.membrane[block.rows],
-        bending=stress.bending[block.rows],
-        in_plane_shear=stress.in_plane_shear[block.rows],
-        twist_shear=stress.twist_shear[block.rows],
-        size=size_factor(stations.thickness[block.rows], rated.curve, thickness_rule),
+        membrane=stress.membrane[rows],
+        bending=stress.bending[rows],
+        in_plane_shear=stress.in_plane_shear[rows],
+        twist_shear=stress.twist_shear[rows],
+        size=size_factor(stations.thickness[rows], rated.curve, thickness_rule),
         law=rated.law,
         uses_bending_ratio=rated.curve.applies == "dS",
     )

@@ -129,7 +129,7 @@ def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatr
         record=record_matrices(history, spectra.upper_hz),
         periods=period_matrices(history, spectra),
         duration=history.duration,
-        segments=len(spectra.amplitude),
+        segments=len(spectra.starts),
     )
 
 

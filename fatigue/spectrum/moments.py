@@ -6,7 +6,7 @@ Windowed, detrended segments are linear in q as well: the result is that of Welc
 stress history, to rounding (Braccesi, Cianetti et al. published the idea for modal models, 2005 and later).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -20,26 +20,32 @@ Real = TypeVar("Real", bound=np.floating)
 
 DIRLIK_ORDERS = (0.0, 1.0, 2.0, 4.0)
 FREQUENCY_TOLERANCE = 1e-9  # a bin that rounding puts above the upper limit still counts
+NUMBERS_AT_ONCE = 1_000_000  # of the segment spectra: 16 MB
 BLOCK_POINTS = 1024  # keeps a block of points and its product with one matrix in the processor's cache
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Spectra:
-    """Segment spectra of the modal coordinates, scaled to one-sided densities.
+    """Segment spectra of the modal coordinates, scaled to one-sided densities; they are computed when asked for.
 
     Attributes
     ----------
+    history : the record
+    starts : first samples of the segments
+    window : (length of a segment,) taper
     frequency : (f,) [Hz]
-    amplitude : (s, f, m) complex; the mean over segments of ``amplitude[:, :, i].conj() * amplitude[:, :, j]`` is the
-        one-sided cross-spectral density of modes i and j [unit modal coordinate**2 / Hz]
+    scale : (f,) from transform to amplitude
     weight : (f,) trapezoid weights: half a bin at both ends [Hz]
     resolution_hz : distance of the bins [Hz]
     upper_hz : upper limit asked for [Hz]
     segment_s : length of a segment [s]
     """
 
+    history: ModalHistory
+    starts: range
+    window: NDArray[np.float64]
     frequency: NDArray[np.float64]
-    amplitude: NDArray[np.complex128]
+    scale: NDArray[np.float64]
     weight: NDArray[np.float64]
     resolution_hz: float
     upper_hz: float
@@ -47,7 +53,24 @@ class Spectra:
 
     def part(self, first: int, last: int) -> "Spectra":
         """Take the segments from ``first`` to before ``last``."""
-        return replace(self, amplitude=self.amplitude[first:last])
+        return replace(self, starts=self.starts[first:last])
+
+    def amplitudes(self) -> Iterator[NDArray[np.complex128]]:
+        """Transform some segments after the others, (some, f, m), in bounded memory.
+
+        The mean over segments of ``amplitude[:, :, i].conj() * amplitude[:, :, j]`` is the one-sided cross-spectral
+        density of modes i and j [unit modal coordinate**2 / Hz].
+        """
+        modes, bins, length = self.history.q.shape[0], len(self.frequency), len(self.window)
+        some = max(1, NUMBERS_AT_ONCE // (modes * max(bins, self.starts.step // 4)))
+        for first in range(0, len(self.starts), some):
+            starts = self.starts[first : first + some]
+            samples = self.history.q[:, starts[0] : starts[-1] + length]
+            amplitude = np.empty((len(starts), bins, modes), dtype=np.complex128)
+            for spectrum, start in zip(amplitude, starts, strict=True):
+                segment = windowed(samples[:, start - starts[0] : start - starts[0] + length], self.window)
+                spectrum[:] = self.scale[:, None] * np.fft.rfft(segment, axis=1).T[:bins]
+            yield amplitude
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,11 +100,17 @@ def samples_per_segment(step: float, segment_s: float) -> int:
 
 def has_spectrum(history: ModalHistory, segment_s: float) -> bool:
     """Whether the record holds at least one segment of at least four samples."""
-    return bool(4 <= samples_per_segment(history.step, segment_s) <= history.q.shape[1])
+    return segment_count(history.q.shape[1], history.step, segment_s) > 0
+
+
+def segment_count(samples: int, step: float, segment_s: float) -> int:
+    """Count the segments that a record of so many samples holds; 0 where a segment has fewer than four samples."""
+    length = samples_per_segment(step, segment_s)
+    return len(segment_starts(samples, length)) if length >= 4 else 0
 
 
 def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) -> Spectra:
-    """Transform segments of all modal coordinates that overlap by half: own mean removed, periodic Hann window.
+    """Cut all modal coordinates into segments that overlap by half: own mean removed, periodic Hann window.
 
     Bins above ``upper_hz`` [Hz] are dropped. The scaling is that of Welch's method (1967), one-sided.
 
@@ -102,21 +131,16 @@ def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) ->
     window = hann(length)
     bins = np.arange(length // 2 + 1)
     frequency = bins / (length * history.step)
-    kept = frequency <= upper_hz * (1 + FREQUENCY_TOLERANCE)
+    kept = np.count_nonzero(frequency <= upper_hz * (1 + FREQUENCY_TOLERANCE))
     one_sided = np.where((bins == 0) | (2 * bins == length), 1.0, 2.0)  # 0 Hz and Nyquist have no mirror image
-    scale = np.sqrt(one_sided * history.step / np.sum(window**2))[kept, None]
-
-    starts = segment_starts(history.q.shape[1], length)
-    amplitude = np.empty((len(starts), np.count_nonzero(kept), len(history.q)), dtype=np.complex128)
-    for spectrum, start in zip(amplitude, starts, strict=True):
-        spectrum[:] = scale * np.fft.rfft(windowed_segment(history, start, window), axis=1).T[kept]
-
-    resolution = 1.0 / (length * history.step)
     return Spectra(
-        frequency=frequency[kept],
-        amplitude=amplitude,
-        weight=_trapezoid_weights(frequency[kept]),
-        resolution_hz=resolution,
+        history=history,
+        starts=segment_starts(history.q.shape[1], length),
+        window=window,
+        frequency=frequency[:kept],
+        scale=np.sqrt(one_sided * history.step / np.sum(window**2))[:kept],
+        weight=_trapezoid_weights(frequency[:kept]),
+        resolution_hz=1.0 / (length * history.step),
         upper_hz=upper_hz,
         segment_s=length * history.step,
     )
@@ -132,12 +156,12 @@ def segment_starts(samples: int, length: int) -> range:
     return range(0, samples - length + 1, length - length // 2)
 
 
-def windowed_segment(history: ModalHistory, start: int, window: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cut one segment of all modal coordinates, remove its mean and taper it: (m, len(window)).
+def windowed(samples: NDArray[np.floating], window: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Remove the mean of one segment of modal coordinates (m, len(window)) and taper it.
 
     The mean goes in double precision: gravity can be a thousand times what is left.
     """
-    segment = history.q[:, start : start + len(window)].astype(np.float64)
+    segment = samples.astype(np.float64)
     segment -= segment[:, :1]  # a record at rest then has exactly no spectrum
     segment -= segment.mean(axis=1, keepdims=True)
     segment *= window
@@ -146,20 +170,43 @@ def windowed_segment(history: ModalHistory, start: int, window: NDArray[np.float
 
 def moment_matrices(spectra: Spectra, orders: Sequence[float] = DIRLIK_ORDERS) -> MomentMatrices:
     """Integrate the cross-spectra of the modal coordinates, times f**p, over the kept bins."""
-    segments, _, modes = spectra.amplitude.shape
-    matrix = np.empty((len(orders), modes, modes))
-    for into, order in zip(matrix, orders, strict=True):
-        weighted = spectra.amplitude * np.sqrt(spectra.weight * spectra.frequency**order)[:, None]
-        rows = weighted.reshape(-1, modes)
-        # The imaginary part of a cross-spectrum is antisymmetric and leaves no trace in a quadratic form.
-        into[:] = (rows.conj().T @ rows).real / segments
+    modes, segments = spectra.history.q.shape[0], len(spectra.starts)
+    matrix = np.zeros((len(orders), modes, modes))
+    for amplitude in spectra.amplitudes():
+        parts = _real_parts(amplitude)
+        for i, order in enumerate(orders):
+            rows = (parts * np.sqrt(spectra.weight * spectra.frequency**order)[:, None]).reshape(-1, modes)
+            matrix[i] += rows.T @ rows
     return MomentMatrices(
         orders=np.asarray(orders, dtype=np.float64),
-        matrix=matrix,
+        matrix=matrix / segments,
         segments=segments,
         resolution_hz=spectra.resolution_hz,
         upper_hz=spectra.upper_hz,
     )
+
+
+def cross_densities(spectra: Spectra) -> NDArray[np.float64]:
+    """Real parts of the one-sided cross-spectral densities of the modes, (f, m, m) [unit modal coordinate**2 / Hz]."""
+    modes, bins = spectra.history.q.shape[0], len(spectra.frequency)
+    density = np.zeros((bins, modes, modes))
+    some = max(1, NUMBERS_AT_ONCE // modes**2)
+    for amplitude in spectra.amplitudes():
+        parts = _real_parts(amplitude)
+        for first in range(0, bins, some):
+            rows = np.ascontiguousarray(parts[:, first : first + some].transpose(1, 0, 2))
+            density[first : first + some] += rows.transpose(0, 2, 1) @ rows
+    density /= len(spectra.starts)
+    return density
+
+
+def _real_parts(amplitude: NDArray[np.complex128]) -> NDArray[np.float64]:
+    """Real and imaginary parts of segment spectra, one after the other, (2 s, f, m).
+
+    Their products add up to the real part of a cross-spectrum. Its imaginary part is antisymmetric and leaves no trace
+    in a quadratic form.
+    """
+    return np.concatenate([amplitude.real, amplitude.imag])
 
 
 def point_moments(shapes: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:

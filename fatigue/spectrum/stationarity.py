@@ -16,6 +16,7 @@ from fatigue.quotient import quotient
 from fatigue.spectrum.moments import (
     MomentMatrices,
     Spectra,
+    cross_densities,
     hann,
     moment_matrices,
     point_moments,
@@ -80,7 +81,7 @@ class Stationarity:
 
 def period_matrices(history: ModalHistory, spectra: Spectra) -> PeriodMatrices | None:
     """Cut an event into periods of one or, in a long record, some segments; None if there are fewer than eight."""
-    if len(spectra.amplitude) < FEWEST_PERIODS:
+    if len(spectra.starts) < FEWEST_PERIODS:
         return None
     long = segment_spectra(history, 2 * spectra.segment_s, spectra.upper_hz)
     mean = moment_matrices(long, (0,)).matrix
@@ -102,13 +103,13 @@ def period_matrices(history: ModalHistory, spectra: Spectra) -> PeriodMatrices |
 
 def segments_per_period(spectra: Spectra) -> int:
     """Segments that make one period, so that there are no more than `MOST_PERIODS`."""
-    return -(-len(spectra.amplitude) // MOST_PERIODS)
+    return -(-len(spectra.starts) // MOST_PERIODS)
 
 
 def moments_by_period(spectra: Spectra, orders: tuple[float, ...]) -> list[MomentMatrices]:
     """Moment matrices of each period; segments that do not fill a last period are left out."""
     segments = segments_per_period(spectra)
-    starts = range(0, len(spectra.amplitude) - segments + 1, segments)
+    starts = range(0, len(spectra.starts) - segments + 1, segments)
     return [moment_matrices(spectra.part(first, first + segments), orders) for first in starts]
 
 
@@ -166,8 +167,8 @@ def _principal_scatter(
     and the autocorrelation of the taper. Most of the hundreds of lags repeat each other: the few principal directions
     of the stack of matrices hold all but `NEGLIGIBLE` of its energy.
     """
-    rows = spectra.amplitude.transpose(1, 2, 0)
-    density = (rows.conj() @ rows.transpose(0, 2, 1)).real / len(spectra.amplitude) * unit
+    density = cross_densities(spectra)
+    density *= unit
 
     window = hann(round(spectra.segment_s / step))
     stride = max(1, int(1 / (2.5 * spectra.upper_hz * step)))  # R**2 has twice the bandwidth of the stress

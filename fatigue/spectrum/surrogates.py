@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.history import ModalHistory
-from fatigue.spectrum.moments import hann, samples_per_segment, segment_starts, windowed_segment
+from fatigue.spectrum.moments import hann, samples_per_segment, segment_starts, windowed
 
 MOST_SEGMENTS = 64  # that one surrogate draws on
 LONGEST = 16  # segments; a longer surrogate tells no more than several
@@ -46,10 +46,11 @@ def gaussian_surrogate(history: ModalHistory, segment_s: float, rng: np.random.G
     samples = min(history.q.shape[1], LONGEST * length)
     starts = np.asarray(segment_starts(history.q.shape[1], length))
     drawn = rng.permutation(starts)[:MOST_SEGMENTS]
-    spectrum = np.zeros((len(history.q), samples // 2 + 1), dtype=np.complex128)
+    spectrum = np.zeros((history.q.shape[0], samples // 2 + 1), dtype=np.complex128)
     for start in drawn:
         normal = rng.standard_normal((2, spectrum.shape[1]))
-        spectrum += (normal[0] + 1j * normal[1]) * np.fft.rfft(windowed_segment(history, start, window), samples)
+        segment = windowed(history.q[:, start : start + length], window)
+        spectrum += (normal[0] + 1j * normal[1]) * np.fft.rfft(segment, samples)
     # Half a unit of variance in each part of a line and a mirror image of it: sqrt(1/2) for the complex normal number.
     spectrum *= np.sqrt(0.5 * samples / (len(drawn) * np.sum(window**2)))
     spectrum[:, 0] = 0.0

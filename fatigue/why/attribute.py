@@ -127,7 +127,7 @@ def attribute_event(
 
     ``edges_hz`` are ascending edges between frequency bands, ``bin_km`` the length of a bin of the track [km].
     """
-    q, residue = load.counted.q, load.residue
+    q, residue = np.asarray(load.counted.q), load.residue
     frequency = coefficient_frequencies(q.shape[1], load.counted.step, residue)
     inner = np.asarray(edges_hz if load.moments is not None else (), dtype=np.float64)
     bands = band_slices(frequency, inner)

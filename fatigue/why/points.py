@@ -90,16 +90,18 @@ def choose_points(
 ) -> tuple[NDArray[np.object_], NDArray[np.int64], str]:
     """Choose all points if that is affordable, else the worst of every weld and those above a share of the limit.
 
+    Points that a bound has settled have no cycles to share out and are never chosen.
     Returns for every row of ``nodes.parquet`` why it is chosen, empty if it is not; where among the chosen rows the
     worst of every weld is; and the choice in words.
     """
-    nodes = read_table(folder, "nodes", ["weld", "utilisation", "toe"]).to_pandas()
-    utilisation = nodes["utilisation"].where(nodes["toe"], -1.0)  # a face without a toe never governs
+    nodes = read_table(folder, "nodes", ["weld", "utilisation", "toe", "screened"]).to_pandas()
+    counted = nodes["screened"] == ""
+    utilisation = nodes["utilisation"].where(nodes["toe"] & counted, -1.0)  # a face without a toe never governs
     worst = np.sort(utilisation.groupby(nodes["weld"]).idxmax().to_numpy())
 
     upsample = case.counting.upsample
     samples = sum(one.samples for one in plan.passes) * (upsample if isinstance(upsample, int) else 1)
-    if len(nodes) * samples <= MOST_SAMPLES:
+    if counted.all() and len(nodes) * samples <= MOST_SAMPLES:
         return np.full(len(nodes), "all", dtype=object), worst, f"all {len(nodes)} points"
     above = f"above {share_of_limit:g} of the limit"
     chosen = np.where(utilisation >= share_of_limit, above, "").astype(object)

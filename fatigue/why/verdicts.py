@@ -141,7 +141,10 @@ def _split(
 
     def damage_rate(surrogate: ModalHistory) -> Floats:
         nothing = np.zeros(surrogate.q.shape[1])  # with one bending ratio only the sum of membrane and bending counts
-        counted = [count_credit(s, nothing, 1.0, rule, "repeat") for s, rule in zip(surrogate.q, rules, strict=True)]
+        counted = [
+            count_credit(s, nothing, 1.0, rule, "repeat")
+            for s, rule in zip(np.asarray(surrogate.q), rules, strict=True)
+        ]
         return np.array([c.damage for c in counted]) / surrogate.duration
 
     return ratio_split(

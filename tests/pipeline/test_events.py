@@ -6,10 +6,16 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.errors import FatigueError
+from fatigue.life import spool
+from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.history import ModalHistory
+from fatigue.life.spool import Spool
+from fatigue.pipeline import events
 from fatigue.pipeline.body import read_body
+from fatigue.pipeline.event_block import EventBlock, assess_event_block
 from fatigue.pipeline.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
 from fatigue.pipeline.model import weld_groups
+from fatigue.pipeline.shapes import Shapes
 from tests.small_case import small_case
 
 
@@ -110,3 +116,64 @@ def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
     loads = event_loads(weld_groups(body, tmp_path / "scratch"), mission_plan(body)[0])
     assert loads[0].counted.step == pytest.approx(0.01)
     assert loads[2].counted.step == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("upsample", [1, 2, "auto"])
+def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypatch, upsample):
+    """Statistics, spectra and diagnosis to 1e-12, for the fast kernel too; the counted samples exactly."""
+    case = small_case()
+    case.counting["upsample"] = upsample
+    body = body_of(case, tmp_path / "case")
+    groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body)
+    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0)
+    held = event_loads(groups, plan, tmp_path / "histories")
+    monkeypatch.setattr(events, "HELD_BYTES", 0.0)
+    monkeypatch.setattr(spool, "CHUNK", 512)
+    monkeypatch.setattr(spool, "AT_ONCE", 600)
+    monkeypatch.setattr("fatigue.spectrum.moments.NUMBERS_AT_ONCE", 1000)
+    monkeypatch.setattr("fatigue.spectrum.whole_record.NUMBERS_AT_ONCE", 60)
+    for a, b in zip(held, event_loads(groups, plan, tmp_path / "histories"), strict=True):
+        assert not isinstance(a.counted.q, Spool)
+        assert isinstance(b.counted.q, Spool)
+        assert isinstance(b.single.q, Spool)
+        np.testing.assert_array_equal(np.asarray(b.counted.q), a.counted.q)
+        np.testing.assert_allclose(np.asarray(b.single.q), a.single.q, rtol=1e-6, atol=1e-6)
+        assert (b.counted.step, b.counted.start, b.duration) == (a.counted.step, a.counted.start, a.duration)
+        pairs = [(a.mean, b.mean), (a.covariance, b.covariance)]
+        if a.moments is not None:
+            pairs += [(a.moments.matrix, b.moments.matrix)]
+            pairs += [(getattr(a.diagnosis.record, x), getattr(b.diagnosis.record, x)) for x in ("slow", "lines")]
+            pairs += [(getattr(a.diagnosis.periods, x), getattr(b.diagnosis.periods, x)) for x in ("mean", "variance")]
+        for mine, theirs in pairs:
+            close = 1e-6 if mine.dtype == np.float32 else 1e-12
+            np.testing.assert_allclose(theirs, mine, rtol=close, atol=close * max(1.0, np.abs(mine).max()))
+
+
+def test_the_shortest_records_are_held_in_memory(tmp_path, monkeypatch):
+    """As many as fit together; without a folder for the others, all of them."""
+    body = body_of(small_case(), tmp_path / "case")
+    groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body)
+    monkeypatch.setattr(events, "HELD_BYTES", 4 * 3 * (2200 + 2))
+    loads = event_loads(groups, plan, tmp_path / "histories")
+    assert [isinstance(load.counted.q, Spool) for load in loads] == [True, False, False]
+    assert not any(isinstance(load.counted.q, Spool) for load in event_loads(groups, plan))
+
+
+@pytest.mark.parametrize("extension", ["none", "haibach"])
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_path, monkeypatch, number, extension):
+    """Every number of a sine, of noise and of two samples, with and without a knee; the kurtosis to 1e-9."""
+    case = small_case()
+    body = body_of(case, tmp_path / "case")
+    event = body.case.mission.event[number]
+    law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
+    S = np.random.default_rng(2).normal(size=(4, 5, 3))
+    shapes = Shapes(*S, size=np.full(5, 1.5), law=law, uses_bending_ratio=True)
+    held = assess_event_block(shapes, event_load(body, event, 2), 40.0, mean_stress=True)
+    monkeypatch.setattr(spool, "CHUNK", 512)
+    spooled = event_load(body, event, 2, scratch=tmp_path / "histories")
+    assert isinstance(spooled.counted.q, Spool)
+    found = assess_event_block(shapes, spooled, 40.0, mean_stress=True)
+    for name in EventBlock.__slots__:
+        close = 1e-9 if name == "kurtosis" else 1e-12
+        np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=close, atol=1e-13, err_msg=name)

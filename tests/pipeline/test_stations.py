@@ -1,4 +1,4 @@
-"""Stations and blocks: order of the register, one curve per block, raw values of treated stations."""
+"""Stations: order of the register, shapes of some of them, those that the end treatment changes."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.pipeline.model import read_model
-from fatigue.pipeline.stations import BLOCK, cut_blocks, shapes_of, stations_of
+from fatigue.pipeline.stations import shapes_of, stations_of, treated_rows
 from tests.small_case import small_case
 
 
@@ -27,29 +27,24 @@ def test_stations_follow_the_register(model):
     assert model.stations.arc_length.tolist() == pytest.approx([0, 10, 20, 30, 40, 50, 60] * 2)
 
 
-def test_a_block_has_one_curve_and_every_station_is_in_one(model):
-    """Blocks end where the curve changes; the raw values of the treated ends come on top."""
-    blocks = cut_blocks(model.stations, model.curve_of_weld)
-    treated = [b for b in blocks if not b.raw]
-    assert np.concatenate([b.rows for b in treated]).tolist() == list(range(14))
-    assert [b.curve for b in treated] == ["master-aluminium", "iiw-aluminium-40"]
-    assert [b.index for b in blocks] == list(range(len(blocks)))
-
-
-def test_blocks_are_cut_by_number_of_stations_alone(model):
-    """Never more than BLOCK stations."""
-    many = [replace(s, line=replace(s.line, part=i + 1)) for i in range(60) for s in model.lines[:1]]
-    stations = stations_of(many, ["A"])
-    blocks = [b for b in cut_blocks(stations, ["master-steel"]) if not b.raw]
-    assert [len(b.rows) for b in blocks] == [BLOCK] * (420 // BLOCK) + [420 % BLOCK]
-
-
-def test_shapes_take_raw_values_for_raw_blocks(model):
-    """A raw block counts the solution as it came, a plain one the treated, with size factor and law of its curve."""
-    for block in cut_blocks(model.stations, model.curve_of_weld):
-        shapes = shapes_of(model.stations, block, model.curves, "actual")
-        stress = model.stations.raw if block.raw else model.stations.treated
-        assert np.array_equal(shapes.bending, stress.bending[block.rows])
-        assert shapes.uses_bending_ratio == (block.curve == "master-aluminium")
+def test_shapes_of_some_stations(model):
+    """Treated or raw stress as asked, with size factor and law of the curve."""
+    for name, stress, rows in (
+        ("master-aluminium", model.stations.treated, np.array([0, 3])),
+        ("iiw-aluminium-40", model.stations.raw, np.array([13])),
+    ):
+        shapes = shapes_of(model.stations, stress, rows, model.curves[name], "actual")
+        assert np.array_equal(shapes.bending, stress.bending[rows])
+        assert np.array_equal(shapes.at(np.array([-1])).membrane, stress.membrane[rows[-1:]])
+        assert shapes.uses_bending_ratio == (name == "master-aluminium")
         assert shapes.size == pytest.approx(8.0 ** (1.6 / 7.2) if shapes.uses_bending_ratio else 1.0)
-        assert shapes.law is model.curves[block.curve].law
+        assert shapes.law is model.curves[name].law
+
+
+def test_treated_stations_are_those_with_another_raw_stress(model):
+    """Here the end treatment of uniform lines changes nothing; a changed end is found."""
+    raw = model.stations.raw.membrane.copy()
+    raw[7] *= 2.0
+    changed = replace(model.stations, raw=replace(model.stations.raw, membrane=raw))
+    assert set(treated_rows(changed)) - set(treated_rows(model.stations)) <= {7}
+    assert 7 in treated_rows(changed)

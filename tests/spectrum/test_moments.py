@@ -59,7 +59,7 @@ def test_describes_its_spectrum():
     assert spectra.resolution_hz == pytest.approx(0.5)
     assert spectra.segment_s == pytest.approx(2.0)
     assert spectra.frequency[-1] == pytest.approx(60.0)
-    assert spectra.amplitude.shape == (4, 121, 3)
+    assert [amplitude.shape for amplitude in spectra.amplitudes()] == [(4, 121, 3)]
     assert (matrices.segments, matrices.upper_hz, matrices.resolution_hz) == (4, 60.0, pytest.approx(0.5))
     assert matrices.matrix.shape == (4, 3, 3)
 

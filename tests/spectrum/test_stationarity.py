@@ -50,7 +50,7 @@ def test_expected_scatter_is_the_sum_over_lags():
     weight = hann(length) ** 2 / np.sum(hann(length) ** 2)
     window = hann(2 * length)
     for shape, found in zip(shapes, stationarity(shapes, periods).expected_cov, strict=True):
-        density = np.mean(np.abs(long.amplitude @ shape) ** 2, axis=0)
+        density = np.mean(np.abs(np.concatenate([*long.amplitudes()]) @ shape) ** 2, axis=0)
         variance = 0.0
         for lag in range(0, int(0.4 * len(window)), 2):
             if lag >= length:
@@ -124,7 +124,7 @@ def test_units_and_factors_do_not_matter():
 def test_a_long_record_is_cut_into_few_periods():
     """Segments are pooled so that there are at most `MOST_PERIODS`, and the variance in the mean stays that of all."""
     _, spectra, periods = prepared(ensemble(modal_spectrum(), 2, 300 * 512, 8))
-    assert len(spectra.amplitude) == 149
+    assert len(spectra.starts) == 149
     assert len(periods.variance) == 29 <= MOST_PERIODS
     assert periods.segments == 5
     assert periods.period_s == pytest.approx(4.0 * 0.514 + 4 * 2.0, rel=0.1)

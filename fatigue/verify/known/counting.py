@@ -87,7 +87,7 @@ def _paired_ranges() -> Iterator[Check]:
 def _upsampling() -> Check:
     """Make a sine of 5 samples per period 4 times finer."""
     sine = ModalHistory("sine", np.array([1]), np.sin(2 * np.pi * np.arange(50) / 5)[None], 0.2, 0.0)
-    fine = upsampled(sine, 4, "repeat").q[0]
+    fine = np.asarray(upsampled(sine, 4, "repeat").q)[0]
     worst = float(np.abs(fine - np.sin(2 * np.pi * np.arange(200) / 20)).max())
     return Check(
         "rainflow", "sine of 5 samples, upsampled 4 times", "largest error", "-", 0.0, worst, 1e-12, "closed form"

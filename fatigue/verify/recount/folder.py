@@ -81,8 +81,10 @@ def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_file: 
     if not all(check.passed for check in checks):
         return Recount(folder, 0, len(points), tuple(checks))
 
-    with_cycles = _points_with_cycles(stored, welds)
-    chosen = _chosen(stored.nodes, points, with_cycles, sample, seed)
+    governing = _governing_points(stored, welds)
+    chosen = _chosen(stored.nodes, points, governing, sample, seed)
+    least = record["rules"]["cycles_kept_from_utilisation"]
+    with_cycles = {key for key in governing if stored.welds.loc[key[0], "utilisation"] >= least}
     counted, passes = _count(inputs, modes, {key: stations[key[:3]] for key in chosen}, stored.damage, with_cycles)
     checks += _compared(inputs, modes, welds, stations, stored, counted, passes, with_cycles)
     return Recount(folder, len(counted), len(points), tuple(checks))
@@ -121,7 +123,7 @@ def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any]) -> dict[str,
     return welds
 
 
-def _points_with_cycles(stored: Stored, welds: Mapping[str, Weld]) -> set[Key]:
+def _governing_points(stored: Stored, welds: Mapping[str, Weld]) -> set[Key]:
     """Find the points whose cycles are in the table; of a weld without any, the worst point."""
     found = {key[:4] for key in stored.cycles}
     bare = [name for name in welds if name not in {weld for weld, *_ in found}]

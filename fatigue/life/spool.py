@@ -1,0 +1,125 @@
+"""Modal coordinates on disk: sliced like an array, and in memory only as far as a slice reaches.
+
+The file holds chunk after chunk of time, in each of them mode after mode, so that some samples of all modes and all
+samples of one mode are both read in few pieces. It is read by plain reads: pages of a memory map would count as memory
+of the program.
+"""
+
+import errno
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem
+
+CHUNK = 4096  # samples
+AT_ONCE = 2_000_000  # numbers of a record that are in memory in double precision at a time: 16 MB
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spool:
+    """Modal coordinates (m, t) in a scratch file.
+
+    ``spool[a:b, c:d]`` reads a part into an array, ``spool[a:b, c:d] = part`` writes one. Each access opens the file
+    for itself, so threads may read at the same time. The first ``skipped`` samples of the file do not belong to it.
+    """
+
+    path: Path
+    shape: tuple[int, int]
+    dtype: np.dtype[np.floating]
+    skipped: int = 0
+
+    def __getitem__(self, part: tuple[slice, slice]) -> NDArray[np.floating]:
+        """Read the part between two modes and two samples."""
+        first_mode, end_mode, _ = part[0].indices(self.shape[0])
+        first, end, _ = part[1].indices(self.shape[1])
+        found = np.empty((max(0, end_mode - first_mode), max(0, end - first)), dtype=self.dtype)
+        if found.size == 0:
+            return found
+        with self.path.open("rb", buffering=0) as file:
+            for columns, start, width, inside in self._chunks(first, end):
+                if len(found) == 1:
+                    self._read_at(file, start + first_mode * width + inside.start, found[0, columns])
+                else:
+                    rows = np.empty((len(found), width), dtype=self.dtype)
+                    self._read_at(file, start + first_mode * width, rows)
+                    found[:, columns] = rows[:, inside]
+        return found
+
+    def __setitem__(self, part: tuple[slice, slice], values: NDArray[np.floating]) -> None:
+        """Write the part between two modes and two samples."""
+        first_mode, end_mode, _ = part[0].indices(self.shape[0])
+        first, end, _ = part[1].indices(self.shape[1])
+        with refused_writing(self.path), self.path.open("r+b", buffering=0) as file:
+            for columns, start, width, inside in self._chunks(first, end):
+                for mode, row in zip(range(first_mode, end_mode), values, strict=True):
+                    file.seek((start + mode * width + inside.start) * self.dtype.itemsize)
+                    _write(file, np.ascontiguousarray(row[columns], dtype=self.dtype))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[np.floating]:
+        """Read all of it, for ``np.asarray``."""
+        return np.asarray(self[:, :], dtype=dtype)
+
+    def later(self, first: int) -> "Spool":
+        """Leave out the samples before ``first``."""
+        first = min(first, self.shape[1])
+        return Spool(self.path, (self.shape[0], self.shape[1] - first), self.dtype, self.skipped + first)
+
+    def _chunks(self, first: int, end: int) -> Iterator[tuple[slice, int, int, slice]]:
+        """Cut samples into parts of chunks: where among them, where the chunk begins, its width, where in the chunk."""
+        stored = self.skipped + self.shape[1]
+        first, end = first + self.skipped, end + self.skipped
+        for begin in range(first - first % CHUNK, end, CHUNK):
+            width = min(CHUNK, stored - begin)
+            a, b = max(first, begin), min(end, begin + width)
+            yield slice(a - first, b - first), begin * self.shape[0], width, slice(a - begin, b - begin)
+
+    def _read_at(self, file: BinaryIO, position: int, into: NDArray[np.floating]) -> None:
+        file.seek(position * self.dtype.itemsize)
+        if file.readinto(into.view(np.uint8)) != into.nbytes:  # type: ignore[attr-defined]
+            raise DataError(Problem("cut_short", str(self.path), "the scratch file is cut short", "Run it again"))
+
+
+Samples = NDArray[np.floating] | Spool  # modal coordinates (m, t): use slices of time, np.asarray for all of it
+
+
+def create_spool(path: Path, shape: tuple[int, int], dtype: np.dtype[np.floating]) -> Spool:
+    """Make room for modal coordinates of a shape in a file.
+
+    Raises
+    ------
+    DataError : the disk is full or the place cannot be written
+    """
+    with refused_writing(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("wb") as file:
+            file.truncate(shape[0] * shape[1] * dtype.itemsize)
+    return Spool(path, shape, dtype)
+
+
+def time_slices(shape: tuple[int, ...]) -> Iterator[slice]:
+    """Cut the samples of modal coordinates (m, t) so that a piece in double precision takes 16 MB, 32 kB at least."""
+    width = max(CHUNK, AT_ONCE // shape[0] // CHUNK * CHUNK)
+    return (slice(first, min(first + width, shape[1])) for first in range(0, shape[1], width))
+
+
+def _write(file: BinaryIO, values: NDArray[np.floating]) -> None:
+    if file.write(values.tobytes()) != values.nbytes:
+        raise OSError(errno.ENOSPC, "only a part could be written")
+
+
+@contextmanager
+def refused_writing(path: Path) -> Iterator[None]:
+    """Tell in the words of the program why a scratch file cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
+        what = "the disk is full" if full else f"cannot be written ({error.strerror or error})"
+        remedy = "Free some space, long histories need a copy on disk" if full else "Give a folder you may write to"
+        raise DataError(Problem("cannot_write", str(path), what, remedy)) from error

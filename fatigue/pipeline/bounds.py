@@ -1,0 +1,55 @@
+"""Proven bounds for one pass of an event at a block of stations, in place of counting."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.screening import damage_bound, may_need_mean_stress
+from fatigue.pipeline.estimate import Estimate
+from fatigue.pipeline.shapes import Shapes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bound:
+    """Upper bounds of damage, largest range [MPa] and largest equivalent range dS of one pass; arrays are (n, 2)."""
+
+    damage: NDArray[np.float64]
+    max_range: NDArray[np.float64]
+    max_equivalent_range: NDArray[np.float64]
+
+    def at(self, rows: NDArray[np.intp]) -> "Bound":
+        """Take some stations."""
+        return Bound(self.damage[rows], self.max_range[rows], self.max_equivalent_range[rows])
+
+    def tightened(self, other: "Bound", rows: NDArray[np.intp]) -> "Bound":
+        """Take the lower one of two bounds at some stations, those of ``other`` in their order."""
+        arrays = []
+        for mine, theirs in (
+            (self.damage, other.damage),
+            (self.max_range, other.max_range),
+            (self.max_equivalent_range, other.max_equivalent_range),
+        ):
+            lower = mine.copy()
+            lower[rows] = np.minimum(mine[rows], theirs)
+            arrays.append(lower)
+        return Bound(*arrays)
+
+
+def event_bound(
+    stress_range: NDArray[np.float64],
+    power_sums: NDArray[np.float64],
+    shapes: Shapes,
+    estimate: Estimate,
+    yield_MPa: float | None,
+) -> Bound:
+    """Bound one pass from a bound of range (n, 2) and of sum n S^q, q = 1, 2 ... (q, n, 2) [MPa^q].
+
+    ``yield_MPa`` is given where damage contains the mean-stress factor: stations that may need it have no bound then.
+    """
+    damage, largest = damage_bound(
+        stress_range, power_sums, shapes.size[:, None], shapes.law, uses_bending_ratio=shapes.uses_bending_ratio
+    )
+    if yield_MPa is not None:
+        damage = np.where(may_need_mean_stress(estimate.mean, stress_range, yield_MPa), np.inf, damage)
+    return Bound(damage, stress_range, largest)

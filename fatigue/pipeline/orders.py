@@ -1,0 +1,70 @@
+"""Groups of welds assessed by other processes: the names of files travel there, arrays of results come back."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import Lock
+from typing import Any
+
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from fatigue.case import load_case
+from fatigue.errors import DataError, Problem
+from fatigue.pipeline.body import read_body
+from fatigue.pipeline.events import mission_plan
+from fatigue.pipeline.group import arrays_of
+from fatigue.pipeline.model import weld_groups
+from fatigue.pipeline.work import Work, inputs_of, key_of, open_work
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """One group of welds to be assessed in a process that sees the same files.
+
+    ``key`` is that of the job, so that a worker with other inputs or another version of the program is found out.
+    """
+
+    case: str
+    strict: bool
+    share: float | None
+    key: str
+    group: int
+
+
+def fulfil(order: Order) -> dict[str, NDArray[Any]]:
+    """Assess the group of an order; the files are read once per process.
+
+    Raises
+    ------
+    DataError : this process sees other inputs, or is another version of the program
+    """
+    with _OPENING:  # the first thread reads, the others wait for it
+        work = _opened(order.case, order.strict, order.share, order.key)
+    with threadpool_limits(limits=1, user_api="blas"):
+        _, result = work.group(order.group)
+    return arrays_of(result)
+
+
+_OPENING = Lock()
+_SCRATCH: list[TemporaryDirectory[str]] = []
+
+
+@lru_cache(maxsize=1)
+def _opened(path: str, strict: bool, share: float | None, key: str) -> Work:
+    case = load_case(Path(path))
+    if key_of(inputs_of(case), share) != key:
+        raise DataError(
+            Problem(
+                "other_inputs",
+                path,
+                "a worker sees other input files or other versions of packages than the process that gave the order",
+                "Give all workers the same files under the same path and the same installation",
+            )
+        )
+    body = read_body(case, strict=strict)
+    plan, _ = mission_plan(body)
+    _SCRATCH[:] = [TemporaryDirectory(prefix="fatigue-")]
+    scratch = Path(_SCRATCH[0].name)
+    return open_work(weld_groups(body, scratch / "forces"), plan, share, scratch)

@@ -1,0 +1,53 @@
+"""Structural stress of some stations per unit modal coordinate, with what turns its ranges into damage."""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.curves import DamageLaw
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shapes:
+    """Structural stress shapes of a block of stations that share one S-N curve.
+
+    ``membrane``, ``bending``, ``in_plane_shear``, ``twist_shear`` are (n, m) [MPa per unit modal coordinate], bending
+    and twist those of the top face; ``size`` (n,) turns a structural stress range over ``I(r)^(1/m)`` into the
+    equivalent range of the law; ``uses_bending_ratio`` is False for curves in plain structural stress, where I is 1.
+    """
+
+    membrane: NDArray[np.float64]
+    bending: NDArray[np.float64]
+    in_plane_shear: NDArray[np.float64]
+    twist_shear: NDArray[np.float64]
+    size: NDArray[np.float64]
+    law: DamageLaw
+    uses_bending_ratio: bool
+
+    def __len__(self) -> int:
+        """Count the stations."""
+        return len(self.size)
+
+    def at(self, rows: NDArray[np.intp]) -> Self:
+        """Take some stations."""
+        return replace(
+            self,
+            membrane=self.membrane[rows],
+            bending=self.bending[rows],
+            in_plane_shear=self.in_plane_shear[rows],
+            twist_shear=self.twist_shear[rows],
+            size=self.size[rows],
+        )
+
+
+def faces(mean: NDArray[np.float64], gradient: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Shapes at both faces, (n, 2, m): top = mean + gradient part, bottom = mean - gradient part."""
+    return np.stack([mean + gradient, mean - gradient], axis=1)
+
+
+def quadratic(a: NDArray[np.float64], C: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Evaluate ``a' C b`` along the last axis; a variance, so never below 0, where a is b."""
+    form = np.asarray(((a @ C) * b).sum(axis=-1))
+    return np.maximum(form, 0.0) if a is b else form

@@ -1,0 +1,76 @@
+"""The job of an assessment, opened: any group of welds can be assessed from it, in any order, by any thread."""
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from fatigue.case import Case
+from fatigue.life.mission import Plan
+from fatigue.life.screening import modal_extent
+from fatigue.pipeline.body import conversion_file, register_file
+from fatigue.pipeline.checkpoint import state_key
+from fatigue.pipeline.event_load import EventLoad, fast_record
+from fatigue.pipeline.events import event_loads
+from fatigue.pipeline.group import GroupResult, assess_group
+from fatigue.pipeline.model import GROUPS, LARGEST_GROUP, SMALLEST_GROUP, Model, WeldGroups, solve_group
+from fatigue.pipeline.settle import Screening
+from fatigue.results import input_register, software_versions
+
+log = logging.getLogger(__name__)
+
+SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten times as long as it must
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Work:
+    """What every group of welds needs to be assessed; threads may share it.
+
+    ``screening`` is None where every point is to be counted; ``kept_from`` is the utilisation from which the cycles of
+    a weld's worst point are kept: those of all welds of a train would fill the disk.
+    """
+
+    groups: WeldGroups
+    loads: tuple[EventLoad, ...]
+    plan: Plan
+    screening: Screening | None
+    kept_from: float
+
+    def group(self, number: int) -> tuple[Model, GroupResult]:
+        """Solve one group of welds and assess it."""
+        model = solve_group(self.groups, number)
+        return model, assess_group(model, self.loads, self.plan, self.screening)
+
+
+def open_work(groups: WeldGroups, plan: Plan, share: float | None, scratch: Path) -> Work:
+    """Read the records of all events and prepare the screening.
+
+    ``share`` of the damage limit below which a proven bound is enough; 0: count every point; None: `SHARE` for a job
+    large enough for the kernel in single precision, else 0.
+    """
+    loads = event_loads(groups, plan, scratch / "histories")
+    large = SHARE if any(load.single is not None for load in loads) else 0.0
+    share = large if share is None else share
+    log.info("points proven to stay below %g of the damage limit are not counted", share)
+    screening = None if share == 0.0 else _screening(share, loads, scratch)
+    return Work(groups, loads, plan, screening, kept_from=large)
+
+
+def _screening(share: float, loads: Sequence[EventLoad], scratch: Path) -> Screening:
+    return Screening(
+        share=share,
+        extents=tuple(modal_extent(load.counted.q, load.residue) for load in loads),
+        records=tuple(load.single or fast_record(load.counted.q, scratch) for load in loads),
+    )
+
+
+def inputs_of(case: Case) -> list[dict[str, str]]:
+    """List every input file of a case with its hash."""
+    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
+    return input_register(sorted(files), case.path.parent)
+
+
+def key_of(inputs: Sequence[dict[str, str]], share: float | None) -> str:
+    """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
+    cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP)
+    return state_key({"inputs": list(inputs), "software": software_versions(), "groups": cut, "share": share})

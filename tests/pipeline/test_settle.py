@@ -1,0 +1,128 @@
+"""Screening in the pipeline: what is counted is exact, what is not is bounded, and no weld loses its worst point."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from fatigue.assess import assess
+from fatigue.case import load_case
+from fatigue.synth import Size, synthesize
+from fatigue.verify.recount import recount
+
+SHARE = 0.1
+KEY = ["weld", "part", "order", "surface"]
+UNKNOWN = ["life_km_same_ratio", "dirlik_ratio", "equivalent_range_2e6_MPa", "R_largest_cycle", "governing_event"]
+
+
+@pytest.fixture(scope="module", params=["straight", "knee", "mean stress"])
+def results(request, tmp_path_factory):
+    """A synthetic body with every point counted, and screened; a straight curve, one with a knee, one with f_M."""
+    folder = tmp_path_factory.mktemp("screening")
+    path = synthesize(folder / "case", Size(nodes=240, modes=12, events=3, seconds=8.0, rate=250.0), seed=3)
+    text = path.read_text()
+    if request.param == "knee":
+        text = text.replace('name = "master-aluminium"', 'name = "master-aluminium"\nextension = "haibach"')
+    if request.param == "mean stress":
+        text = text.replace(
+            'name = "master-aluminium"', 'name = "master-aluminium"\nmean_stress = "asme"\nyield_MPa = 60.0'
+        )
+    text = text.replace("target_km = 1.2e7", f"target_km = {target_with_spread(path, folder)}")
+    path.write_text(text)
+    for name, share in (("exact", 0.0), ("screened", SHARE)):
+        assess(load_case(path), folder / name, share=share, report=False)
+    return folder
+
+
+def target_with_spread(path, folder):
+    """Target at which the median point uses up a tenth of the limit, so that some points matter and some do not."""
+    assess(load_case(path), folder / "trial", report=False)
+    return float(SHARE * pd.read_parquet(folder / "trial" / "nodes.parquet").life_km.median() / 30.0)
+
+
+def nodes_of(folder):
+    """Points of both results, in the same order."""
+    exact, screened = (pd.read_parquet(folder / name / "nodes.parquet") for name in ("exact", "screened"))
+    assert exact[KEY].equals(screened[KEY])
+    return exact, screened, (screened.screened != "").to_numpy()
+
+
+def test_points_are_settled_in_every_way(results):
+    """The case is one in which screening has something to do: both tiers, and points that must be counted."""
+    _, screened, _ = nodes_of(results)
+    assert set(screened.screened) >= {"", "weld bound"}
+
+
+def test_what_is_counted_is_what_it_is_without_screening(results):
+    """Every column of a counted point, to rounding."""
+    exact, screened, settled = nodes_of(results)
+    pd.testing.assert_frame_equal(screened[~settled], exact[~settled], rtol=1e-9)
+
+
+def test_what_is_not_counted_is_bounded(results):
+    """Damage and ranges are never below, lives never above; the limit's share is kept."""
+    exact, screened, settled = nodes_of(results)
+    a, b = exact[settled], screened[settled]
+    assert (b.damage_per_km >= a.damage_per_km).all()
+    assert (b.max_range_MPa >= a.max_range_MPa).all()
+    assert (b.life_km <= a.life_km).all()
+    assert (b.utilisation < SHARE).all()
+    assert b.fulfilled.all()
+    assert not (b.load_factor > a.load_factor).any()  # or not said, on a curve with a knee
+    of_events = [pd.read_parquet(results / name / "damage.parquet").set_index(KEY) for name in ("exact", "screened")]
+    one, other = (table.loc[pd.MultiIndex.from_frame(b[KEY])] for table in of_events)
+    for column in ("damage_per_pass", "damage_per_km", "max_range_MPa", "max_equivalent_range_dS"):
+        assert (other[column] >= one[column]).all(), column
+
+
+def test_what_needs_cycles_is_empty_and_what_needs_none_is_there(results):
+    """Cycle fields of a settled point are null; Dirlik, Tovo-Benasciutti and geometry are those of the exact run."""
+    exact, screened, settled = nodes_of(results)
+    assert screened.loc[settled, UNKNOWN].isna().all(axis=None)
+    assert (screened.loc[settled, "dirlik_verdict"] == "not_assessed").all()
+    same = ["life_km_dirlik", "life_km_tb", "thickness_mm", "arc_length_mm", "toe"]
+    pd.testing.assert_frame_equal(screened.loc[settled, same], exact.loc[settled, same], rtol=1e-12)
+
+
+def test_the_worst_point_of_every_weld_is_counted(results):
+    """The register is that of the run that counted everything."""
+    exact, screened = (pd.read_parquet(results / name / "welds.parquet") for name in ("exact", "screened"))
+    pd.testing.assert_frame_equal(screened, exact, rtol=1e-9)
+
+
+def test_cycles_of_every_weld_are_kept(results):
+    """A job as small as this one keeps them all, each as without screening."""
+    exact, screened = (pd.read_parquet(results / name / "cycles.parquet") for name in ("exact", "screened"))
+    pd.testing.assert_frame_equal(screened, exact, rtol=1e-9)
+
+
+def test_large_jobs_are_screened_unasked_and_keep_the_cycles_that_matter(results, tmp_path, monkeypatch):
+    """Above the limit: the same register to single precision, cycles of welds from a tenth of the limit on."""
+    monkeypatch.setattr("fatigue.pipeline.events.DOUBLE_PRECISION_SAMPLES", 0.0)
+    case = load_case(results / "case" / "case.toml")
+    assess(case, tmp_path / "screened", report=False)
+    assess(case, tmp_path / "exact", share=0.0, report=False)
+    welds = pd.read_parquet(results / "exact" / "welds.parquet")
+    matters = set(welds.weld[welds.utilisation >= SHARE])
+    for name, screened in (("screened", True), ("exact", False)):
+        found = pd.read_parquet(tmp_path / name / "welds.parquet")
+        pd.testing.assert_frame_equal(found, welds, rtol=1e-5)
+        assert set(pd.read_parquet(tmp_path / name / "cycles.parquet").weld) == matters
+        assert (pd.read_parquet(tmp_path / name / "nodes.parquet").screened != "").any() == screened
+
+
+def test_the_record_says_what_was_settled_how(results):
+    """Share, rule and numbers of stations are in the provenance."""
+    _, screened, _ = nodes_of(results)
+    rule = json.loads((results / "screened" / "provenance.json").read_text())["rules"]["screening"]
+    assert rule["share_of_limit"] == SHARE
+    top = screened[screened.surface == "top"].screened.value_counts()
+    assert rule["stations"] == {"counted": top[""], **{k: int(top.get(k, 0)) for k in ("modal bound", "weld bound")}}
+
+
+def test_an_independent_recount_finds_the_bounds_safe(results):
+    """`fatigue verify --results` accepts the screened result, all points."""
+    found = recount(results / "screened", sample=None)
+    assert found.passed, found.as_text()
+    assert np.isfinite(found.points)
