@@ -24,7 +24,7 @@ from fatigue.pipeline.provenance import provenance_record
 from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, worst_points
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.settle import TIERS
-from fatigue.pipeline.work import Work, inputs_of, key_of, open_work
+from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
 from fatigue.pipeline.workers import Group, by_orders, by_threads
 from fatigue.report.page import write_report
 from fatigue.report.vtp import write_vtp
@@ -57,6 +57,7 @@ def assess(
     threads: int | None = None,
     executor: Executor | None = None,
     share: float | None = None,
+    proves_worst: bool = True,
     strict: bool = False,
     force: bool = False,
     report: bool = True,
@@ -73,6 +74,8 @@ def assess(
     executor : instead of threads, any executor whose workers see the same files: it is given names, not data
     share : of the damage limit; points proven to stay below it need no counting. 0: count every point; by default 0.1
         for jobs of more than 5e9 stress samples, and 0 for smaller ones
+    proves_worst : whether the worst point of welds that stay below the share everywhere is proven as well, not only the
+        point with the largest estimate counted
     strict : take unknown columns in the tables for errors
     force : overwrite files that fatigue did not write
     report : write the report and the ParaView file as well
@@ -87,7 +90,8 @@ def assess(
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
     inputs = inputs_of(case)
-    key = key_of(inputs, share)
+    counted = Counted(share, proves_worst)
+    key = key_of(inputs, counted)
 
     refuse_foreign(folder, force=force)
     with locked(folder), one_blas_thread(), Checkpoint(folder, key) as state:
@@ -95,11 +99,11 @@ def assess(
         check_forces(groups)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            work = open_work(groups, plan, share, state.folder)
+            work = open_work(groups, plan, counted, state.folder)
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
-                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, share, key, 0))
+                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
             done = Tally(total=sum(len(line.node) for line in body.lines), progress=progress)
             unpublished = state.folder / "tables"
             with result_tables(unpublished) as tables, closing(assessed):

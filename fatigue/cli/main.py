@@ -88,6 +88,12 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
     help="Do not count points proven to stay below this share of the damage limit.  [default: 0.1 for jobs of more "
     "than 5e9 stress samples, else every point is counted]",
 )
+@click.option(
+    "--likely-worst",
+    is_flag=True,
+    help="In welds proven to stay below SHARE everywhere, count the point with the largest estimate and do not prove "
+    "that no other is worse: about half the time.",
+)
 @click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask.distributed cluster (extra `cluster`).")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue did not write.")
 @click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
@@ -102,6 +108,7 @@ def assess(
     threads: int | None,
     exact: bool,
     screen: float | None,
+    likely_worst: bool,
     scheduler: str | None,
     force: bool,
     no_report: bool,
@@ -117,8 +124,8 @@ def assess(
     Example:
       fatigue assess body/case.toml -o result
     """
-    if exact and screen is not None:
-        raise click.UsageError("--exact counts every point: leave out --screen")
+    if exact and (screen is not None or likely_worst):
+        raise click.UsageError("--exact counts every point: leave out --screen and --likely-worst")
     from fatigue.assess import assess as run
     from fatigue.case import load_case
     from fatigue.cluster import cluster_executor
@@ -133,6 +140,7 @@ def assess(
             threads=threads,
             executor=executor,
             share=0.0 if exact else screen,
+            proves_worst=not likely_worst,
             strict=strict,
             force=force,
             report=not no_report,

@@ -16,7 +16,7 @@ from fatigue.pipeline.body import read_body
 from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.group import arrays_of
 from fatigue.pipeline.model import weld_groups
-from fatigue.pipeline.work import Work, inputs_of, key_of, open_work
+from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class Order:
 
     case: str
     strict: bool
-    share: float | None
+    counted: Counted
     key: str
     group: int
 
@@ -41,7 +41,7 @@ def fulfil(order: Order) -> dict[str, NDArray[Any]]:
     DataError : this process sees other inputs, or is another version of the program
     """
     with _OPENING:  # the first thread reads, the others wait for it
-        work = _opened(order.case, order.strict, order.share, order.key)
+        work = _opened(order.case, order.strict, order.counted, order.key)
     with threadpool_limits(limits=1, user_api="blas"):
         _, result = work.group(order.group)
     return arrays_of(result)
@@ -52,9 +52,9 @@ _SCRATCH: list[TemporaryDirectory[str]] = []
 
 
 @lru_cache(maxsize=1)
-def _opened(path: str, strict: bool, share: float | None, key: str) -> Work:
+def _opened(path: str, strict: bool, counted: Counted, key: str) -> Work:
     case = load_case(Path(path))
-    if key_of(inputs_of(case), share) != key:
+    if key_of(inputs_of(case), counted) != key:
         raise DataError(
             Problem(
                 "other_inputs",
@@ -67,4 +67,4 @@ def _opened(path: str, strict: bool, share: float | None, key: str) -> Work:
     plan, _ = mission_plan(body)
     _SCRATCH[:] = [TemporaryDirectory(prefix="fatigue-")]
     scratch = Path(_SCRATCH[0].name)
-    return open_work(weld_groups(body, scratch / "forces"), plan, share, scratch)
+    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch)

@@ -90,9 +90,10 @@ def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]
     """Say which points a bound has settled, and why that is safe."""
     if work.screening is None:
         return {"rule": "none: every point is counted", "share_of_limit": 0.0, "stations": dict(stations)}
+    worst = "" if work.screening.proves_worst else "; not so in welds that are below the share everywhere"
     return {
         "rule": "a point is not counted if a proven upper bound of its damage stays below this share of the limit and "
-        "below the counted damage of the worst point of its weld",
+        f"below the counted damage of the worst point of its weld{worst}",
         "share_of_limit": work.screening.share,
         "stations": dict(stations),
     }

@@ -46,6 +46,8 @@ def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[W
     stations, at = model.stations, [(p.station, p.face) for p in worst]
     life = np.array([mission.life_km[i] for i in at])
     events = [*(p.event for p in plan.passes), None]
+    largest = np.where(toe_faces(model), mission.utilisation, -1.0).max(axis=1)  # or a bound of it
+    proven = [bool(largest[stations.weld == p.weld].max() <= mission.utilisation[p.station, p.face]) for p in worst]
     curves = [model.curves[name] for name in model.curve_of_weld]
     return {
         "weld": [weld.name for weld in model.welds],
@@ -67,6 +69,7 @@ def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[W
         "utilisation": [mission.utilisation[i] for i in at],
         "fulfilled": [bool(mission.utilisation[i] <= 1.0) for i in at],
         "load_factor": [mission.load_factor[i] for i in at],
+        "worst_is_proven": proven,
         "worst_part": [stations.part[p.station] for p in worst],
         "worst_order": [stations.order[p.station] for p in worst],
         "worst_node": [stations.node[p.station] for p in worst],

@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from fatigue.case import Case
@@ -20,6 +20,18 @@ from fatigue.results import input_register, software_versions
 log = logging.getLogger(__name__)
 
 SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten times as long as it must
+
+
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """Which points are to be counted.
+
+    ``share`` of the damage limit below which a proven bound is enough; 0: count every point; None: `SHARE` for a job
+    large enough for the kernel in single precision, else 0. ``proves_worst``: see `settle.Screening`.
+    """
+
+    share: float | None = None
+    proves_worst: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,23 +54,20 @@ class Work:
         return model, assess_group(model, self.loads, self.plan, self.screening)
 
 
-def open_work(groups: WeldGroups, plan: Plan, share: float | None, scratch: Path) -> Work:
-    """Read the records of all events and prepare the screening.
-
-    ``share`` of the damage limit below which a proven bound is enough; 0: count every point; None: `SHARE` for a job
-    large enough for the kernel in single precision, else 0.
-    """
+def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path) -> Work:
+    """Read the records of all events and prepare the screening; ``scratch`` is a folder for what memory cannot hold."""
     loads = event_loads(groups, plan, scratch / "histories")
     large = SHARE if any(load.single is not None for load in loads) else 0.0
-    share = large if share is None else share
+    share = large if counted.share is None else counted.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
-    screening = None if share == 0.0 else _screening(share, loads, scratch)
+    screening = None if share == 0.0 else _screening(share, counted.proves_worst, loads, scratch)
     return Work(groups, loads, plan, screening, kept_from=large)
 
 
-def _screening(share: float, loads: Sequence[EventLoad], scratch: Path) -> Screening:
+def _screening(share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path) -> Screening:
     return Screening(
         share=share,
+        proves_worst=proves_worst,
         extents=tuple(modal_extent(load.counted.q, load.residue) for load in loads),
         records=tuple(load.single or fast_record(load.counted.q, scratch) for load in loads),
     )
@@ -70,7 +79,9 @@ def inputs_of(case: Case) -> list[dict[str, str]]:
     return input_register(sorted(files), case.path.parent)
 
 
-def key_of(inputs: Sequence[dict[str, str]], share: float | None) -> str:
+def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:
     """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
     cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP)
-    return state_key({"inputs": list(inputs), "software": software_versions(), "groups": cut, "share": share})
+    return state_key(
+        {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(counted)}
+    )

@@ -180,6 +180,13 @@ WELDS = (
     Column("utilisation", "float", "-", "largest utilisation of the weld's toe points"),
     Column("fulfilled", "flag", "-", "every toe point meets the target"),
     Column("load_factor", "float", "-", "load factor of the worst point"),
+    Column(
+        "worst_is_proven",
+        "flag",
+        "-",
+        "no other toe point can be worse; else that with the largest estimate was counted, all being proven below the "
+        "share of the limit that needs no counting",
+    ),
     Column("worst_part", "int", "-", "worst point: part"),
     Column("worst_order", "int", "-", "worst point: position"),
     Column("worst_node", "int", "-", "worst point: FE node"),

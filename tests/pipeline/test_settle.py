@@ -91,6 +91,24 @@ def test_the_worst_point_of_every_weld_is_counted(results):
     pd.testing.assert_frame_equal(screened, exact, rtol=1e-9)
 
 
+def test_a_likely_worst_point_is_counted_and_said_to_be_no_more(results, tmp_path):
+    """In welds below the share everywhere one point is counted, its life exact; the others stay below the share."""
+    assess(load_case(results / "case" / "case.toml"), tmp_path, share=SHARE, proves_worst=False, report=False)
+    exact, proven, likely = (
+        pd.read_parquet(f / "welds.parquet") for f in (results / "exact", results / "screened", tmp_path)
+    )
+    assert exact.worst_is_proven.all()
+    assert proven.worst_is_proven.all()
+    assert not likely.worst_is_proven.all()
+    sure = likely.worst_is_proven
+    pd.testing.assert_frame_equal(likely[sure], exact[sure], rtol=1e-9)
+    assert (exact.utilisation[~sure] < SHARE).all()
+    nodes, counted = (pd.read_parquet(f / "nodes.parquet").set_index(KEY) for f in (results / "exact", tmp_path))
+    counted = counted[counted.screened == ""]
+    assert counted.damage_per_km.to_numpy() == pytest.approx(nodes.damage_per_km[counted.index].to_numpy(), rel=1e-9)
+    assert len(counted) < (pd.read_parquet(results / "screened" / "nodes.parquet").screened == "").sum()
+
+
 def test_cycles_of_every_weld_are_kept(results):
     """A job as small as this one keeps them all, each as without screening."""
     exact, screened = (pd.read_parquet(results / name / "cycles.parquet") for name in ("exact", "screened"))

@@ -259,6 +259,7 @@ def _weld_rows(recipe, per_km, passes, cycles, worst):
                 "utilisation": utilisation,
                 "fulfilled": utilisation <= 1.0,
                 "load_factor": _factor(utilisation),
+                "worst_is_proven": True,
                 "worst_part": 1,
                 "worst_order": s + 1,
                 "worst_node": 1000 * (w + 1) + s,
