@@ -12,6 +12,7 @@ from benchmarks import peers, pipeline, processes
 
 PARTS = {
     "pipeline": pipeline.against_the_product,
+    "plain": processes.plain_loops,
     "growth": pipeline.growth,
     "threads": pipeline.threads,
     "counting": peers.counting,

@@ -11,15 +11,18 @@ product. Three steps follow per point and surface:
    waits for the next samples; at the end of the record the stack finishes it.
 3. `raise_to_slope` has S^k of all cycles from polynomials for log2 and exp2, and I(r)^(-k/m) from a polynomial in r.
 
-Where single precision cannot tell which of two samples is the extreme, or which of two ranges the larger one, the
-surface is counted again in the same way in double precision. Points in high mean tension, laws with knees, and short
-records go to `count_block`. The loops are in `rainflow_loops` and `rainflow_power`; `rainflow_simd` has steps 1 and 2
-in vector instructions, and without that file the plain loops do the same, bit for bit.
+Where single precision cannot tell which of two neighbouring samples is the extreme, double precision does for these
+two alone, see `rainflow_doubt`. Where it cannot tell which of two ranges is the larger one, the surface is counted
+again in the same way in double precision, all such surfaces of a call together. Points in high mean tension, laws with
+knees, and short records go to `count_block_long`. The loops are in `rainflow_loops` and `rainflow_power`;
+`rainflow_simd` has steps 1 and 2 in vector instructions, and without that file the plain loops do the same, bit for
+bit.
+
+Modal coordinates are only read in slices of some thousand samples, so they may be on disk.
 """
 
 import math
 from dataclasses import dataclass, fields, replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -28,16 +31,20 @@ from numpy.typing import NDArray
 from fatigue.life import damage
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue
-from fatigue.life.rainflow import BlockCount, count_block, not_finite
-from fatigue.life.rainflow_loops import PAD, Stage, State, count_chunk, extend, fresh_state, room_for
+from fatigue.life.rainflow import BlockCount, not_finite
+from fatigue.life.rainflow_doubt import MOST, directions
+from fatigue.life.rainflow_long import count_block_long
+from fatigue.life.rainflow_loops import count_chunk, count_settled, extend
 from fatigue.life.rainflow_power import PowerLaw, power_law
+from fatigue.life.rainflow_state import PAD, Stage, State, fresh_state, room_for
+from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
 POINTS = 128  # counted at a time: more would not stay in the cache, fewer make the matrix product slow
-CHUNK = 8192  # samples recovered at a time
-RESIDUE = 1024  # reversals of a point that may wait for the next chunk
+CHUNK = 4096  # samples recovered at a time
+RESIDUE = 512  # reversals of a point that may wait for the next chunk
 
 SHORTEST = 512  # samples of a record; a few cycles do not average rounding errors out
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
@@ -58,8 +65,8 @@ class Record:
     covariance : (m, m)
     """
 
-    exact: NDArray[np.floating]
-    q: Singles
+    exact: Samples
+    q: Samples
     scale: Floats
     mean: Floats
     covariance: Floats
@@ -85,21 +92,25 @@ def record_of(q: NDArray[np.floating]) -> Record:
     ------
     NumericalError : a sample is not finite
     """
-    finite = np.isfinite(q)
-    if not finite.all():
-        mode, sample = np.argwhere(~finite)[0]
-        raise not_finite(f"sample {sample} of modal coordinate {mode}")
-    mean = q.mean(axis=1, dtype=np.float64)
-    covariance = np.zeros((len(q), len(q)))
-    pieces = [slice(first, first + CHUNK) for first in range(0, q.shape[1], CHUNK)]
+    modes, t = q.shape
+    pieces = [slice(first, first + CHUNK) for first in range(0, t, CHUNK)]
+    total = np.zeros(modes)
+    for piece in pieces:
+        finite = np.isfinite(q[:, piece])
+        if not finite.all():
+            mode, sample = np.argwhere(~finite)[0]
+            raise not_finite(f"sample {piece.start + sample} of modal coordinate {mode}")
+        total += q[:, piece].sum(axis=1, dtype=np.float64)
+    mean = total / t
+    covariance = np.zeros((modes, modes))
     for piece in pieces:
         centred = q[:, piece] - mean[:, None]
-        covariance += centred @ centred.T / q.shape[1]
+        covariance += centred @ centred.T / t
     scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
-    record = Record(q, np.empty(q.shape, np.float32), scale, mean, covariance)
+    single = np.empty(q.shape, np.float32)
     for piece in pieces:
-        record.q[:, piece] = (q[:, piece] - mean[:, None]) / scale[:, None]
-    return record
+        single[:, piece] = (q[:, piece] - mean[:, None]) / scale[:, None]
+    return Record(q, single, scale, mean, covariance)
 
 
 def is_fast(law: DamageLaw, record: Record) -> bool:
@@ -134,9 +145,10 @@ def count_block_fast(
     """
 
     def exactly(rows: slice | NDArray[np.intp]) -> BlockCount:
-        return count_block(
-            S_m[rows] @ record.exact,
-            S_b[rows] @ record.exact,
+        return count_block_long(
+            S_m[rows],
+            S_b[rows],
+            record.exact,
             size[rows],
             same_ratio[rows],
             law,
@@ -153,21 +165,21 @@ def count_block_fast(
         raise not_finite(f"row {np.flatnonzero(~finite)[0]} of the block")
     block = _normalised(S_m, S_b, record)
     rules = power_law(float(law.slopes[0]), uses_bending_ratio)
+    recurs = residue == "repeat"
     everywhere = np.ones((len(size), 2), np.bool_)
-    state = _count(block, everywhere, record, rules, residue == "repeat", np.float32)
-    doubtful = (state.doubtful | ~block.trusted) & ~state.crowded
+    found = _count(block, everywhere, record, rules, recurs, np.float32)
+    doubtful = found["doubtful"] & ~found["crowded"]
     rows = np.flatnonzero(doubtful.any(axis=1))
     if rows.size:
         wanted = doubtful[rows]
-        again = _count(_Block._make(a[rows] for a in block), wanted, record, rules, residue == "repeat", np.float64)
-        for name in ("first_up", "cycles", "power_sum", "damage", "largest", "second", "fourth", "crowded"):
-            getattr(state, name)[doubtful] = getattr(again, name)[wanted]
-        state.maximum[doubtful] = (again.maximum - again.mean)[wanted]
-        state.minimum[doubtful] = (again.minimum - again.mean)[wanted]
-    count = _evaluated(state, block, record, size, same_ratio, law, uses_bending_ratio)
-    unsuited = state.crowded
+        again = _count(_Block._make(a[rows] for a in block), wanted, record, rules, recurs, np.float64)
+        for name in ("maximum", "minimum"):
+            again[name] -= again["mean"]
+        found[doubtful] = again[wanted]
+    count = _evaluated(found, block, record, size, same_ratio, law, uses_bending_ratio)
+    unsuited = found["crowded"]
     if yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
-        unsuited |= 2.0 * (block.mean + block.scale * state.maximum) >= (1.0 - 1e-6) * yield_MPa
+        unsuited |= 2.0 * (block.mean + block.scale * found["maximum"]) >= (1.0 - 1e-6) * yield_MPa
         count = replace(count, damage_mean_stress=count.damage.copy())
     rows = np.flatnonzero(unsuited.any(axis=1))
     if rows.size:
@@ -198,11 +210,12 @@ def stress_extent(S_m: Floats, S_b: Floats, record: Record, residue: Residue) ->
             extend(stress, columns, first == 0, extent[piece])
     *variations, maximum, minimum = np.moveaxis(extent, 2, 0)
 
-    reach = np.abs(record.q).max(axis=1)
+    single = np.asarray(record.q)
+    reach = np.abs(single).max(axis=1)
     error = (modes + 4) * 2.0**-24 * ((np.abs(block.membrane) + np.abs(block.bending)) @ reach)[:, None]
     largest = np.maximum(np.abs(maximum), np.abs(minimum)) + error
     first_s, last_s = (
-        _surfaces(block.membrane @ q, block.bending @ q) for q in record.q[:, [0, -1]].T.astype(np.float64)
+        _surfaces(block.membrane @ q, block.bending @ q) for q in single[:, [0, -1]].T.astype(np.float64)
     )
     sums = []
     for p, variation in enumerate(variations, start=1):
@@ -247,32 +260,52 @@ def _count(
     rules: PowerLaw,
     recurs: bool,
     precision: type[np.floating],
-) -> State:
-    """Count normalised stress, some points and some samples at a time."""
+) -> NDArray[np.void]:
+    """Count normalised stress, some samples and some points at a time, into numbers of type `SIDE` (n, 2)."""
     single = precision is np.float32
-    flat = np.float32(FLAT * math.sqrt(len(record.q)) if single else -1.0)
-    points, t = len(wanted), record.q.shape[1]
-    edges = np.linspace(0, t, -(-t // CHUNK) + 1).astype(int).tolist()
-    width = max(end - first for first, end in pairwise(edges)) + 1 + PAD
+    modes, t = record.q.shape
+    flat = np.float32(FLAT * math.sqrt(modes) if single else -1.0)
+    state = fresh_state(len(wanted), RESIDUE, precision)
+    state.sides["wanted"] = wanted
+    if single:
+        state.sides["doubtful"] = ~block.trusted
+    else:
+        state.sides["mean"] = block.mean / block.scale
+    pieces = [slice(first, first + POINTS) for first in range(0, len(wanted), POINTS)]
+    over = 1.0 if single else record.scale
+    weights = [np.concatenate([block.membrane[p] / over, block.bending[p] / over]).astype(precision) for p in pieces]
+    states = [State._make(a[piece] for a in state) for piece in pieces]
+    rows, width = 2 * min(len(wanted), POINTS), 1 + min(t, CHUNK) + 1 + PAD
     room = room_for(width, RESIDUE, precision)
-    state = fresh_state(wanted, RESIDUE, precision)
-    if not single:
-        state.mean[:] = block.mean / block.scale
-    for first_point in range(0, points, POINTS):
-        piece = slice(first_point, first_point + POINTS)
-        weights = np.concatenate([block.membrane[piece], block.bending[piece]]).astype(precision)
-        stress = np.empty((len(weights), width), precision)
-        piece_of_state = State._make(a[piece] for a in state)
-        for first, end in pairwise(edges):
-            q = record.q[:, first:end] if single else record.exact[:, first:end] / record.scale[:, None]
-            np.matmul(weights, q, out=stress[:, 1 : end - first + 1])
-            stage = Stage(first == 0, end == t, recurs, flat)
-            count_chunk(stress, end - first, stage, rules, piece_of_state, room)
-    return state
+    stress = np.empty((rows, width), precision)
+    double = np.empty((0, 0) if single else (modes, min(t, CHUNK)))
+    pairs = np.empty((rows * MOST, 3), np.int64)
+    for first in range(0, t, CHUNK):
+        columns = slice(first, min(first + CHUNK, t))
+        samples = columns.stop - first
+        stage = Stage(first == 0, columns.stop == t, recurs, flat)
+        exact = None if single else record.exact[:, columns]
+        q = record.q[:, columns] if exact is None else _copied(exact, double)
+        for piece, w, state_of_piece in zip(pieces, weights, states, strict=True):
+            some = stress[: len(w)]
+            np.matmul(w, q, out=some[:, 1 : samples + 1])
+            found = count_chunk(some, samples, stage, rules, state_of_piece, room, pairs)
+            if found:
+                exact = record.exact[:, columns] if exact is None else exact
+                known = directions(block.membrane[piece], block.bending[piece], exact, record.scale, pairs[:found])
+                count_settled(some, samples, stage, rules, state_of_piece, room, pairs[:found], known)
+    return state.sides
+
+
+def _copied(q: NDArray[np.floating], into: Floats) -> Floats:
+    """Convert to double precision in memory that is there already: fresh memory takes longer than converting."""
+    double = into[:, : q.shape[1]]
+    np.copyto(double, q)
+    return double
 
 
 def _evaluated(
-    state: State,
+    found: NDArray[np.void],
     block: _Block,
     record: Record,
     size: Floats,
@@ -285,18 +318,18 @@ def _evaluated(
     to_damage = np.exp(k * np.log(block.scale * size[:, None]) - law.log_constants[0])
     I_same = damage.ratio_factor(same_ratio) if uses_bending_ratio else 1.0
     samples, nan = record.q.shape[1], np.full(same_ratio.shape, np.nan)
-    turning = state.first_up >= 0
-    minimum, maximum = block.mean + block.scale * state.minimum, block.mean + block.scale * state.maximum
+    turning = found["first_up"] >= 0
+    minimum, maximum = block.mean + block.scale * found["minimum"], block.mean + block.scale * found["maximum"]
     return BlockCount(
-        damage=to_damage * state.damage,
-        damage_same_ratio=to_damage * I_same**-k * state.power_sum,
+        damage=to_damage * found["damage"],
+        damage_same_ratio=to_damage * I_same**-k * found["power_sum"],
         damage_mean_stress=nan,
-        cycles=state.cycles,
-        power_sum=block.scale**k * state.power_sum,
-        max_range=block.scale * (state.maximum - state.minimum),
+        cycles=found["cycles"].copy(),
+        power_sum=block.scale**k * found["power_sum"],
+        max_range=block.scale * (found["maximum"] - found["minimum"]),
         r_largest=np.divide(minimum, maximum, out=nan.copy(), where=turning & (maximum != 0.0)),
-        max_equivalent_range=block.scale * size[:, None] * state.largest ** (1.0 / k),
+        max_equivalent_range=block.scale * size[:, None] * found["largest"] ** (1.0 / k),
         mean=block.mean,
-        kurtosis=np.divide(samples * state.fourth, state.second**2, out=nan.copy(), where=turning),
+        kurtosis=np.divide(samples * found["fourth"], found["second"] ** 2, out=nan.copy(), where=turning),
         histogram=np.zeros((len(size), 2, 0, 2)),
     )

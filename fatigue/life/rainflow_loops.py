@@ -1,105 +1,27 @@
 """The loops of `rainflow_fast`: what happens to one point and surface in one chunk of time."""
 
 import importlib.util
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numba.extending import overload
 from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
+from fatigue.life.rainflow_doubt import Pairs, list_pairs, settle_pair
 from fatigue.life.rainflow_power import PowerLaw, add_powers, add_steps, add_up, extremes_in_lanes, raise_to_slope
+from fatigue.life.rainflow_state import PAD, Room, Stage, State
 
 simd: Any = None
 if importlib.util.find_spec("fatigue.life.rainflow_simd"):
     from fatigue.life import rainflow_simd as simd
 
 Floats = NDArray[np.float64]
-Numbers = NDArray[np.floating]  # single precision, or double where a point is counted again
+Numbers = NDArray[np.floating]
 
-PAD = 32  # room behind a row for vector instructions that read and write more than they keep
 FEW = 64  # reversals that are not worth another pass
-
-
-class State(NamedTuple):
-    """What the counter knows of each point and surface (n, 2) between two chunks, and what it has summed up.
-
-    ``mean`` is that of the normalised stress, 0 in single precision. ``start`` are membrane and bending of the first
-    sample. ``first_up`` and ``up`` are the directions of the first step and of the last one, -1 before there is any;
-    ``plateau_m`` is the membrane stress before the first step. The first ``waiting`` of the reversals ``z``, ``m`` have
-    not closed a cycle. The sums are those of `BlockCount` for normalised stress. ``doubtful``: rounding may have
-    decided; ``crowded``: there was no room for all that waits.
-    """
-
-    wanted: NDArray[np.bool_]
-    mean: Numbers
-    start: Numbers
-    plateau_m: Numbers
-    first_up: NDArray[np.int64]
-    up: NDArray[np.int64]
-    waiting: NDArray[np.int64]
-    z: Numbers
-    m: Numbers
-    doubtful: NDArray[np.bool_]
-    crowded: NDArray[np.bool_]
-    cycles: Floats
-    power_sum: Floats
-    damage: Floats
-    largest: Floats
-    second: Floats
-    fourth: Floats
-    maximum: Floats
-    minimum: Floats
-
-
-class Stage(NamedTuple):
-    """Where in the record a chunk is, whether the record recurs, and up to what difference rounding may decide."""
-
-    begins: bool
-    ends: bool
-    recurs: bool
-    flat: np.float32
-
-
-class Room(NamedTuple):
-    """Work space of one row: signed reversals, and the ranges of full and of half cycles with their membrane part."""
-
-    z: Numbers
-    m: Numbers
-    S: Numbers
-    dm: Numbers
-    half_S: Numbers  # noqa: N815
-    half_dm: Numbers
-    step: NDArray[np.int8]
-    at: NDArray[np.int32]
-
-
-def fresh_state(wanted: NDArray[np.bool_], residue: int, precision: type[np.floating]) -> State:
-    """Nothing counted yet."""
-    shape = wanted.shape
-    kinds = {
-        "wanted": (shape, np.bool_),
-        "mean": (shape, precision),
-        "start": (shape, precision),
-        "plateau_m": (shape, precision),
-        "first_up": (shape, np.int64),
-        "up": (shape, np.int64),
-        "waiting": (shape, np.int64),
-        "z": ((*shape, residue), precision),
-        "m": ((*shape, residue), precision),
-        "doubtful": (shape, np.bool_),
-        "crowded": (shape, np.bool_),
-    }
-    state = State._make(np.zeros(*kinds.get(name, (shape, np.float64))) for name in State._fields)
-    state.wanted[:] = wanted
-    state.up[:] = state.first_up[:] = -1
-    return state
-
-
-def room_for(width: int, residue: int, precision: type[np.floating]) -> Room:
-    """Work space for the samples of a chunk and the reversals that waited for it."""
-    kinds = (precision,) * 6 + (np.int8, np.int32)
-    return Room._make(np.empty(width + residue + PAD, kind) for kind in kinds)
+_NONE: Any = np.uintp(0)  # unsigned, because compiled code asks of every other index whether it is negative
+_ONE: Any = np.uintp(1)
 
 
 @compiled()
@@ -110,28 +32,35 @@ def write_reversals(
 
     Returns how many reversals there are now, the direction behind them, and whether any step is as small as rounding.
     """
-    z, zm, step, at = room.z, room.m, room.step, room.at
-    small_steps = 0
+    z, zm, step, at = room.numbers[0], room.numbers[1], room.marks[0], room.marks[1]
+    small_steps = level_steps = np.int32(0)
+    for i in range(samples):  # several loops, because compilers turn simple ones into vector instructions
+        s = m[i] + side * b[i]
+        ds = (m[i + 1] + side * b[i + 1]) - s
+        small_steps |= np.int32((abs(ds) <= flat + flat * abs(s)) & (m[i + 1] != m[i]))
+        level_steps |= np.int32(ds == 0)
     for i in range(samples):
         ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
-        step[i] = int(ds > 0) - int(ds < 0)
-    for i in range(samples):
-        ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
-        doubt = flat + flat * abs(m[i] + side * b[i])
-        small_steps += int(abs(ds) <= doubt) & int(m[i + 1] != m[i])
-    reversals = 0
-    direction = 2 * up - 1
+        step[i] = np.int32(ds > 0) - np.int32(ds < 0)
+    before = np.int32(2 * up - 1)
+    if level_steps != 0:
+        direction = before
+        for i in range(samples):
+            direction = step[i] if step[i] != 0 else direction
+            step[i] = direction
+    reversals = _NONE
     for i in range(samples):
         at[reversals] = i
-        reversals += int(step[i] * direction < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
-        direction = step[i] if step[i] != 0 else direction
+        reversals += np.uintp(step[i] != before)  # adding 0 or 1 is cheaper than a branch nobody can predict
+        before = step[i]
     sign = np.float32(2 * up - 1)
+    behind = np.uintp(n)
     for k in range(reversals):
-        i = at[k]
-        z[n + k] = sign * (m[i] + side * b[i])
-        zm[n + k] = sign * m[i]
+        j = np.uintp(at[k])
+        z[behind + k] = sign * (m[j] + side * b[j])
+        zm[behind + k] = sign * m[j]
         sign = -sign
-    return n + reversals, int(direction > 0), small_steps > 0
+    return n + int(np.intp(reversals)), int(before > 0), small_steps != 0
 
 
 @compiled()
@@ -140,25 +69,23 @@ def close_pass(room: Room, n: int, cycles: int, flat: np.float32) -> tuple[int, 
 
     Returns how many reversals are left, how many cycles there are now, and whether rounding may have decided.
     """
-    z, zm, S, dm = room.z, room.m, room.S, room.dm
+    z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
     z[n] = z[n + 1] = -np.inf
-    close_calls = 0
+    close_calls = np.int32(0)
     for i in range(n):
-        doubt = flat + flat * abs(z[i])
-        close_calls += int(abs(z[i + 2] - z[i]) <= doubt) & int(zm[i + 2] != zm[i])
-    kept = 0
-    before = 1  # whether the range before is not larger
-    taken = 0
+        close_calls |= np.int32((abs(z[i + 2] - z[i]) <= flat + flat * abs(z[i])) & (zm[i + 2] != zm[i]))
+    kept, closed = _NONE, np.uintp(cycles)
+    before, taken = _ONE, _NONE  # whether the range before is not larger, and whether it has been taken
     for i in range(n):
-        after = int(z[i + 2] >= z[i])
-        was_taken, taken = taken, after & (1 - before)
-        S[cycles] = z[i] + z[i + 1]
-        dm[cycles] = zm[i] + zm[i + 1]
-        cycles += taken
+        after = np.uintp(z[i + 2] >= z[i])
+        was_taken, taken = taken, after & (_ONE ^ before)
+        S[closed] = z[i] + z[i + 1]
+        dm[closed] = zm[i] + zm[i + 1]
+        closed += taken
         z[kept], zm[kept] = z[i], zm[i]
-        kept += 1 - (taken | was_taken)
+        kept += _ONE ^ (taken | was_taken)
         before = after
-    return kept, cycles, close_calls > 0
+    return int(np.intp(kept)), int(np.intp(closed)), close_calls != 0
 
 
 def find_reversals(*args: Any) -> Any:
@@ -186,7 +113,7 @@ def _close_ranges(room: Any, n: Any, cycles: Any, flat: Any) -> Any:
 @compiled()
 def rotate_to_maximum(room: Room, n: int, first_peak: int) -> int:
     """Begin the cyclic list at its first largest peak and close it; returns its length."""
-    z, zm, path, path_m = room.z, room.m, room.half_S, room.half_dm
+    z, zm, path, path_m = room.numbers[0], room.numbers[1], room.numbers[4], room.numbers[5]
     first = first_peak
     for i in range(first_peak + 2, n, 2):
         first = i if z[i] > z[first] else first
@@ -203,7 +130,8 @@ def close_on_stack(room: Room, n: int, recurs: bool, cycles: int, flat: np.float
 
     Returns how many full and half cycles there are, and whether rounding may have decided.
     """
-    z, zm, S, dm, half_S, half_dm = room.z, room.m, room.S, room.dm, room.half_S, room.half_dm
+    z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
+    half_S, half_dm = room.numbers[4], room.numbers[5]
     halves = 0
     base = 0
     top = -1
@@ -231,8 +159,9 @@ def close_on_stack(room: Room, n: int, recurs: bool, cycles: int, flat: np.float
 
 
 @compiled()
-def extremes(z: Numbers, n: int, first_peak: int) -> tuple[float, float]:
+def extremes(room: Room, n: int, first_peak: int) -> tuple[float, float]:
     """Largest and smallest stress: closing cycles never takes the last one of either out."""
+    z = room.numbers[0]
     largest, smallest = -np.inf, -np.inf
     for i in range(n):
         if (i - first_peak) % 2 == 0:
@@ -243,103 +172,186 @@ def extremes(z: Numbers, n: int, first_peak: int) -> tuple[float, float]:
 
 
 @compiled()
-def add_cycles(power: Numbers, damage: Numbers, n: int, count: float, at: tuple[int, int], state: State) -> None:
-    """Add the first n cycles, counting ``count`` each, to the sums."""
-    power_sum, damage_sum, largest = add_up(power, damage, n)
-    state.cycles[at] += count * n
-    state.power_sum[at] += count * power_sum
-    state.damage[at] += count * damage_sum
-    state.largest[at] = max(state.largest[at], largest)
+def add_cycles(room: Room, row: int, n: int, count: float, law: PowerLaw, total: Any) -> None:
+    """Add the first n cycles of two rows of the work space, counting ``count`` each, to the sums of a surface."""
+    S, dm = room.numbers[row], room.numbers[row + 1]
+    raise_to_slope(S, dm, n, law)
+    power_sum, damage_sum, largest = add_up(S, dm, n)
+    total.cycles += count * n
+    total.power_sum += count * power_sum
+    total.damage += count * damage_sum
+    total.largest = max(total.largest, largest)
 
 
 @compiled()
-def begin_side(m: Numbers, b: Numbers, side: np.float32, steps: int, at: tuple[int, int], state: State) -> None:
-    """Look for the first step of the record."""
-    for i in range(steps):
-        s, following = m[i] + side * b[i], m[i + 1] + side * b[i + 1]
-        if s != following:
-            state.up[at] = state.first_up[at] = int(following > s)
-            state.plateau_m[at] = m[i]
-            return
+def begin_side(m: Numbers, b: Numbers, steps: int, at: tuple[int, int], recurs: bool, state: State) -> None:
+    """Look for the first step of the record; a single pass turns where it begins."""
+    known = state.sides[at]
+    side = np.float32(1 - 2 * at[1])
+    i = 0
+    while i < steps and m[i] + side * b[i] == m[i + 1] + side * b[i + 1]:
+        i += 1
+    if i < steps:
+        known.up = known.first_up = int(m[i + 1] + side * b[i + 1] > m[i] + side * b[i])
+        known.plateau_m = m[i]
+        if not recurs:
+            sign = np.float32(1 - 2 * known.first_up)
+            first_m, first_b = state.ends[at[0], 0, 0], state.ends[at[0], 0, 1]
+            state.waiting[at[0], at[1], 0, 0] = sign * (first_m + side * first_b)
+            state.waiting[at[0], at[1], 1, 0] = sign * first_m
+            known.waiting = 1
+
+
+@compiled()
+def resume(state: State, at: tuple[int, int], room: Room) -> int:
+    """Take up the reversals that wait; returns how many."""
+    n = int(state.sides[at].waiting)
+    z, zm = room.numbers[0], room.numbers[1]
+    waiting, waiting_m = state.waiting[at[0], at[1], 0], state.waiting[at[0], at[1], 1]
+    for i in range(n):
+        z[i], zm[i] = waiting[i], waiting_m[i]
+    return n
+
+
+@compiled()
+def suspend(state: State, at: tuple[int, int], n: int, room: Room) -> None:
+    """Let n reversals wait, if there is room for them."""
+    known = state.sides[at]
+    z, zm = room.numbers[0], room.numbers[1]
+    waiting, waiting_m = state.waiting[at[0], at[1], 0], state.waiting[at[0], at[1], 1]
+    known.crowded |= n > waiting.size
+    known.waiting = 0 if known.crowded else n
+    for i in range(known.waiting):
+        waiting[i], waiting_m[i] = z[i], zm[i]
+
+
+@compiled()
+def append_last(m: Numbers, b: Numbers, i: int, side: np.float32, recurs: bool, known: Any, room: Room, n: int) -> int:
+    """Append the last sample i, or the first plateau of a record that recurs; returns how many reversals there are."""
+    if recurs and known.up == known.first_up:
+        return n
+    z, zm = room.numbers[0], room.numbers[1]
+    sign = np.float32(2 * known.up - 1)
+    z[n] = sign * (m[i] + side * b[i])
+    zm[n] = sign * (known.plateau_m if recurs else m[i])
+    return n + 1
+
+
+@compiled()
+def close_all(room: Room, n: int, flat: np.float32, known: Any) -> tuple[int, int]:
+    """Close ranges as long as it is worth a pass; returns how many reversals are left and how many cycles there are."""
+    cycles, before = 0, 2 * n
+    while n > FEW and before - n > before // 8:
+        before = n
+        n, cycles, close_call = close_ranges(room, n, cycles, flat)
+        known.doubtful |= close_call
+    return n, cycles
+
+
+@compiled()
+def finish(known: Any, n: int, cycles: int, stage: Stage, law: PowerLaw, room: Room) -> int:
+    """Close the last n reversals of the record; returns how many full cycles there are then."""
+    first_peak = 1 - known.first_up if stage.recurs else known.first_up
+    known.maximum, known.minimum = extremes(room, n, first_peak)
+    if stage.recurs:
+        n = rotate_to_maximum(room, n, first_peak)
+    cycles, halves, close_call = close_on_stack(room, n, stage.recurs, cycles, stage.flat)
+    known.doubtful |= close_call
+    add_cycles(room, 4, halves, 0.5, law, known)
+    return cycles
 
 
 @compiled()
 def count_side(
     m: Numbers, b: Numbers, steps: int, at: tuple[int, int], stage: Stage, law: PowerLaw, state: State, room: Room
-) -> None:
-    """Count one surface of one point over the steps of a chunk."""
-    side = np.float32(1 - 2 * at[1])
-    z, zm = room.z, room.m
-    n = state.waiting[at]
-    for i in range(n):
-        z[i], zm[i] = state.z[at][i], state.m[at][i]
-    if state.up[at] < 0:
-        begin_side(m, b, side, steps, at, state)
-        if state.up[at] < 0:
-            return
-        if not stage.recurs:  # a single pass turns at its first sample
-            sign = np.float32(1 - 2 * state.first_up[at])
-            z[0], zm[0] = sign * (state.start[at[0], 0] + side * state.start[at[0], 1]), sign * state.start[at[0], 0]
-            n = 1
-    first_up = state.first_up[at]
-    n, up, doubtful = find_reversals(m, b, side, stage.flat, steps, state.up[at], room, n)
-    state.up[at] = up
-    if stage.ends and not (stage.recurs and up == first_up):  # a block that recurs turns where its first plateau ends
-        sign = np.float32(2 * up - 1)
-        z[n] = sign * (m[steps] + side * b[steps])
-        zm[n] = sign * (state.plateau_m[at] if stage.recurs else m[steps])
-        n += 1
+) -> bool:
+    """Count one surface of one point over the steps of a chunk.
 
-    cycles, before = 0, 2 * n
-    while n > FEW and before - n > before // 8:
-        before = n
-        n, cycles, close_call = close_ranges(room, n, cycles, stage.flat)
-        doubtful |= close_call
+    Returns whether it has done so: not if rounding may have decided where it turns, then nothing is changed.
+    """
+    known = state.sides[at]
+    side = np.float32(1 - 2 * at[1])
+    up_before, waiting_before = known.up, known.waiting
+    if up_before < 0:
+        begin_side(m, b, steps, at, stage.recurs, state)
+        if known.up < 0:  # level so far
+            return True
+    n = resume(state, at, room)
+    n, up, small_steps = find_reversals(m, b, side, stage.flat, steps, known.up, room, n)
+    if small_steps:
+        known.up, known.waiting = up_before, waiting_before
+        return False
+    known.up = up
     if stage.ends:
-        first_peak = 1 - first_up if stage.recurs else first_up
-        state.maximum[at], state.minimum[at] = extremes(z, n, first_peak)
-        if stage.recurs:
-            n = rotate_to_maximum(room, n, first_peak)
-        cycles, halves, close_call = close_on_stack(room, n, stage.recurs, cycles, stage.flat)
-        doubtful |= close_call
-        raise_to_slope(room.half_S, room.half_dm, halves, law)
-        add_cycles(room.half_S, room.half_dm, halves, 0.5, at, state)
-    elif n <= state.z.shape[2]:
-        for i in range(n):
-            state.z[at][i], state.m[at][i] = z[i], zm[i]
-        state.waiting[at] = n
+        n = append_last(m, b, steps, side, stage.recurs, known, room, n)
+    n, cycles = close_all(room, n, stage.flat, known)
+    if stage.ends:
+        cycles = finish(known, n, cycles, stage, law, room)
     else:
-        state.crowded[at] = True
-        state.waiting[at] = 0
-    raise_to_slope(room.S, room.dm, cycles, law)
-    add_cycles(room.S, room.dm, cycles, 1.0, at, state)
-    state.doubtful[at] |= doubtful
+        suspend(state, at, n, room)
+    add_cycles(room, 2, cycles, 1.0, law, known)
+    return True
 
 
 @compiled()
-def count_chunk(stress: Numbers, samples: int, stage: Stage, law: PowerLaw, state: State, room: Room) -> None:
-    """Count the steps between the first samples + 1 columns of a block, its membrane rows above its bending rows."""
+def count_chunk(
+    stress: Numbers, samples: int, stage: Stage, law: PowerLaw, state: State, room: Room, pairs: Pairs
+) -> int:
+    """Count the steps to the columns 1 to ``samples`` of a block, its membrane rows above its bending rows.
+
+    Surfaces on which rounding may have decided where they turn are left to `count_settled`, if they can be: returns how
+    many ``pairs`` there are, see `list_pairs`.
+    """
     points = stress.shape[0] // 2
+    found = 0
     for row in range(points):
         m, b = stress[row], stress[points + row]
-        if stage.begins:
-            m[0], b[0] = m[1], b[1]
-            state.start[row, 0], state.start[row, 1] = m[1], b[1]
-        steps = samples
-        if stage.ends and stage.recurs:  # and the step from the last sample to the first one
-            steps += 1
-            m[steps], b[steps] = state.start[row, 0], state.start[row, 1]
+        for k in range(2):
+            part = stress[row + k * points]
+            if stage.begins:
+                state.ends[row, 0, k] = state.ends[row, 1, k] = part[1]
+            part[0] = state.ends[row, 1, k]
+            state.ends[row, 1, k] = part[samples]
+            if stage.ends and stage.recurs:  # and the step from the last sample to the first one
+                part[samples + 1] = state.ends[row, 0, k]
+        steps = samples + int(stage.ends and stage.recurs)
         for i in range(steps + 1, steps + PAD):
             m[i], b[i] = m[steps], b[steps]  # level, so that nothing turns here
+        add_powers(m[1 : samples + 1], b[1 : samples + 1], state.sides[row, 0], state.sides[row, 1])
         for surface in range(2):
-            if state.wanted[row, surface]:
-                second, fourth = add_powers(
-                    m[1 : samples + 1], b[1 : samples + 1], np.float32(1 - 2 * surface), state.mean[row, surface]
-                )
-                state.second[row, surface] += second
-                state.fourth[row, surface] += fourth
-                count_side(m, b, steps, (row, surface), stage, law, state, room)
-        m[0], b[0] = m[samples], b[samples]
+            at = (row, surface)
+            known = state.sides[at]
+            if known.wanted and not known.doubtful and not count_side(m, b, steps, at, stage, law, state, room):
+                more = list_pairs(m, b, steps, samples, at, stage.flat, pairs, found)
+                known.doubtful = more == found
+                found = more
+    return found
+
+
+@compiled()
+def count_settled(
+    stress: Numbers,
+    samples: int,
+    stage: Stage,
+    law: PowerLaw,
+    state: State,
+    room: Room,
+    pairs: Pairs,
+    directions: NDArray[np.int64],
+) -> None:
+    """Count the surfaces that `count_chunk` has left out, given the directions of the steps between the pairs."""
+    points = stress.shape[0] // 2
+    steps = samples + int(stage.ends and stage.recurs)
+    k = 0
+    while k < len(pairs):
+        at = (pairs[k, 0], pairs[k, 1])
+        m, b = stress[at[0]].copy(), stress[points + at[0]].copy()
+        settled = True
+        while k < len(pairs) and (pairs[k, 0], pairs[k, 1]) == at:
+            settled &= settle_pair(m, b, np.float32(1 - 2 * at[1]), pairs[k, 2], directions[k])
+            k += 1
+        if not settled or not count_side(m, b, steps, at, stage, law, state, room):
+            state.sides[at].doubtful = True
 
 
 @compiled()

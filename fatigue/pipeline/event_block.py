@@ -62,6 +62,13 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
     return count_event(shapes, load, estimate_event(shapes, load), yield_MPa, mean_stress)
 
 
+def event_damage(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> NDArray[np.float64]:
+    """Damage of one pass of an event at every station of a block and nothing else, (n, 2)."""
+    S_m, S_b = load.stress_factor * shapes.membrane, load.stress_factor * shapes.bending
+    no_ratio = np.zeros((len(shapes), 2))
+    return _superpose_and_count(S_m, S_b, no_ratio, shapes, load, yield_MPa, mean_stress).damage
+
+
 def count_event(
     shapes: Shapes, load: EventLoad, estimate: Estimate, yield_MPa: float | None, mean_stress: bool
 ) -> EventBlock:

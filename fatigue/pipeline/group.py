@@ -7,15 +7,14 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.mission import Plan
-from fatigue.pipeline.event_block import EventBlock, assess_event_block, bounded_event, no_overflow
+from fatigue.life.mission import Plan, life_km, mission_sum
+from fatigue.pipeline.event_block import EventBlock, assess_event_block, bounded_event, event_damage, no_overflow
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.model import Model, toe_faces
 from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.pipeline.settle import TIERS, Screening, settle
 from fatigue.pipeline.stations import shapes_of, treated_rows
-from fatigue.weld.structural_stress import StructuralStress
 
 Arrays = TypeVar("Arrays", EventBlock, MissionBlock)
 
@@ -64,7 +63,7 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     for name in dict.fromkeys(curve_of.tolist()):
         rows = np.flatnonzero(curve_of == name)
         if screening is None:
-            pieces.append(_counted(model, stations.treated, rows, loads, plan))
+            pieces.append(_counted(model, rows, loads, plan))
         else:
             pieces += _settled(model, rows, toe[rows], loads, plan, screening)
     events = tuple(_joined([(p.rows, p.events[e]) for p in pieces], EventBlock) for e in range(len(loads)))
@@ -79,7 +78,7 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     treated = treated[tier[treated] == 0]
     for name in dict.fromkeys(curve_of[treated].tolist()):
         rows = treated[curve_of[treated] == name]
-        raw_life[rows] = _counted(model, stations.raw, rows, loads, plan).mission.life_km
+        raw_life[rows] = _raw_life(model, rows, loads, plan)
     return GroupResult(events, mission, raw_life, tier)
 
 
@@ -112,12 +111,21 @@ def result_of(arrays: Mapping[str, NDArray[Any]]) -> GroupResult:
     )
 
 
-def _counted(
-    model: Model, stress: StructuralStress, rows: NDArray[np.intp], loads: Sequence[EventLoad], plan: Plan
-) -> _Piece:
+def _raw_life(model: Model, rows: NDArray[np.intp], loads: Sequence[EventLoad], plan: Plan) -> NDArray[np.float64]:
+    """Count all events at stations of one curve without the end treatment, for their life alone, (n, 2) [km]."""
+    curve, stations = model.case.curve, model.stations
+    shapes = shapes_of(stations, stations.raw, rows, _curve_at(model, rows), curve.thickness_rule)
+    damage = []
+    for load in loads:
+        with no_overflow(load.counted.event, _weld_names(model, rows)):
+            damage.append(event_damage(shapes, load, curve.yield_MPa, curve.mean_stress == "asme"))
+    return life_km(mission_sum(np.stack(damage), plan.passes), plan.damage_limit)
+
+
+def _counted(model: Model, rows: NDArray[np.intp], loads: Sequence[EventLoad], plan: Plan) -> _Piece:
     """Count all events at stations of one curve."""
     curve, rated = model.case.curve, _curve_at(model, rows)
-    shapes = shapes_of(model.stations, stress, rows, rated, curve.thickness_rule)
+    shapes = shapes_of(model.stations, model.stations.treated, rows, rated, curve.thickness_rule)
     events = []
     for load in loads:
         with no_overflow(load.counted.event, _weld_names(model, rows)):
