@@ -11,9 +11,9 @@ from fatigue.life.screening import extent_bound, modal_extent
 
 def against_the_product() -> list[Row]:
     """Two surfaces, 60 modes, 20 000 steps, or more of both; recounts in double precision included."""
-    case, longer = load(512), load(256, 100, 30_000)
+    case, longer = load(512), load(512, 100, 30_000)
     best = best_times({"product": case.product, "fast": case.fast, "exact": lambda: case.exact(0, 128)}, 8)
-    best_longer = best_times({"product": longer.product, "fast": longer.fast}, 8)
+    best_longer = best_times({"product": longer.product, "fast": longer.fast}, 5)
     extent = modal_extent(case.q, "repeat")
     bound = best_times({"tier 1": lambda: extent_bound(case.S_m, case.S_b, extent)}, 5)
     fast, exact = case.fast(0, 128), case.exact(0, 128)

@@ -36,13 +36,14 @@ from fatigue.life.rainflow_doubt import MOST, directions
 from fatigue.life.rainflow_long import count_block_long
 from fatigue.life.rainflow_loops import count_chunk, count_settled, extend
 from fatigue.life.rainflow_power import PowerLaw, power_law
+from fatigue.life.rainflow_product import block_for, multiply, prepared_samples, prepared_shapes, space_for_samples
 from fatigue.life.rainflow_state import PAD, Stage, State, fresh_state, room_for
 from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-POINTS = 128  # counted at a time: more would not stay in the cache, fewer make the matrix product slow
+POINTS = 48  # counted at a time: the stress of more would not stay in the cache
 CHUNK = 4096  # samples recovered at a time
 RESIDUE = 512  # reversals of a point that may wait for the next chunk
 
@@ -273,35 +274,29 @@ def _count(
         state.sides["mean"] = block.mean / block.scale
     pieces = [slice(first, first + POINTS) for first in range(0, len(wanted), POINTS)]
     over = 1.0 if single else record.scale
-    weights = [np.concatenate([block.membrane[p] / over, block.bending[p] / over]).astype(precision) for p in pieces]
+    both = (np.concatenate([block.membrane[p] / over, block.bending[p] / over]) for p in pieces)
+    shapes = [prepared_shapes(s.astype(precision)) for s in both]
     states = [State._make(a[piece] for a in state) for piece in pieces]
     rows, width = 2 * min(len(wanted), POINTS), 1 + min(t, CHUNK) + 1 + PAD
     room = room_for(width, RESIDUE, precision)
-    stress = np.empty((rows, width), precision)
-    double = np.empty((0, 0) if single else (modes, min(t, CHUNK)))
+    stress = block_for(rows, width, precision)
+    space = space_for_samples(modes, min(t, CHUNK), precision)
     pairs = np.empty((rows * MOST, 3), np.int64)
     for first in range(0, t, CHUNK):
         columns = slice(first, min(first + CHUNK, t))
         samples = columns.stop - first
         stage = Stage(first == 0, columns.stop == t, recurs, flat)
         exact = None if single else record.exact[:, columns]
-        q = record.q[:, columns] if exact is None else _copied(exact, double)
-        for piece, w, state_of_piece in zip(pieces, weights, states, strict=True):
-            some = stress[: len(w)]
-            np.matmul(w, q, out=some[:, 1 : samples + 1])
+        q = prepared_samples(record.q[:, columns] if exact is None else exact, space)
+        for piece, laid_out, state_of_piece in zip(pieces, shapes, states, strict=True):
+            multiply(laid_out, q, stress)
+            some = stress[: 2 * len(state_of_piece.sides)]
             found = count_chunk(some, samples, stage, rules, state_of_piece, room, pairs)
             if found:
                 exact = record.exact[:, columns] if exact is None else exact
                 known = directions(block.membrane[piece], block.bending[piece], exact, record.scale, pairs[:found])
                 count_settled(some, samples, stage, rules, state_of_piece, room, pairs[:found], known)
     return state.sides
-
-
-def _copied(q: NDArray[np.floating], into: Floats) -> Floats:
-    """Convert to double precision in memory that is there already: fresh memory takes longer than converting."""
-    double = into[:, : q.shape[1]]
-    np.copyto(double, q)
-    return double
 
 
 def _evaluated(

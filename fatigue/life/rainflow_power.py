@@ -23,7 +23,7 @@ Numbers = NDArray[np.floating]
 
 RATIO_DEGREE = 10
 LANES = 16  # single precision numbers in the widest vectors: loops over a multiple of them need no remainder
-SUMMED = 512  # numbers summed up in single precision
+SUMMED = 256  # numbers summed up in single precision
 
 
 class PowerLaw(NamedTuple):

@@ -1,11 +1,14 @@
-"""The two inner loops of `rainflow_loops` in vector instructions of x86-64 processors, up to 16 samples at a time.
+"""The inner loops of the fast counter in vector instructions of x86-64 processors, up to 16 samples at a time.
 
-Both steps select: turning points among samples, closed ranges among turning points. A comparison of vectors gives one
-bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would decide one after the
-other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps`` with a table of lane
-numbers). The results are bit for bit those of the plain loops, which run instead where this file says so or is missing.
+The two steps of `rainflow_loops` select: turning points among samples, closed ranges among turning points. A comparison
+of vectors gives one bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would
+decide one after the other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps`` with
+a table of lane numbers). The results are bit for bit those of the plain loops, which run instead where this file says
+so or is missing. With AVX-512 the matrix product is here, too: BLAS clears its result first and adds to it, which
+takes as long as a third of the product of so few modes.
 """
 
+import itertools
 from collections.abc import Callable
 from typing import Any, cast
 
@@ -19,6 +22,9 @@ from numpy.typing import NDArray
 from fatigue.life.rainflow import compiled
 
 Numbers = NDArray[np.floating]
+Singles = NDArray[np.float32]
+
+TILE, PANEL = 12, 32  # rows and columns of the product that are worked out at a time
 
 I1, I8, I32, I64 = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64)
 
@@ -61,12 +67,17 @@ class _Vector:
         self.all = ir.Constant(I64, 2**self.size - 1)
         self.last = ir.Constant(I64, self.size - 1)
 
-    def pointer(self, array_type: Any, array: Any, index: Any) -> Any:
-        data = self.context.make_array(array_type)(self.context, self.builder, array).data
-        return self.builder.bitcast(self.builder.gep(data, [index]), self.type.as_pointer())
+    def at(self, address: Any) -> Any:
+        return self.builder.load(self.builder.bitcast(address, self.type.as_pointer()), align=self.align)
+
+    def put(self, value: Any, address: Any) -> None:
+        self.builder.store(value, self.builder.bitcast(address, self.type.as_pointer()), align=self.align)
+
+    def address(self, array_type: Any, array: Any, index: Any) -> Any:
+        return self.builder.gep(self.context.make_array(array_type)(self.context, self.builder, array).data, [index])
 
     def load(self, array_type: Any, array: Any, index: Any) -> Any:
-        return self.builder.load(self.pointer(array_type, array, index), align=self.align)
+        return self.at(self.address(array_type, array, index))
 
     def everywhere(self, number: Any) -> Any:
         if number.type != self.number:
@@ -81,13 +92,13 @@ class _Vector:
         return self.builder.fadd(flat, self.builder.fmul(flat, self.absolute(s)))
 
     def absolute(self, number: Any) -> Any:
-        return self._call("llvm.fabs", number)
+        return self.call("llvm.fabs", number)
 
     def stress(self, membrane: Any, side: Any, bending: Any) -> Any:
         """Membrane plus or minus bending: the product with 1 or -1 is exact, so one rounding is as good as two."""
-        return self._call("llvm.fma", side, bending, membrane)
+        return self.call("llvm.fma", side, bending, membrane)
 
-    def _call(self, name: str, *numbers: Any) -> Any:
+    def call(self, name: str, *numbers: Any) -> Any:
         kind = ir.FunctionType(self.type, [self.type] * len(numbers))
         name = f"{name}.v{self.size}f{8 * self.align}"
         return self.builder.call(cgutils.get_or_insert_function(self.builder.module, kind, name), numbers)
@@ -104,7 +115,7 @@ class _Vector:
 
     def store_selected(self, value: Any, bits: Any, array_type: Any, array: Any, index: Any) -> None:
         """Store the selected lanes side by side; what is behind them is overwritten with anything."""
-        self.builder.store(self._together(value, bits), self.pointer(array_type, array, index), align=self.align)
+        self.put(self._together(value, bits), self.address(array_type, array, index))
 
     def _together(self, value: Any, bits: Any) -> Any:
         module = self.builder.module
@@ -230,9 +241,52 @@ def _cycles_of_lanes(
     return types.Tuple((integer,) * 5)(z, zm, S, dm, *(integer,) * 6, types.float32), generate
 
 
+def _product_of_tile(typing: Any, shapes: Any, tile: Any, samples: Any, panel: Any, stress: Any) -> Any:
+    """Multiply a tile of 12 rows with a panel of 32 samples: 24 sums stay in the 32 registers of AVX-512."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        shapes_, tile_, samples_, panel_, stress_ = args
+        vector = _Vector(context, builder, stress)
+        parts = range(PANEL // vector.size)
+        left, right, out = (
+            context.make_array(kind)(context, builder, array)
+            for kind, array in ((shapes, shapes_), (samples, samples_), (stress, stress_))
+        )
+        modes = cgutils.unpack_tuple(builder, left.shape)[1]
+        nothing = ir.Constant(vector.type, [0.0] * vector.size)
+        sums = [[cgutils.alloca_once_value(builder, nothing) for _ in parts] for _ in range(TILE)]
+        for total in itertools.chain(*sums):
+            builder.store(nothing, total)
+        with cgutils.for_range(builder, modes) as loop:
+            weights = _element(builder, left.data, [tile_, modes, loop.index, TILE])
+            q = _element(builder, right.data, [panel_, modes, loop.index, PANEL])
+            q_parts = [vector.at(builder.gep(q, [ir.Constant(I64, vector.size * k)])) for k in parts]
+            for row in range(TILE):
+                weight = vector.everywhere(builder.load(builder.gep(weights, [ir.Constant(I64, row)])))
+                for total, part in zip(sums[row], q_parts, strict=True):
+                    builder.store(vector.call("llvm.fma", weight, part, builder.load(total)), total)
+        width = cgutils.unpack_tuple(builder, out.shape)[1]
+        column = builder.add(builder.mul(panel_, ir.Constant(I64, PANEL)), ir.Constant(I64, 1))
+        for row in range(TILE):
+            number = builder.add(builder.mul(tile_, ir.Constant(I64, TILE)), ir.Constant(I64, row))
+            start = builder.gep(out.data, [builder.add(builder.mul(number, width), column)])
+            for k in parts:
+                vector.put(builder.load(sums[row][k]), builder.gep(start, [ir.Constant(I64, vector.size * k)]))
+        return context.get_dummy_value()
+
+    return types.void(shapes, types.int64, samples, types.int64, stress), generate
+
+
+def _element(builder: Any, data: Any, at: list[Any]) -> Any:
+    """Address of the row ``at[2]`` of block ``at[0]`` where a block has ``at[1]`` rows of ``at[3]`` numbers."""
+    block, rows, row, length = at
+    return builder.gep(data, [builder.mul(builder.add(builder.mul(block, rows), row), ir.Constant(I64, length))])
+
+
 lanes_of = cast(Callable[[Numbers], int], intrinsic(_lanes_of))
 reversals_of_lanes = cast(Callable[..., tuple[int, int, int]], intrinsic(_reversals_of_lanes))
 cycles_of_lanes = cast(Callable[..., tuple[int, int, int, int, int]], intrinsic(_cycles_of_lanes))
+product_of_tile = cast(Callable[..., None], intrinsic(_product_of_tile))
 
 
 @compiled()
@@ -260,3 +314,39 @@ def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, i
         kept, cycles, before, taken, close = cycles_of_lanes(z, zm, S, dm, i, n, before, taken, kept, cycles, flat)
         close_calls |= close
     return kept, cycles, close_calls != 0
+
+
+def tiles_of(shapes: Singles) -> Singles:
+    """Lay shapes (n, m) out as `multiply` reads them: (n / 12, m, 12), filled up with zeros."""
+    rows, modes = shapes.shape
+    tiles = np.zeros((-(-rows // TILE) * TILE, modes), np.float32)
+    tiles[:rows] = shapes
+    return np.ascontiguousarray(tiles.reshape(-1, TILE, modes).transpose(0, 2, 1))
+
+
+def panels_for(modes: int, samples: int) -> Singles:
+    """Memory for modal coordinates as `multiply` reads them: (t / 32, m, 32)."""
+    return np.empty((-(-samples // PANEL), modes, PANEL), np.float32)
+
+
+@compiled()
+def lay_out(q: Singles, panels: Singles) -> Singles:
+    """Copy modal coordinates (m, t) into panels, the last one filled up with zeros; returns those in use."""
+    whole = q.shape[1] // PANEL
+    rest = q.shape[1] - PANEL * whole
+    for mode in range(len(q)):
+        for panel in range(whole):
+            for j in range(PANEL):
+                panels[panel, mode, j] = q[mode, PANEL * panel + j]
+        if rest > 0:
+            for j in range(PANEL):
+                panels[whole, mode, j] = q[mode, PANEL * whole + j] if j < rest else np.float32(0)
+    return panels[: whole + int(rest > 0)]
+
+
+@compiled()
+def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
+    """Write the product into the columns of ``stress`` from 1 on; rows and columns are as many as tiles and panels."""
+    for tile in range(len(tiles)):
+        for panel in range(len(panels)):
+            product_of_tile(tiles, tile, panels, panel, stress)

@@ -14,6 +14,9 @@ from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnosis_matrices
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices
 
 
+HELD_SINGLE = 256e6  # bytes of one record
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class EventLoad:
     """What an event brings to every station: the record to be counted and its second-order statistics.
@@ -75,7 +78,10 @@ def prepare_event(
 
 
 def fast_record(q: Samples, scratch: Path | None) -> Record:
-    """Prepare modal coordinates for the kernel in single precision; those on disk go to the folder ``scratch`` again.
+    """Prepare modal coordinates for the kernel in single precision.
+
+    Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
+    goes to the folder ``scratch``.
 
     Raises
     ------
@@ -87,8 +93,12 @@ def fast_record(q: Samples, scratch: Path | None) -> Record:
     if not np.isfinite(covariance).all():
         raise not_finite("modal coordinates")
     scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
-    path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
-    normalised = create_spool(path, q.shape, np.dtype(np.float32))
+    normalised: Samples
+    if 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
+        normalised = np.empty(q.shape, np.float32)
+    else:
+        path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
+        normalised = create_spool(path, q.shape, np.dtype(np.float32))
     for piece in time_slices(q.shape):
         normalised[:, piece] = ((q[:, piece] - mean[:, None]) / scale[:, None]).astype(np.float32)
     return Record(q, normalised, scale, mean, covariance)

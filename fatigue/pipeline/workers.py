@@ -15,7 +15,7 @@ from fatigue.pipeline.model import Model, solve_group
 from fatigue.pipeline.orders import Order, fulfil
 from fatigue.pipeline.work import Work
 
-AHEAD = 2  # groups per thread that may be under way or wait to be written: memory is bounded
+AHEAD = 1  # groups per thread that may be under way or wait to be written: memory is bounded
 ORDERS_AHEAD = 32  # the same for an executor that does not say how many workers it has
 
 

@@ -317,6 +317,28 @@ def test_vector_instructions_do_what_the_plain_loops_do(
 
 
 @simd
+def test_the_product_in_tiles_is_the_product() -> None:
+    """For numbers of rows, modes and samples that fill no tile, and for part of a longer record."""
+    from fatigue.life import rainflow_simd  # noqa: PLC0415
+
+    if rainflow_simd.vector_bits() < 512:
+        pytest.skip("not on this processor")
+    rng = np.random.default_rng(0)
+    for rows, modes, samples in ((1, 1, 1), (12, 60, 64), (25, 7, 100), (96, 3, 31)):
+        shapes = rng.normal(size=(rows, modes)).astype(np.float32)
+        q = rng.normal(size=(modes, samples + 50)).astype(np.float32)[:, 13 : 13 + samples]
+        stress = np.full((-(-rows // 12) * 12, 1 + -(-samples // 32) * 32), 7.0, np.float32)
+        panels = rainflow_simd.lay_out(q, rainflow_simd.panels_for(modes, samples + 40))
+        rainflow_simd.multiply(rainflow_simd.tiles_of(shapes), panels, stress)
+        exact = shapes.astype(np.float64) @ q
+        limit = modes * 2.0**-24 * (np.abs(shapes).astype(np.float64) @ np.abs(q))
+        assert (np.abs(stress[:rows, 1 : samples + 1] - exact) <= limit).all()
+        assert not stress[rows:, 1:].any()
+        assert not stress[:, samples + 1 :].any()
+        assert (stress[:, 0] == 7.0).all()
+
+
+@simd
 def test_the_plain_loops_are_used_where_there_are_no_vectors(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the processor numba compiles for, not of the one it runs on."""
     from fatigue.life import rainflow_simd  # noqa: PLC0415
