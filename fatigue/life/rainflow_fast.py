@@ -34,7 +34,7 @@ from fatigue.life.history import Residue
 from fatigue.life.rainflow import BlockCount, not_finite
 from fatigue.life.rainflow_doubt import MOST, directions
 from fatigue.life.rainflow_long import count_block_long
-from fatigue.life.rainflow_loops import count_chunk, count_settled, extend
+from fatigue.life.rainflow_loops import count_chunk, count_settled
 from fatigue.life.rainflow_power import PowerLaw, power_law
 from fatigue.life.rainflow_product import block_for, multiply, prepared_samples, prepared_shapes, space_for_samples
 from fatigue.life.rainflow_state import PAD, Stage, State, fresh_state, room_for
@@ -190,51 +190,9 @@ def count_block_fast(
     return count
 
 
-def stress_extent(S_m: Floats, S_b: Floats, record: Record, residue: Residue) -> tuple[Floats, Floats]:
-    """Bound range (n, 2) and sum n S^p, p = 1, 2, 3, (3, n, 2) of the top and bottom stress, never too small.
-
-    The sums are ``2^(p-2)`` times the total variation of ``s |s|^(p-1)``, see `screening`. The rounding errors of
-    single precision are added as the worst case has them: a sample of ``sum w q`` over m modes is off by at most
-    ``(m + 4) 2^-24 sum |w| max |q|``. Shapes as in `count_block_fast`.
-    """
-    block = _normalised(S_m, S_b, record)
-    points, (modes, t) = len(S_m), record.q.shape
-    extent = np.tile([0.0, 0.0, 0.0, -np.inf, np.inf], (points, 2, 1))
-    for first_point in range(0, points, POINTS):
-        piece = slice(first_point, first_point + POINTS)
-        weights = np.concatenate([block.membrane[piece], block.bending[piece]]).astype(np.float32)
-        stress = np.empty((len(weights), CHUNK + 1), np.float32)
-        for first in range(0, t, CHUNK):
-            q = record.q[:, first : first + CHUNK]
-            columns = q.shape[1] + 1
-            np.matmul(weights, q, out=stress[:, 1:columns])
-            extend(stress, columns, first == 0, extent[piece])
-    *variations, maximum, minimum = np.moveaxis(extent, 2, 0)
-
-    single = np.asarray(record.q)
-    reach = np.abs(single).max(axis=1)
-    error = (modes + 4) * 2.0**-24 * ((np.abs(block.membrane) + np.abs(block.bending)) @ reach)[:, None]
-    largest = np.maximum(np.abs(maximum), np.abs(minimum)) + error
-    first_s, last_s = (
-        _surfaces(block.membrane @ q, block.bending @ q) for q in single[:, [0, -1]].T.astype(np.float64)
-    )
-    sums = []
-    for p, variation in enumerate(variations, start=1):
-        closing = np.abs(_odd_power(first_s, p) - _odd_power(last_s, p)) if residue == "repeat" else 0.0
-        summing = 1.0 + 2.0**-24 * CHUNK / 8  # single precision sums of a chunk, in 8 lanes or more
-        off = p * largest ** (p - 1) * error + p * 2.0**-23 * largest**p
-        sums.append(2.0 ** (p - 2) * block.scale**p * (summing * variation + 2.0 * t * off + closing))
-    return block.scale * (maximum - minimum + 2.0 * error), np.stack(sums)
-
-
 def _surfaces(membrane: Floats, bending: Floats) -> Floats:
     """Stress of top and bottom surface side by side."""
     return np.stack([membrane + bending, membrane - bending], axis=1)
-
-
-def _odd_power(s: Floats, p: int) -> Floats:
-    """Power of the size of s, with its sign."""
-    return np.asarray(s * np.abs(s) ** (p - 1))
 
 
 def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:

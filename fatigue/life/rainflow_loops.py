@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
 from fatigue.life.rainflow_doubt import Pairs, list_pairs, settle_pair
-from fatigue.life.rainflow_power import PowerLaw, add_powers, add_steps, add_up, extremes_in_lanes, raise_to_slope
+from fatigue.life.rainflow_power import PowerLaw, add_powers, add_up, raise_to_slope
 from fatigue.life.rainflow_state import PAD, Room, Stage, State
 
 simd: Any = None
@@ -118,7 +118,8 @@ def rotate_to_maximum(room: Room, n: int, first_peak: int) -> int:
     for i in range(first_peak + 2, n, 2):
         first = i if z[i] > z[first] else first
     for i in range(n + 1):
-        path[i], path_m[i] = z[(first + i) % n], zm[(first + i) % n]
+        from_there = first + i if first + i < n else first + i - n  # a remainder would take longer
+        path[i], path_m[i] = z[from_there], zm[from_there]
     for i in range(n + 1):
         z[i], zm[i] = path[i], path_m[i]
     return n + 1
@@ -352,28 +353,3 @@ def count_settled(
             k += 1
         if not settled or not count_side(m, b, steps, at, stage, law, state, room):
             state.sides[at].doubtful = True
-
-
-@compiled()
-def extend(stress: Numbers, columns: int, begins: bool, extent: Floats) -> None:
-    """Add the steps between the first columns of a block to ``extent`` (n, 2, 5): 3 variations, maximum, minimum.
-
-    Column 0 is the last sample of the chunk before; the first chunk begins at column 1.
-    """
-    points = stress.shape[0] // 2
-    high, low = np.empty(64, stress.dtype), np.empty(64, stress.dtype)
-    for row in range(points):
-        m, b = stress[row, int(begins) : columns], stress[points + row, int(begins) : columns]
-        for surface in range(2):
-            side = np.float32(1 - 2 * surface)
-            high[:] = -np.inf
-            low[:] = np.inf
-            extremes_in_lanes(m, b, side, high, low)
-            found = extent[row, surface]
-            first, second, third = add_steps(m, b, side)
-            found[0] += first
-            found[1] += second
-            found[2] += third
-            found[3] = max(found[3], high.max())
-            found[4] = min(found[4], low.min())
-        stress[row, 0], stress[points + row, 0] = stress[row, columns - 1], stress[points + row, columns - 1]

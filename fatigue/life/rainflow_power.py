@@ -162,29 +162,3 @@ def add_powers(m: Numbers, b: Numbers, top_total: Any, bottom_total: Any) -> Non
         bottom_total.second += bottom_2
         top_total.fourth += top_4
         bottom_total.fourth += bottom_4
-
-
-@compiled("reassoc", "nsz", "nnan", "contract")
-def add_steps(m: Numbers, b: Numbers, side: np.float32) -> tuple[np.floating, np.floating, np.floating]:
-    """Total variations of s, s |s| and s^3, s the stress of one surface."""
-    first = second = third = _ZERO
-    for i in range(1, m.size):
-        before, s = m[i - 1] + side * b[i - 1], m[i] + side * b[i]
-        first += abs(s - before)
-        second += abs(s * abs(s) - before * abs(before))
-        third += abs(s * s * s - before * before * before)
-    return first, second, third
-
-
-@compiled()
-def extremes_in_lanes(m: Numbers, b: Numbers, side: np.float32, high: Numbers, low: Numbers) -> None:
-    """Raise ``high`` and lower ``low`` to the stress of one surface; any sample may go to any of their elements."""
-    lanes = high.size
-    for first in range(0, m.size - lanes + 1, lanes):  # a loop that compilers turn into vector instructions
-        for j in range(lanes):
-            s = m[first + j] + side * b[first + j]
-            high[j] = s if s > high[j] else high[j]
-            low[j] = s if s < low[j] else low[j]
-    for i in range(m.size - m.size % lanes, m.size):
-        s = m[i] + side * b[i]
-        high[0], low[0] = max(high[0], s), min(low[0], s)

@@ -13,7 +13,6 @@ from fatigue.life.spool import Samples, Spool, create_spool, time_slices
 from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnosis_matrices
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices
 
-
 HELD_SINGLE = 256e6  # bytes of one record
 
 
