@@ -62,7 +62,7 @@ def memory() -> list[Row]:
     bare = _peak("import benchmarks.load")
     rows = []
     for nodes, steps in ((256, 20_000), (2560, 20_000), (256, 200_000)):
-        inputs = (2 * 60 * nodes * 8 + 60 * steps * (4 + 4 + 8)) / 2**20
+        inputs = (2 * 60 * nodes * 8 + 60 * steps * (4 + 8)) / 2**20
         above = _peak(_COUNT.format(nodes=nodes, steps=steps)) - bare - inputs
         rows.append((f"peak memory above import and inputs, {nodes} nodes x {steps} steps", f"{above:.0f} MB"))
     return rows
