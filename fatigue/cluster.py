@@ -1,5 +1,6 @@
 """The workers of a dask.distributed cluster as an executor, for `fatigue assess --scheduler`."""
 
+import re
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
@@ -29,6 +30,10 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         raise DataError(
             Problem("extra", "--scheduler", "dask.distributed is not installed", "pip install fatigue[cluster]")
         ) from error
+    if not re.fullmatch(r"[a-z]+://\S+:\d+", address):
+        raise DataError(
+            Problem("scheduler", address, "is not the address of a scheduler", "Give one such as tcp://host:8786")
+        )
     try:
         client = Client(address, timeout=TIMEOUT_S, set_as_default=False)
     except (OSError, ValueError) as error:

@@ -71,3 +71,11 @@ def test_a_scheduler_that_does_not_answer_is_named(monkeypatch):
     monkeypatch.setattr("fatigue.cluster.TIMEOUT_S", 0.5)
     with pytest.raises(DataError, match=r"tcp://127\.0\.0\.1:9: no scheduler answers .* `dask scheduler`"):
         cluster_executor("tcp://127.0.0.1:9").__enter__()
+
+
+@pytest.mark.parametrize("address", ["nonsense", "host:8786", "tcp://host"])
+def test_what_is_no_address_is_refused_at_once(address):
+    """One line with an example, before anything is tried."""
+    pytest.importorskip("distributed")
+    with pytest.raises(DataError, match=rf"{address}: is not the address of a scheduler\. Give one such as tcp://"):
+        cluster_executor(address).__enter__()
