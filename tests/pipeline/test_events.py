@@ -128,6 +128,7 @@ def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypat
     monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0)
     held = event_loads(groups, plan, tmp_path / "histories")
     monkeypatch.setattr(events, "HELD_BYTES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.event_load.HELD_SINGLE", 0.0)
     monkeypatch.setattr(spool, "CHUNK", 512)
     monkeypatch.setattr(spool, "AT_ONCE", 600)
     monkeypatch.setattr("fatigue.spectrum.moments.NUMBERS_AT_ONCE", 1000)

@@ -203,8 +203,14 @@ def _compared(
     for at in dict.fromkeys(key[:3] for key in counted):
         of_modes = [stored.stress.loc[(*at, mode)].to_dict() for mode in modes.mode.tolist()]
         stress += stress_rows(stations[at], modes.mode, of_modes)
+    all_counted = bool((stored.nodes["screened"] == "").all())
     of_welds = [
-        weld_row(weld, {key: values[key] for key in values if key[0] == name}, stored.welds.loc[name].to_dict())
+        weld_row(
+            weld,
+            {key: values[key] for key in values if key[0] == name},
+            stored.welds.loc[name].to_dict(),
+            all_counted=all_counted,
+        )
         for name, weld in welds.items()
     ]
     bins = {} if all(weld.curve.is_straight for weld in welds.values()) else {"load_factor": HISTOGRAM_BIN}

@@ -113,8 +113,8 @@ def cycle_row(key: Key, event: Event, one: OnePass, found: pd.DataFrame) -> Row:
     return Row(f"{_place(key)}, event '{event.name}'", stored, expected, scale)
 
 
-def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, Any]) -> Row:
-    """Row of a weld: the worst of its recounted toe points decides."""
+def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, Any], *, all_counted: bool) -> Row:
+    """Row of a weld: the worst of its recounted toe points decides; proven to be it where all points were counted."""
     parts = [solved.line for solved in weld.parts]
     lives = {key: values for key, values in recounted.items() if key[3] in weld.toes}
     stored: Key = (parts[0].weld, found["worst_part"], found["worst_order"], found["worst_surface"])
@@ -137,6 +137,7 @@ def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, An
         "curve": weld.curve_name,
         "end_length_mm": np.nan if end_length is None else end_length,
         **{name: worst[name] for name in ("life_km", "life_years", "utilisation", "fulfilled", "load_factor")},
+        **({"worst_is_proven": True} if all_counted else {}),
         "worst_part": stored[1],
         "worst_order": stored[2],
         "worst_node": int(solved.line.node[at]),
