@@ -86,15 +86,17 @@ class _Block(NamedTuple):
     trusted: NDArray[np.bool_]
 
 
-def record_of(q: NDArray[np.floating]) -> Record:
+def record_of(q: Samples, single: Samples | None = None) -> Record:
     """Prepare modal coordinates (m, t) for `count_block_fast`, once for all points.
+
+    Their copy in single precision is written to ``single`` (m, t), by default to a new array.
 
     Raises
     ------
     NumericalError : a sample is not finite
     """
     modes, t = q.shape
-    pieces = [slice(first, first + CHUNK) for first in range(0, t, CHUNK)]
+    pieces = [slice(first, min(first + CHUNK, t)) for first in range(0, t, CHUNK)]
     total = np.zeros(modes)
     for piece in pieces:
         finite = np.isfinite(q[:, piece])
@@ -108,9 +110,9 @@ def record_of(q: NDArray[np.floating]) -> Record:
         centred = q[:, piece] - mean[:, None]
         covariance += centred @ centred.T / t
     scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
-    single = np.empty(q.shape, np.float32)
+    single = np.empty(q.shape, np.float32) if single is None else single
     for piece in pieces:
-        single[:, piece] = (q[:, piece] - mean[:, None]) / scale[:, None]
+        single[:, piece] = ((q[:, piece] - mean[:, None]) / scale[:, None]).astype(np.float32)
     return Record(q, single, scale, mean, covariance)
 
 

@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.history import ModalHistory, Residue, mean_and_covariance, upsampled
-from fatigue.life.rainflow import not_finite
 from fatigue.life.rainflow_fast import Record, record_of
-from fatigue.life.spool import Samples, Spool, create_spool, time_slices
+from fatigue.life.spool import Samples, Spool, create_spool
 from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnosis_matrices
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices
 
@@ -86,18 +85,7 @@ def fast_record(q: Samples, scratch: Path | None) -> Record:
     ------
     NumericalError : a sample is not finite; DataError : the disk is full
     """
-    if not isinstance(q, Spool) or scratch is None:
-        return record_of(np.asarray(q))
-    mean, covariance = mean_and_covariance(q)
-    if not np.isfinite(covariance).all():
-        raise not_finite("modal coordinates")
-    scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
-    normalised: Samples
-    if 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
-        normalised = np.empty(q.shape, np.float32)
-    else:
-        path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
-        normalised = create_spool(path, q.shape, np.dtype(np.float32))
-    for piece in time_slices(q.shape):
-        normalised[:, piece] = ((q[:, piece] - mean[:, None]) / scale[:, None]).astype(np.float32)
-    return Record(q, normalised, scale, mean, covariance)
+    if not isinstance(q, Spool) or scratch is None or 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
+        return record_of(q)
+    path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
+    return record_of(q, create_spool(path, q.shape, np.dtype(np.float32)))

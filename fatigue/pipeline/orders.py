@@ -41,18 +41,18 @@ def fulfil(order: Order) -> dict[str, NDArray[Any]]:
     DataError : this process sees other inputs, or is another version of the program
     """
     with _OPENING:  # the first thread reads, the others wait for it
-        work = _opened(order.case, order.strict, order.counted, order.key)
-    with threadpool_limits(limits=1, user_api="blas"):
-        _, result = work.group(order.group)
+        work, _ = _opened(order.case, order.strict, order.counted, order.key)
+    _, result = work.group(order.group)
     return arrays_of(result)
 
 
 _OPENING = Lock()
-_SCRATCH: list[TemporaryDirectory[str]] = []
 
 
 @lru_cache(maxsize=1)
-def _opened(path: str, strict: bool, counted: Counted, key: str) -> Work:
+def _opened(path: str, strict: bool, counted: Counted, key: str) -> tuple[Work, TemporaryDirectory[str]]:
+    """Open the work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
+    threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
     case = load_case(Path(path))
     if key_of(inputs_of(case), counted) != key:
         raise DataError(
@@ -65,6 +65,6 @@ def _opened(path: str, strict: bool, counted: Counted, key: str) -> Work:
         )
     body = read_body(case, strict=strict)
     plan, _ = mission_plan(body)
-    _SCRATCH[:] = [TemporaryDirectory(prefix="fatigue-")]
-    scratch = Path(_SCRATCH[0].name)
-    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch)
+    folder = TemporaryDirectory(prefix="fatigue-")
+    scratch = Path(folder.name)
+    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch), folder

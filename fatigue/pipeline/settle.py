@@ -84,9 +84,12 @@ def settle(
     NumericalError : stress or damage exceeds double precision
     """
     needs_yield = yield_MPa if mean_stress else None
-    with no_overflow("of the mission", where):
-        estimates = tuple(estimate_event(shapes, load) for load in loads)
-        bounds = _modal_bounds(shapes, estimates, loads, screening, needs_yield)
+    estimates: tuple[Estimate, ...] = ()
+    bounds: tuple[Bound, ...] = ()
+    for load, extent in zip(loads, screening.extents, strict=True):
+        with no_overflow(load.counted.event, where):
+            estimates += (estimate_event(shapes, load),)
+            bounds += (_modal_bound(shapes, estimates[-1], load, extent, needs_yield),)
     tier = np.ones(len(shapes), dtype=np.int8)
 
     def count(rows: NDArray[np.intp]) -> tuple[EventBlock, ...]:
@@ -127,20 +130,13 @@ def _utilisation(blocks: Sequence[EventBlock] | Sequence[Bound], plan: Plan) -> 
     return per_km * plan.target_km / plan.damage_limit
 
 
-def _modal_bounds(
-    shapes: Shapes,
-    estimates: Sequence[Estimate],
-    loads: Sequence[EventLoad],
-    screening: Screening,
-    yield_MPa: float | None,
-) -> tuple[Bound, ...]:
-    """Bound every event from how its modal coordinates move, without a loop over time."""
-    bounds = []
-    for load, extent, estimate in zip(loads, screening.extents, estimates, strict=True):
-        f = load.stress_factor
-        found = extent_bound(f * shapes.membrane, f * shapes.bending, extent)
-        bounds.append(event_bound(*found, shapes, estimate, yield_MPa))
-    return tuple(bounds)
+def _modal_bound(
+    shapes: Shapes, estimate: Estimate, load: EventLoad, extent: ModalExtent, yield_MPa: float | None
+) -> Bound:
+    """Bound an event from how its modal coordinates move, without a loop over time."""
+    f = load.stress_factor
+    stress_range, sums = extent_bound(f * shapes.membrane, f * shapes.bending, extent)
+    return event_bound(stress_range, sums, shapes, estimate, yield_MPa)
 
 
 def _weld_bounds(
