@@ -36,15 +36,23 @@ from fatigue.life.rainflow_doubt import MOST, directions
 from fatigue.life.rainflow_long import count_block_long
 from fatigue.life.rainflow_loops import count_chunk, count_settled
 from fatigue.life.rainflow_power import PowerLaw, power_law
-from fatigue.life.rainflow_product import block_for, multiply, prepared_samples, prepared_shapes, space_for_samples
+from fatigue.life.rainflow_product import (
+    block_for,
+    multiply,
+    prepared_samples,
+    prepared_shapes,
+    samples_between,
+    samples_of,
+    space_for_samples,
+)
 from fatigue.life.rainflow_state import PAD, Stage, State, fresh_state, room_for
-from fatigue.life.spool import Samples
+from fatigue.life.spool import Samples, Spool
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
 POINTS = 48  # counted at a time: the stress of more would not stay in the cache
-CHUNK = 4096  # samples recovered at a time
+CHUNK = 4096  # samples recovered at a time, a multiple of `rainflow_product.STEP`
 RESIDUE = 512  # reversals of a point that may wait for the next chunk
 
 SHORTEST = 512  # samples of a record; a few cycles do not average rounding errors out
@@ -60,14 +68,15 @@ class Record:
     Attributes
     ----------
     exact : (m, t) the modal coordinates as given
-    q : (m, t) the same without their mean and over ``scale``, in single precision
+    q : the same without their mean and over ``scale``, in single precision: in memory as `rainflow_product` lays them
+        out, or (m, t) on disk
     scale : (m,) powers of 2 near the standard deviations
     mean : (m,) time mean
     covariance : (m, m)
     """
 
     exact: Samples
-    q: Samples
+    q: Singles | Spool
     scale: Floats
     mean: Floats
     covariance: Floats
@@ -86,10 +95,10 @@ class _Block(NamedTuple):
     trusted: NDArray[np.bool_]
 
 
-def record_of(q: Samples, single: Samples | None = None) -> Record:
+def record_of(q: Samples, single: Spool | None = None) -> Record:
     """Prepare modal coordinates (m, t) for `count_block_fast`, once for all points.
 
-    Their copy in single precision is written to ``single`` (m, t), by default to a new array.
+    Their copy in single precision is written to ``single`` (m, t), by default to memory.
 
     Raises
     ------
@@ -110,15 +119,23 @@ def record_of(q: Samples, single: Samples | None = None) -> Record:
         centred = q[:, piece] - mean[:, None]
         covariance += centred @ centred.T / t
     scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
-    single = np.empty(q.shape, np.float32) if single is None else single
+
+    def normalised(piece: slice) -> Singles:
+        return np.asarray((q[:, piece] - mean[:, None]) / scale[:, None], np.float32)
+
+    if single is not None:
+        for piece in pieces:
+            single[:, piece] = normalised(piece)
+        return Record(q, single, scale, mean, covariance)
+    laid_out = space_for_samples(modes, t, np.float32)
     for piece in pieces:
-        single[:, piece] = ((q[:, piece] - mean[:, None]) / scale[:, None]).astype(np.float32)
-    return Record(q, single, scale, mean, covariance)
+        prepared_samples(normalised(piece), samples_between(laid_out, piece.start, piece.stop))
+    return Record(q, laid_out, scale, mean, covariance)
 
 
 def is_fast(law: DamageLaw, record: Record) -> bool:
     """Whether `count_block_fast` counts itself: a law of one slope, not too steep, and a record not too short."""
-    return law.is_straight and float(law.slopes[0]) <= STEEPEST and record.q.shape[1] >= SHORTEST
+    return law.is_straight and float(law.slopes[0]) <= STEEPEST and record.exact.shape[1] >= SHORTEST
 
 
 def count_block_fast(
@@ -224,7 +241,7 @@ def _count(
 ) -> NDArray[np.void]:
     """Count normalised stress, some samples and some points at a time, into numbers of type `SIDE` (n, 2)."""
     single = precision is np.float32
-    modes, t = record.q.shape
+    modes, t = record.exact.shape
     flat = np.float32(FLAT * math.sqrt(modes) if single else -1.0)
     state = fresh_state(len(wanted), RESIDUE, precision)
     state.sides["wanted"] = wanted
@@ -247,7 +264,10 @@ def _count(
         samples = columns.stop - first
         stage = Stage(first == 0, columns.stop == t, recurs, flat)
         exact = None if single else record.exact[:, columns]
-        q = prepared_samples(record.q[:, columns] if exact is None else exact, space)
+        if exact is None:
+            q = samples_of(record.q, columns.start, columns.stop, space)
+        else:
+            q = prepared_samples(exact, space)
         for piece, laid_out, state_of_piece in zip(pieces, shapes, states, strict=True):
             multiply(laid_out, q, stress)
             some = stress[: 2 * len(state_of_piece.sides)]
@@ -272,7 +292,7 @@ def _evaluated(
     k = float(law.slopes[0])
     to_damage = np.exp(k * np.log(block.scale * size[:, None]) - law.log_constants[0])
     I_same = damage.ratio_factor(same_ratio) if uses_bending_ratio else 1.0
-    samples, nan = record.q.shape[1], np.full(same_ratio.shape, np.nan)
+    samples, nan = record.exact.shape[1], np.full(same_ratio.shape, np.nan)
     turning = found["first_up"] >= 0
     minimum, maximum = block.mean + block.scale * found["minimum"], block.mean + block.scale * found["maximum"]
     return BlockCount(

@@ -10,7 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.spool import Spool
+
 Numbers = NDArray[np.floating]
+
+STEP = 32  # samples that are laid out side by side
 
 simd: Any = None
 if importlib.util.find_spec("fatigue.life.rainflow_simd"):
@@ -29,18 +33,28 @@ def prepared_shapes(shapes: Numbers) -> Numbers:
 
 def space_for_samples(modes: int, samples: int, precision: type[np.floating]) -> Numbers:
     """Memory for the modal coordinates as `multiply` reads them: to use it again is faster than fresh memory."""
-    return simd.panels_for(modes, samples) if in_tiles(precision) else np.empty((modes, samples), precision)
+    return np.asarray(simd.panels_for(modes, samples)) if in_tiles(precision) else np.empty((modes, samples), precision)
 
 
 def prepared_samples(q: Numbers, into: Numbers) -> Numbers:
     """Lay modal coordinates (m, t) out for `multiply`, in the precision of the memory they go to."""
     if in_tiles(into.dtype.type):
         return np.asarray(simd.lay_out(q, into))
-    if q.dtype == into.dtype:
-        return q
     into = into[:, : q.shape[1]]
     np.copyto(into, q)
     return into
+
+
+def samples_between(laid_out: Numbers, first: int, end: int) -> Numbers:
+    """Take some samples of a record that was laid out, from a multiple of ``STEP`` on."""
+    return laid_out[first // STEP : -(-end // STEP)] if in_tiles(laid_out.dtype.type) else laid_out[:, first:end]
+
+
+def samples_of(record: Numbers | Spool, first: int, end: int, into: Numbers) -> Numbers:
+    """Some samples of a record as `multiply` reads them: part of one laid out in memory, or read from disk."""
+    if isinstance(record, Spool):
+        return prepared_samples(record[:, first:end], into)
+    return samples_between(record, first, end)
 
 
 def block_for(shapes: int, width: int, precision: type[np.floating]) -> Numbers:

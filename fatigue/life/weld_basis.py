@@ -24,6 +24,14 @@ from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
 from fatigue.life.rainflow_fast import Record
+from fatigue.life.rainflow_product import (
+    STEP,
+    block_for,
+    multiply,
+    prepared_shapes,
+    samples_of,
+    space_for_samples,
+)
 from fatigue.life.screening import ROUNDING, ModalExtent, size_bound
 
 Floats = NDArray[np.float64]
@@ -31,7 +39,7 @@ Singles = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
 TOLERANCE = 3e-3  # rms that the histories of a weld may miss, of the largest rms in the weld
-CHUNK = 2048  # samples at a time
+CHUNK = 2048  # samples at a time, a multiple of `rainflow_product.STEP`
 POINTS = 32  # stresses at a time: more would not stay in the cache
 HISTORIES = 4_000_000  # numbers of u at a time: 16 MB
 POWERS = (1, 2, 3, 4)  # of the bounded sums; the master curves have slopes between 3 and 4
@@ -173,19 +181,23 @@ def _reduced(bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent
 
 def _in_time(reduced: _Reduced, record: Record, extent: ModalExtent) -> Floats:
     """Find V_1 to V_4, sum a^6, maximum and minimum of the reduced stress of every point, (r, 2, 7)."""
-    samples = extent.samples
-    B = reduced.histories
-    width = min(CHUNK, max(1, HISTORIES // max(1, len(B))))
+    modes, samples = record.exact.shape
+    B = prepared_shapes(reduced.histories)
+    histories = len(reduced.histories)
+    width = min(CHUNK, max(STEP, HISTORIES // max(1, histories) // STEP * STEP))
+    space = space_for_samples(modes, width, np.float32)
     found = np.zeros((2 * len(reduced.rounding), 7))
     found[:, 5:] = -np.inf, np.inf
-    u = np.empty((len(B), width + 1), np.float32)
+    u = block_for(histories, 1 + width + STEP, np.float32)
     before = samples - 1 if extent.steps == samples else 0  # what recurs steps from its last sample to its first one
-    u[:, :1] = B @ record.q[:, before : before + 1]
+    start = before - before % STEP
+    multiply(B, samples_of(record.q, start, samples if before else 1, space), u)
+    u[:, 0] = u[:, 1 + before - start]
     room = np.empty(POINTS * (width + 1), np.float32)
     for start in range(0, samples, width):
-        q = record.q[:, start : min(start + width, samples)]
-        columns = q.shape[1] + 1
-        np.matmul(B, q, out=u[:, 1:columns])
+        end = min(start + width, samples)
+        columns = 1 + end - start
+        multiply(B, samples_of(record.q, start, end, space), u)
         for own, run, L in reduced.welds:
             for first in range(0, len(L), POINTS):
                 some = L[first : first + POINTS]

@@ -3,6 +3,7 @@
 import importlib.util
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from types import FunctionType
 from typing import Any
 
@@ -17,6 +18,7 @@ from fatigue.life import rainflow_fast, rainflow_loops, rainflow_state
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.rainflow import BlockCount, count_block
 from fatigue.life.rainflow_fast import count_block_fast, record_of
+from fatigue.life.spool import create_spool
 
 Floats = NDArray[np.float64]
 
@@ -149,9 +151,9 @@ def test_a_thousand_points_of_one_event() -> None:
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("kind", ["ties", "held", "growing", "zigzag", "wrapping plateau", "constant", "noise"])
 def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Chunks of 7 samples, and no room for long residues, count what one chunk counts."""
+    """Chunks of 32 samples, and no room for long residues, count what one chunk counts."""
     monkeypatch.setattr(rainflow_fast, "SHORTEST", 2)
-    monkeypatch.setattr(rainflow_fast, "CHUNK", 7)
+    monkeypatch.setattr(rainflow_fast, "CHUNK", 32)
     monkeypatch.setattr(rainflow_fast, "RESIDUE", 80)
     rng = np.random.default_rng(KINDS.index(kind))
     for t in (2, 3, 8, 50, 400):
@@ -187,13 +189,14 @@ class Slices:
 
 
 @pytest.mark.parametrize("yield_MPa", [None, 30.0])
-def test_modal_coordinates_need_not_be_in_memory(yield_MPa: float | None) -> None:
+def test_modal_coordinates_need_not_be_in_memory(yield_MPa: float | None, tmp_path: Path) -> None:
     """Slices of bounded length are enough, also for what is counted in double precision, and count the same bytes."""
     S_m, S_b, q = modal_block(4, points=150, t=20_100)
     size, ratio = np.ones(150), np.full((150, 2), 0.3)
     choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": yield_MPa, "mean_stress": False}
     record = record_of(q.astype(np.float32))
-    of_slices = replace(record, exact=Slices(record.exact), q=Slices(record.q))
+    on_disk = create_spool(tmp_path / "q", q.shape, np.dtype(np.float32))
+    of_slices = replace(record_of(record.exact, on_disk), exact=Slices(record.exact))
     array, slices = (count_block_fast(S_m, S_b, r, size, ratio, ALUMINIUM, **choices) for r in (record, of_slices))
     for name in BlockCount.__slots__:
         np.testing.assert_array_equal(getattr(array, name), getattr(slices, name))

@@ -1,7 +1,7 @@
 """The bounds from the few histories of a weld: never below what is counted, and hardly above it."""
 
-from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +12,7 @@ from fatigue.life.history import Residue
 from fatigue.life.rainflow import count_block, rainflow
 from fatigue.life.rainflow_fast import record_of
 from fatigue.life.screening import damage_bound, modal_extent
+from fatigue.life.spool import create_spool
 from fatigue.life.weld_basis import reduced_bound, weld_bases
 from tests.awkward_records import KINDS, LAWS, modal_coordinates
 
@@ -49,7 +50,7 @@ def test_no_point_is_damaged_more_than_its_bound(kind: str, residue: Residue, mo
         extents = [modal_extent(q, residue) for q in events]
         bases = weld_bases(S_m, S_b, weld, extents)
         rows = np.flatnonzero(rng.random(len(weld)) < 0.8)
-        monkeypatch.setattr(weld_basis, "CHUNK", int(rng.integers(1, 100)))
+        monkeypatch.setattr(weld_basis, "CHUNK", 32 * int(rng.integers(1, 4)))
         monkeypatch.setattr(weld_basis, "POINTS", int(rng.integers(1, 10)))
         stress = np.stack([S_m + S_b, S_m - S_b], axis=1)[rows]
         for q, extent in zip(events, extents, strict=True):
@@ -116,7 +117,7 @@ def test_chunks_and_blocks_leave_no_seam(monkeypatch: pytest.MonkeyPatch) -> Non
     extent, record, rows = modal_extent(q, "repeat"), record_of(q), np.arange(20)
     bases = weld_bases(S_m, S_b, np.repeat([0, 1, 2], [9, 4, 7]), [extent])
     whole = reduced_bound(bases, rows, record, extent)
-    monkeypatch.setattr(weld_basis, "CHUNK", 97)
+    monkeypatch.setattr(weld_basis, "CHUNK", 96)
     monkeypatch.setattr(weld_basis, "POINTS", 3)
     for one, other in zip(whole, reduced_bound(bases, rows, record, extent), strict=True):
         assert one == pytest.approx(other, rel=1e-3)
@@ -135,7 +136,7 @@ def test_every_station_has_its_own_bound() -> None:
         assert some_sums == pytest.approx(sums[:, rows], rel=1e-5)
 
 
-def test_a_record_is_read_by_slices_of_time_only() -> None:
+def test_a_record_is_read_by_slices_of_time_only(tmp_path: Path) -> None:
     """So that it may lie on disk."""
 
     class OnDisk:
@@ -155,7 +156,8 @@ def test_a_record_is_read_by_slices_of_time_only() -> None:
     assert on_disk.reach == extent.reach
     bases = weld_bases(S_m, S_b, np.zeros(5, int), [extent])
     expected = reduced_bound(bases, np.arange(5), record, extent)
-    found = reduced_bound(bases, np.arange(5), replace(record, q=OnDisk(record.q)), on_disk)
+    of_file = record_of(q, create_spool(tmp_path / "q", q.shape, np.dtype(np.float32)))
+    found = reduced_bound(bases, np.arange(5), of_file, on_disk)
     for one, other in zip(expected, found, strict=True):
         assert (one == other).all()
 
