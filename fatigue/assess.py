@@ -20,18 +20,21 @@ from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.folder import publish, refuse_foreign, result_log
 from fatigue.pipeline.model import check_forces, toe_faces, weld_groups
 from fatigue.pipeline.orders import Order
+from fatigue.pipeline.piece import TIERS
 from fatigue.pipeline.provenance import provenance_record
 from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, worst_points
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
-from fatigue.pipeline.settle import TIERS
 from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
 from fatigue.pipeline.workers import Group, by_orders, by_threads
+from fatigue.readers.spare_memory import give_back
 from fatigue.report.page import write_report
 from fatigue.report.vtp import write_vtp
 from fatigue.results import TableWriter, result_tables, write_json
 from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
 
 log = logging.getLogger(__name__)
+
+GIVE_BACK = 4  # groups after which freed memory goes back to the system
 
 Progress = Callable[[str, int, int], None]
 
@@ -88,7 +91,7 @@ def assess(
     NumericalError : a computation lost its footing
     """
     body = read_body(case, strict=strict)
-    plan, record_warnings = mission_plan(body)
+    plan, record_warnings = mission_plan(body, threads)
     inputs = inputs_of(case)
     counted = Counted(share, proves_worst)
     key = key_of(inputs, counted)
@@ -96,19 +99,22 @@ def assess(
     refuse_foreign(folder, force=force)
     with locked(folder), one_blas_thread(), Checkpoint(folder, key) as state:
         groups = weld_groups(body, scratch=state.folder / "forces")
-        check_forces(groups)
+        check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            work = open_work(groups, plan, counted, state.folder)
+            work = open_work(groups, plan, counted, state.folder, threads)
+            give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
-            done = Tally(total=sum(len(line.node) for line in body.lines), progress=progress)
+            done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             unpublished = state.folder / "tables"
             with result_tables(unpublished) as tables, closing(assessed):
                 for group in assessed:
                     done.add(group, work, write_group(tables, group, work))
+                    if done.groups % GIVE_BACK == 0:
+                        give_back()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
@@ -159,9 +165,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     model, result, plan = group.model, group.result, work.plan
     stations, welds = model.stations, [weld.name for weld in model.welds]
     worst, screened = worst_points(model, result), np.repeat(result.tier[:, None], 2, axis=1)
-    tables["nodes"].write(
-        node_rows(stations, result.mission, result.raw_life_km, toe_faces(model), screened, plan, welds)
-    )
+    tables["nodes"].write(node_rows(stations, result.mission, toe_faces(model), screened, plan, welds))
     tables["damage"].write(damage_rows(stations, result.events, plan, welds))
     tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds))
     shown = [p for p in worst if result.mission.utilisation[p.station, p.face] >= work.kept_from]

@@ -20,11 +20,12 @@ from fatigue.pipeline.checkpoint import locked
 from fatigue.pipeline.events import event_loads, mission_plan
 from fatigue.pipeline.folder import move, result_log
 from fatigue.pipeline.model import weld_groups
-from fatigue.results import read_provenance, read_table, sha256, table_writer
+from fatigue.results import read_provenance, read_rows, sha256, table_writer
+from fatigue.results.parts import row_count
 from fatigue.spectrum.bands import third_octaves
-from fatigue.why.attribute import Attribution, EventAttribution, attribute_event
+from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.findings import Diagnosis, findings
-from fatigue.why.levers import best_levers
+from fatigue.why.levers import Levers, best_levers
 from fatigue.why.points import choose_points, gather_points
 from fatigue.why.rows import attribution_rows, diagnosis_rows, lever_rows, track_rows
 from fatigue.why.verdicts import EventVerdicts, event_verdicts
@@ -34,6 +35,7 @@ log = logging.getLogger(__name__)
 Progress = Callable[[str, int, int], None]
 
 SHARE_OF_LIMIT = 0.1  # utilisation from which a point is shared out when not all points are
+POINTS_AT_ONCE = 1000  # whose rows are written
 BIN_KM = 0.1  # about one second at 350 km/h
 
 
@@ -72,10 +74,13 @@ def diagnose(
         threadpool_limits(limits=1, user_api="blas"),
         _staging(folder) as staging,
     ):
-        chosen, worst, which = choose_points(folder, body.case, plan, share_of_limit)
-        log.info("diagnosing %s", which)
+        numbers = numbers_of_point(plan, body.modes, edges, bin_km)
+        chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
+        log.info("diagnosing %s", chosen.what)
         groups = weld_groups(body, staging / "forces")
-        points, loads = gather_points(folder, groups, chosen), event_loads(groups, plan)
+        points, worst = gather_points(folder, groups, chosen), chosen.worst
+        assessed = assessed_rows(folder, chosen.rows, plan)
+        loads = event_loads(groups, plan, staging / "histories")
 
         events: list[EventAttribution] = []
         for load, one_pass in zip(loads, plan.passes, strict=True):
@@ -83,27 +88,36 @@ def diagnose(
             events.append(attribute_event(points, load, one_pass, body.modes, edges, bin_km))
         attribution = Attribution(points, tuple(events))
         governing = attribution.event_share[worst].argmax(axis=1)
-        assessed = assessed_rows(folder, np.flatnonzero(chosen), plan)
         verdicts: list[EventVerdicts] = []
         for number, (load, event, said) in enumerate(zip(loads, events, assessed, strict=True)):
             verdicts.append(event_verdicts(body, load, points, event, said, worst[governing == number]))
         levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
         progress("diagnosis", len(loads), len(loads))
 
-        tables = {
-            "attribution": [attribution_rows(body.modes, attribution, event) for event in events],
-            "track": [track_rows(points, event) for event in events],
-            "diagnosis": [diagnosis_rows(points, verdict) for verdict in verdicts],
-            "levers": [lever_rows(body.modes, plan, attribution, levers)],
-        }
         finished = staging / "tables"
         finished.mkdir()
-        for name, pieces in tables.items():
+        for name, pieces in _tables(body, plan, attribution, levers, verdicts).items():
             with table_writer(finished, name) as table:
                 for rows in pieces:
                     table.write(rows)
         move(finished, folder)
-    return findings(body, plan, attribution, levers, verdicts, which)
+    return findings(body, plan, attribution, levers, verdicts, chosen.what)
+
+
+def _tables(
+    body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts]
+) -> dict[str, Iterator[dict[str, Any]]]:
+    """Rows of all tables by name, event by event and in each of them some points at a time."""
+    of = range(len(plan.passes))
+    firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
+    some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
+    pieces = [(attribution.of(few), [verdict.of(few) for verdict in verdicts]) for few in some]
+    return {
+        "attribution": (attribution_rows(body.modes, part, part.events[e]) for e in of for part, _ in pieces),
+        "track": (track_rows(part.points, part.events[e]) for e in of for part, _ in pieces),
+        "diagnosis": (diagnosis_rows(part.points, judged[e]) for e in of for part, judged in pieces),
+        "levers": iter([lever_rows(body.modes, plan, attribution, levers)]),
+    }
 
 
 def _senseless(edges_hz: Sequence[float] | None, bin_km: float) -> list[Problem]:
@@ -117,13 +131,23 @@ def _senseless(edges_hz: Sequence[float] | None, bin_km: float) -> list[Problem]
 
 
 def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.DataFrame]:
-    """Read what ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event."""
+    """Read what ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event.
+
+    Raises
+    ------
+    DataError : the table is missing, damaged, or not that of these points
+    """
     columns = [
         "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
         "kurtosis", "samples_per_peak",
     ]  # fmt: skip
-    table, events = read_table(folder, "damage", columns), len(plan.passes)
-    return [table.take(rows * events + number).to_pandas() for number in range(events)]
+    events = len(plan.passes)
+    expected, found = row_count(folder, "nodes") * events, row_count(folder, "damage")
+    if found != expected:
+        what = f"has {found} rows where the points and events of the result make {expected}"
+        raise DataError(Problem("other_points", str(folder / "damage.parquet"), what, "Run the assessment again"))
+    table = read_rows(folder, "damage", (rows[:, None] * events + np.arange(events)).ravel(), columns).to_pandas()
+    return [table[number::events].reset_index(drop=True) for number in range(events)]
 
 
 def _same_body(folder: Path, case_file: Path | None) -> Body:

@@ -69,6 +69,28 @@ def test_verify_the_installation():
     assert json.loads(fatigue("verify", "--json").stdout)["passed"] is True
 
 
+@pytest.mark.parametrize("command", [("verify", "--results"), ("diagnose",)], ids=["verify", "diagnose"])
+def test_broken_results_are_refused_in_one_line(command, result, tmp_path):
+    """A wrong folder, a missing table, a truncated one: file, what is wrong, what to do; exit code 3."""
+    shutil.copytree(result.parent, tmp_path / "copy")
+    folder = tmp_path / "copy" / "result"
+
+    def refusal(of) -> str:
+        done = fatigue("-q", *command, of)
+        assert done.returncode == 3, done.stderr
+        (line,) = done.stderr.strip().splitlines()
+        return line
+
+    assert "no finished result in this folder" in refusal(tmp_path)
+    path = folder / "damage.parquet"
+    path.write_bytes(path.read_bytes()[:-100])
+    assert "damage.parquet: the table cannot be read" in refusal(folder)
+    path.unlink()
+    line = refusal(folder)
+    assert "damage.parquet: no such result table" in line
+    assert "fatigue assess" in line
+
+
 def test_verify_a_result_and_find_a_spoiled_one(result, tmp_path):
     """A true result agrees; one changed life is found, with exit code 4."""
     done = fatigue("verify", "--results", result, "--all")

@@ -263,6 +263,48 @@ def test_too_many_points_leave_the_worst_and_those_above_a_share(tmp_path, monke
     assert f"{len(chosen)} of 28" in found.summary.points
 
 
+def test_too_many_worst_points_leave_those_with_the_shortest_lives(tmp_path, monkeypatch):
+    """Of welds, then of the others above the share, as many as samples or memory allow."""
+    case = small_case(seconds=6.0)
+    found = run(case, tmp_path / "all")
+    samples = sum(len(history) for history in case.histories.values()) - 200  # the start of one is cut
+    monkeypatch.setattr(fatigue.why.points, "MOST_SAMPLES", 0)
+    toe = found.nodes[found.nodes.toe].set_index(POINT)["utilisation"]
+    worst = toe[toe.groupby("weld").idxmax()].sort_values(ascending=False)
+    others = toe.drop(worst.index).sort_values(ascending=False, kind="stable")
+    for most, expected in ((1, [worst.index[0]]), (5, [*worst.index, *others.index[:3]])):
+        monkeypatch.setattr(fatigue.why.points, "MOST_SAMPLES_OF_WORST", most * samples)
+        summary = diagnose(found.folder, share_of_limit=0.0)
+        rows = pd.read_parquet(found.folder / "attribution.parquet").drop_duplicates(POINT).set_index(POINT)
+        assert set(rows.index) == set(expected)
+        assert summary.points.endswith("more would take long")
+        assert len(summary.findings) == min(most, 2)
+        assert summary.findings[0].weld == worst.index[0][0]
+    monkeypatch.setattr(fatigue.why.points, "MOST_NUMBERS", 1)
+    assert "the worst points of the 1 of 2 welds" in diagnose(found.folder).points
+
+
+def test_pieces_of_points_write_the_same_tables(tmp_path, monkeypatch):
+    """Some points at a time: the same rows in the same order."""
+    found = run(small_case(seconds=6.0), tmp_path)
+    monkeypatch.setattr("fatigue.diagnose.POINTS_AT_ONCE", 5)
+    diagnose(found.folder)
+    for name in TABLES:
+        pd.testing.assert_frame_equal(pd.read_parquet(found.folder / f"{name}.parquet"), found.tables[name])
+
+
+def test_records_on_disk_give_the_same_diagnosis(tmp_path, monkeypatch):
+    """Records that are too long to be held together are read again and again."""
+    found = run(small_case(seconds=6.0), tmp_path)
+    monkeypatch.setattr("fatigue.pipeline.events.HELD_BYTES", 0.0)
+    diagnose(found.folder)
+    for name in TABLES:
+        pd.testing.assert_frame_equal(
+            pd.read_parquet(found.folder / f"{name}.parquet"), found.tables[name], rtol=1e-9, atol=1e-12
+        )
+    assert not [path.name for path in found.folder.iterdir() if path.name.startswith(".")]
+
+
 def test_nothing_damages(tmp_path):
     """A body at rest has no finding and no lever, and every share is 0."""
     case = sine_only()
@@ -344,6 +386,17 @@ def test_refuses_other_points(tmp_path):
     path = tmp_path / "result" / "nodes.parquet"
     pd.read_parquet(path).iloc[2:].to_parquet(path)
     with pytest.raises(DataError, match="has other points than the case from row 1 on"):
+        diagnose(tmp_path / "result")
+
+
+@pytest.mark.parametrize("table", ["nodes", "damage"])
+def test_refuses_rows_too_many(tmp_path, table):
+    """A table that goes on behind the last point."""
+    assess(load_case(sine_only().write(tmp_path / "case")), tmp_path / "result", report=False)
+    path = tmp_path / "result" / f"{table}.parquet"
+    frame = pd.read_parquet(path)
+    pd.concat([frame, frame[:1]]).to_parquet(path)
+    with pytest.raises(DataError, match=rf"{table}\.parquet: has {len(frame) + 1} .* Run the assessment again"):
         diagnose(tmp_path / "result")
 
 

@@ -51,7 +51,7 @@ def samples_between(laid_out: Numbers, first: int, end: int) -> Numbers:
 
 
 def samples_of(record: Numbers | Spool, first: int, end: int, into: Numbers) -> Numbers:
-    """Some samples of a record as `multiply` reads them: part of one laid out in memory, or read from disk."""
+    """Give some samples of a record as `multiply` reads them: part of one laid out in memory, or read from disk."""
     if isinstance(record, Spool):
         return prepared_samples(record[:, first:end], into)
     return samples_between(record, first, end)

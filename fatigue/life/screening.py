@@ -28,8 +28,9 @@ from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage, ratio_factor
-from fatigue.life.history import Residue, mean_and_covariance
-from fatigue.life.spool import Samples, time_slices
+from fatigue.life.forms import FormPair, face_forms, form_pair
+from fatigue.life.history import Residue, cached_pieces, mean_and_covariance
+from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]
 
@@ -45,20 +46,20 @@ class ModalExtent:
     ----------
     mean : (m,)
     covariance : (m, m)
+    products : the covariance beside the sum of dq dq' over the steps
     reach : largest sqrt(q' P^-1 q) over time, q without its mean, P the covariance with ``RIDGE``
     ranges, variations : (m,) range and total variation of each coordinate
     samples, steps : how many there are; as many steps as samples where the record recurs
-    step_products : (m, m) sum of dq dq' over the steps
     """
 
     mean: Floats
     covariance: Floats
+    products: FormPair
     reach: float
     ranges: Floats
     variations: Floats
     samples: int
     steps: int
-    step_products: Floats
 
 
 def modal_extent(q: Samples, residue: Residue) -> ModalExtent:
@@ -76,8 +77,8 @@ def modal_extent(q: Samples, residue: Residue) -> ModalExtent:
     highest, lowest = np.full(modes, -np.inf), np.full(modes, np.inf)
     before = samples - 1 if residue == "repeat" else 0  # what recurs steps from its last sample to its first one
     last = q[:, before : before + 1].astype(np.float64)
-    for piece in time_slices(q.shape):
-        x = np.concatenate([last, q[:, piece]], axis=1)
+    for piece in cached_pieces(q):
+        x = np.concatenate([last, piece], axis=1)
         last = x[:, -1:].copy()
         highest, lowest = np.maximum(highest, x.max(axis=1)), np.minimum(lowest, x.min(axis=1))
         step = np.diff(x, axis=1)
@@ -89,12 +90,12 @@ def modal_extent(q: Samples, residue: Residue) -> ModalExtent:
     return ModalExtent(
         mean=mean,
         covariance=covariance,
+        products=form_pair(covariance, step_products),
         reach=reach,
         ranges=highest - lowest,
         variations=variations,
         samples=samples,
         steps=samples if residue == "repeat" else samples - 1,
-        step_products=step_products,
     )
 
 
@@ -106,19 +107,22 @@ def extent_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats,
     ``sum |w| TV(q)``, are taken where they are smaller. R <= TV in any history. From ``|a |a| - b |b|| <= (|a| + |b|)
     |a - b|`` follows ``TV(s |s|) <= sqrt(4 sum s^2) sqrt(sum ds^2)``. Shapes S_m, S_b (n, m) as in `count_block_fast`.
     """
-    peak, norm = size_bound(S_m, S_b, extent)
-    norm_of_steps = np.sqrt(_forms(S_m, S_b, extent.step_products))
-    weights = _faces(S_m, S_b)
-    variation = np.minimum(np.sqrt(extent.steps) * norm_of_steps, weights @ extent.variations)
-    largest = np.minimum(np.minimum(2.0 * peak, weights @ extent.ranges), variation)
-    return largest * (1.0 + ROUNDING), np.stack([0.5 * variation, 2.0 * norm * norm_of_steps]) * (1.0 + ROUNDING)
+    deviations = np.sqrt(np.diagonal(extent.covariance))
+    limits = np.stack([extent.variations, extent.ranges, deviations, extent.products.size], axis=1)
+    variations, ranges, modal, size = np.moveaxis(_faces(S_m, S_b) @ limits, 2, 0)
+    variance, of_steps = _bounded_forms(S_m, S_b, size, extent.products)
+    variation = np.minimum(np.sqrt(extent.steps * of_steps), variations)
+    largest = np.minimum(np.minimum(2.0 * _peak(variance, modal, extent), ranges), variation)
+    squares = 2.0 * np.sqrt(extent.samples * variance * of_steps)
+    return largest * (1.0 + ROUNDING), np.stack([0.5 * variation, squares]) * (1.0 + ROUNDING)
 
 
 def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
     """Bound max |s| and sqrt(sum s^2) of top and bottom stress, s without its mean, each (n, 2)."""
-    variance = _forms(S_m, S_b, extent.covariance)
-    modal = _faces(S_m, S_b) @ np.sqrt(np.diagonal(extent.covariance))
-    return extent.reach * np.sqrt(variance + RIDGE * modal**2), np.sqrt(extent.samples * variance)
+    limits = np.stack([np.sqrt(np.diagonal(extent.covariance)), extent.products.size], axis=1)
+    modal, size = np.moveaxis(_faces(S_m, S_b) @ limits, 2, 0)
+    variance, _ = _bounded_forms(S_m, S_b, size, extent.products)
+    return _peak(variance, modal, extent), np.sqrt(extent.samples * variance)
 
 
 def damage_bound(
@@ -157,15 +161,18 @@ def may_need_mean_stress(mean: Floats, stress_range: Floats, yield_MPa: float) -
 
 def _faces(S_m: Floats, S_b: Floats) -> Floats:
     """Sizes of the modal stresses of top and bottom, (n, 2, m)."""
-    return np.abs(np.stack([S_m + S_b, S_m - S_b], axis=1))
+    faces = np.empty((len(S_m), 2, S_m.shape[1]))
+    np.add(S_m, S_b, out=faces[:, 0])
+    np.subtract(S_m, S_b, out=faces[:, 1])
+    return np.abs(faces, out=faces)
 
 
-def _forms(S_m: Floats, S_b: Floats, A: Floats) -> Floats:
-    """Evaluate w'A w, never negative, of top and bottom, (n, 2), with its largest rounding error added."""
-    of_membrane, of_bending = S_m @ A, S_b @ A
-    squares = np.einsum("nm,nm->n", of_membrane, S_m) + np.einsum("nm,nm->n", of_bending, S_b)
-    product = 2.0 * np.einsum("nm,nm->n", of_membrane, S_b)
-    modal = (np.abs(S_m) + np.abs(S_b)) @ np.sqrt(np.diagonal(A))
-    rounding = 4.0 * len(A) * np.finfo(np.float64).eps * modal**2
-    forms = np.stack([squares + product, squares - product], axis=1)
-    return np.asarray(np.maximum(forms, 0.0) + rounding[:, None])
+def _peak(variance: Floats, modal: Floats, extent: ModalExtent) -> Floats:
+    """Bound max |s| by its variance and the sum of the deviations of its modal stresses."""
+    return np.asarray(extent.reach * np.sqrt(variance + RIDGE * modal**2))
+
+
+def _bounded_forms(S_m: Floats, S_b: Floats, size: Floats, pair: FormPair) -> Floats:
+    """Evaluate both forms of a pair, (2, n, 2), with their largest rounding errors added; ``size`` is that of faces."""
+    of_parts = size.sum(axis=1)  # not below that of |S_m| + |S_b|
+    return np.asarray(face_forms(S_m, S_b, pair) + pair.rounding[:, None, None] * of_parts[:, None] ** 2)

@@ -43,8 +43,8 @@ class Spool:
             return found
         with self.path.open("rb", buffering=0) as file:
             for columns, start, width, inside in self._chunks(first, end):
-                if len(found) == 1:
-                    self._read_at(file, start + first_mode * width + inside.start, found[0, columns])
+                if len(found) == 1 or columns.stop - columns.start == width == found.shape[1]:  # in one piece
+                    self._read_at(file, start + first_mode * width + inside.start, found[:, columns])
                 else:
                     rows = np.empty((len(found), width), dtype=self.dtype)
                     self._read_at(file, start + first_mode * width, rows)

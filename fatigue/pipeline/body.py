@@ -9,9 +9,11 @@ from fatigue.case import Case, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.line_file import LineFile, line_file
 from fatigue.readers.neutral_folder import RECORD, read_record
+from fatigue.readers.spare_memory import give_back
 from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
-from fatigue.weld.line import WeldLine, length
+from fatigue.weld.line import LineStack, length
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +29,7 @@ class Body:
     case: Case
     modes: Modes
     welds: tuple[Weld, ...]
-    lines: tuple[WeldLine, ...]
+    lines: LineFile
     curves: Mapping[str, RatedCurve]
     mesh: Mesh | None
     excluded: tuple[RegisterRow, ...]
@@ -54,9 +56,9 @@ def read_body(case: Case, *, strict: bool) -> Body:
     welds, doubts = read_welds(case.resolve(files.welds), known_curves, strict=strict)
     warnings += doubts
     curves = rated_curves(case, known_curves, welds)
-    lines, doubts = read_weld_nodes(case.resolve(files.weld_nodes), welds, strict=strict)
+    lines, doubts = _lines_on_disk(case, welds, strict=strict)
     warnings += doubts
-    refuse(DataError, _unit_problems(lines, files.weld_nodes))
+    give_back()
     mesh: Mesh | None = None
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
@@ -70,7 +72,14 @@ def read_body(case: Case, *, strict: bool) -> Body:
     return Body(case, modes, welds, lines, curves, mesh, excluded, conversion, strict, tuple(warnings))
 
 
-def _unit_problems(lines: Sequence[WeldLine], file: str) -> list[Problem]:
+def _lines_on_disk(case: Case, welds: Sequence[Weld], *, strict: bool) -> tuple[LineFile, list[Problem]]:
+    """Read and check the lines of all welds; in memory they are together only here."""
+    lines, doubts = read_weld_nodes(case.resolve(case.body.weld_nodes), welds, strict=strict)
+    refuse(DataError, _unit_problems(lines, case.body.weld_nodes))
+    return line_file(lines), doubts
+
+
+def _unit_problems(lines: LineStack, file: str) -> list[Problem]:
     """Find coordinates that cannot be mm: every weld line shorter than its plate is thick."""
     if any(length(line) >= line.thickness.min() for line in lines):
         return []

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.damage import ratio_factor
+from fatigue.life.forms import face_forms
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.shapes import Shapes, faces, quadratic
+from fatigue.pipeline.shapes import Shapes, quadratic
 from fatigue.quotient import quotient
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
-from fatigue.spectrum.moments import point_moments
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,16 +56,16 @@ def estimate_event(shapes: Shapes, load: EventLoad) -> Estimate:
 
     Both the estimates and the rainflow damage they are compared with use one bending ratio per station.
     """
-    S_m, S_b = load.stress_factor * shapes.membrane, load.stress_factor * shapes.bending
-    stress = faces(S_m, S_b)
-    std_m, std_b = (np.sqrt(quadratic(S, load.covariance, S)) for S in (S_m, S_b))
+    S_m, S_b, f = shapes.membrane, shapes.bending, load.stress_factor
+    std_m, std_b = (f * np.sqrt(quadratic(S, load.covariance, S)) for S in (S_m, S_b))
     bending_ratio = np.repeat(quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
-    mean = stress @ load.mean
+    mean_m, mean_b = f * (S_m @ load.mean), f * (S_b @ load.mean)
+    mean = np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
     if load.moments is None:
         nothing = np.full(mean.shape, np.nan)
         return Estimate(bending_ratio, mean, np.full((4, *mean.shape), np.nan), *(nothing,) * 5)
 
-    moments = point_moments(stress.reshape(-1, stress.shape[-1]), load.moments).reshape(4, *mean.shape)
+    moments = f**2 * np.concatenate([face_forms(S_m, S_b, pair) for pair in load.moment_pairs])
     I_s = ratio_factor(np.nan_to_num(bending_ratio)) if shapes.uses_bending_ratio else 1.0
     equivalent = (moments * (shapes.size[:, None] / I_s) ** 2).reshape(4, -1)
     m0, _, m2, m4 = moments

@@ -18,7 +18,7 @@ from fatigue.life.spool import Spool
 from fatigue.pipeline.bounds import Bound
 from fatigue.pipeline.estimate import Estimate, estimate_event
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.shapes import Shapes, faces, quadratic
+from fatigue.pipeline.shapes import RawEnds, Shapes, faces, quadratic
 from fatigue.quotient import quotient
 from fatigue.spectrum.diagnosis import VERDICTS, diagnose
 
@@ -30,15 +30,16 @@ _LONGEST_ROW = 250_000  # samples of a record of which 16 rows at a time are wor
 class EventBlock:
     """One pass of one event at a block of stations; every array is (n, 2): top and bottom face.
 
-    Damages are Miner sums of one pass; so are ``cycles`` (sum n) and ``power_sum`` (sum n S^k). ``histogram`` is
-    (n, 2, b, 2), see ``BlockCount``; ``verdict`` is an index into ``VERDICTS``. What needs a spectrum is NaN without
-    one, what needs cycles is NaN where bounds stand for them.
+    Damages are Miner sums of one pass, ``damage_raw_end`` that without the end treatment; so are ``cycles`` (sum n) and
+    ``power_sum`` (sum n S^k). ``histogram`` is (n, 2, b, 2), see ``BlockCount``; ``verdict`` is an index into
+    ``VERDICTS``. What needs a spectrum is NaN without one, what needs cycles is NaN where bounds stand for them.
     """
 
     damage: NDArray[np.float64]
     damage_same_ratio: NDArray[np.float64]
     damage_mean_stress: NDArray[np.float64]
     damage_shear: NDArray[np.float64]
+    damage_raw_end: NDArray[np.float64]
     damage_dirlik: NDArray[np.float64]
     damage_tb: NDArray[np.float64]
     cycles: NDArray[np.float64]
@@ -62,13 +63,6 @@ def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None,
     return count_event(shapes, load, estimate_event(shapes, load), yield_MPa, mean_stress)
 
 
-def event_damage(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> NDArray[np.float64]:
-    """Damage of one pass of an event at every station of a block and nothing else, (n, 2)."""
-    S_m, S_b = load.stress_factor * shapes.membrane, load.stress_factor * shapes.bending
-    no_ratio = np.zeros((len(shapes), 2))
-    return _superpose_and_count(S_m, S_b, no_ratio, shapes, load, yield_MPa, mean_stress).damage
-
-
 def count_event(
     shapes: Shapes, load: EventLoad, estimate: Estimate, yield_MPa: float | None, mean_stress: bool
 ) -> EventBlock:
@@ -78,7 +72,7 @@ def count_event(
     """
     f, C = load.stress_factor, load.covariance
     S_m, S_b = f * shapes.membrane, f * shapes.bending
-    counted = _superpose_and_count(S_m, S_b, estimate.one_ratio, shapes, load, yield_MPa, mean_stress)
+    counted, raw_end = _counted(S_m, S_b, estimate.one_ratio, shapes, load, yield_MPa, mean_stress)
 
     stress, shear = faces(S_m, S_b), faces(f * shapes.in_plane_shear, f * shapes.twist_shear)
     var, shear_var, covar = quadratic(stress, C, stress), quadratic(shear, C, shear), quadratic(stress, C, shear)
@@ -92,6 +86,7 @@ def count_event(
         damage_same_ratio=counted.damage_same_ratio,
         damage_mean_stress=counted.damage_mean_stress,
         damage_shear=np.where(counted.damage > 0.0, counted.damage * with_shear, 0.0),
+        damage_raw_end=raw_end,
         damage_dirlik=estimate.dirlik,
         damage_tb=estimate.tb,
         cycles=counted.cycles,
@@ -111,14 +106,17 @@ def count_event(
     )
 
 
-def bounded_event(estimate: Estimate, bound: Bound) -> EventBlock:
+def bounded_event(estimate: Estimate, bound: Bound, raw_ends: RawEnds | None) -> EventBlock:
     """Take proven bounds for one pass of an event: damage and largest ranges are never larger; nothing was counted."""
     unknown = np.full(bound.damage.shape, np.nan)
+    raw_end = bound.damage.copy()
+    raw_end[[] if raw_ends is None else raw_ends.rows] = np.nan
     return EventBlock(
         damage=bound.damage,
         damage_same_ratio=unknown,
         damage_mean_stress=unknown,
         damage_shear=unknown,
+        damage_raw_end=raw_end,
         damage_dirlik=estimate.dirlik,
         damage_tb=estimate.tb,
         cycles=unknown,
@@ -160,9 +158,41 @@ def no_overflow(event: str, welds: str) -> Iterator[None]:
         ) from None
 
 
+def _counted(
+    S_m: NDArray[np.float64],
+    S_b: NDArray[np.float64],
+    one_ratio: NDArray[np.float64],
+    shapes: Shapes,
+    load: EventLoad,
+    yield_MPa: float | None,
+    mean_stress: bool,
+) -> tuple[BlockCount, NDArray[np.float64]]:
+    """Count a block, and beside it the ends as they are without treatment: their damage is that of (n, 2)."""
+    ends = shapes.raw_ends
+    if ends is None or not ends.rows.size:
+        counted = _superpose_and_count(S_m, S_b, shapes.size, one_ratio, shapes, load, yield_MPa, mean_stress)
+        return counted, counted.damage
+    n, f = len(shapes), load.stress_factor
+    everything = _superpose_and_count(
+        np.concatenate([S_m, f * ends.membrane]),
+        np.concatenate([S_b, f * ends.bending]),
+        np.concatenate([shapes.size, shapes.size[ends.rows]]),
+        np.concatenate([one_ratio, one_ratio[ends.rows]]),
+        shapes,
+        load,
+        yield_MPa,
+        mean_stress,
+    )
+    counted = BlockCount(*(getattr(everything, field.name)[:n] for field in fields(BlockCount)))
+    raw_end = counted.damage.copy()
+    raw_end[ends.rows] = everything.damage[n:]
+    return counted, raw_end
+
+
 def _superpose_and_count(
     S_m: NDArray[np.float64],
     S_b: NDArray[np.float64],
+    size: NDArray[np.float64],
     one_ratio: NDArray[np.float64],
     shapes: Shapes,
     load: EventLoad,
@@ -175,7 +205,7 @@ def _superpose_and_count(
             S_m,
             S_b,
             load.single,
-            shapes.size,
+            size,
             one_ratio,
             shapes.law,
             uses_bending_ratio=shapes.uses_bending_ratio,
@@ -189,7 +219,7 @@ def _superpose_and_count(
             S_m,
             S_b,
             q,
-            shapes.size,
+            size,
             one_ratio,
             shapes.law,
             uses_bending_ratio=shapes.uses_bending_ratio,
@@ -204,7 +234,7 @@ def _superpose_and_count(
         piece = count_block(
             stress_history(S_m[some], q),
             stress_history(S_b[some], q),
-            shapes.size[some],
+            size[some],
             one_ratio[some],
             shapes.law,
             uses_bending_ratio=shapes.uses_bending_ratio,

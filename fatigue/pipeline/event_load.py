@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.forms import FormPair, form_pair
 from fatigue.life.history import ModalHistory, Residue, mean_and_covariance, upsampled
 from fatigue.life.rainflow_fast import Record, record_of
 from fatigue.life.spool import Samples, Spool, create_spool
 from fatigue.spectrum.diagnosis import DiagnosisMatrices, diagnosis_matrices
-from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices
+from fatigue.spectrum.moments import MomentMatrices, Spectra
 
 HELD_SINGLE = 256e6  # bytes of one record
 
@@ -29,6 +30,7 @@ class EventLoad:
     mean : (m,) time mean of q over the kept samples
     covariance : (m, m) covariance of q over the kept samples
     moments, diagnosis : moment matrices of q and what the diagnosis needs, None for a record shorter than one segment
+    moment_pairs : those of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
     top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
     """
 
@@ -40,6 +42,7 @@ class EventLoad:
     mean: NDArray[np.float64]
     covariance: NDArray[np.float64]
     moments: MomentMatrices | None
+    moment_pairs: tuple[FormPair, ...]
     diagnosis: DiagnosisMatrices | None
     top_mode_hz: float | None
 
@@ -59,7 +62,11 @@ def prepare_event(
 
     ``single``: for the fast kernel; ``scratch``: folder for whatever is as large as the record, None: in memory.
     """
-    mean, covariance = mean_and_covariance(history.q)
+    diagnosis = None if spectra is None else diagnosis_matrices(history, spectra)
+    if diagnosis is None:
+        moments, (mean, covariance) = None, mean_and_covariance(history.q)
+    else:
+        moments, mean, covariance = diagnosis.moments, diagnosis.record.mean, diagnosis.record.covariance
     counted = upsampled(history, upsample, residue, scratch and scratch / "upsampled")
     return EventLoad(
         counted=counted,
@@ -69,8 +76,9 @@ def prepare_event(
         duration=history.duration,
         mean=mean,
         covariance=covariance,
-        moments=None if spectra is None else moment_matrices(spectra),
-        diagnosis=None if spectra is None else diagnosis_matrices(history, spectra),
+        moments=moments,
+        moment_pairs=() if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])),
+        diagnosis=diagnosis,
         top_mode_hz=top_mode_hz,
     )
 

@@ -15,6 +15,7 @@ from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.event_load import EventLoad, prepare_event
 from fatigue.pipeline.model import WeldGroups, solve_group
+from fatigue.pipeline.side_by_side import in_order
 from fatigue.readers.history import TimeGrid, check_history, read_history
 from fatigue.spectrum.moments import (
     Spectra,
@@ -35,55 +36,54 @@ RECORD = "record"  # file of the samples as they were read
 HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
 
 
-def mission_plan(body: Body) -> tuple[Plan, tuple[Problem, ...]]:
-    """Read and check every record of the mission; return its passes per km and the doubts about the records."""
+def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
+    """Read and check every record of the mission; return its passes per km and the doubts about the records.
+
+    The records are read on some threads, by default one per processor core, and a column of each is in memory.
+    """
+    mission = body.case.mission
     warnings: list[Problem] = []
     problems: list[Problem] = []
     passes: list[Pass] = []
-    case = body.case
-    for event in case.mission.event:
-        path = case.resolve(event.history)
-        try:
-            grid, doubts = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
-            samples = _kept_samples(case, event, grid)
-        except FatigueError as error:
-            problems += error.problems
-            continue
-        warnings += doubts + _record_warnings(body, event, samples, grid.step)
-        passes.append(
-            Pass(
-                event=event.name,
-                samples=samples,
-                length=event_length_km(event, samples * grid.step),
-                share=event.share,
-                per_1000_km=event.per_1000_km,
-            )
-        )
+    for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
+        if isinstance(checked, FatigueError):
+            problems += checked.problems
+        else:
+            passes.append(checked[0])
+            warnings += checked[1]
     refuse(DataError, problems)
-    mission = case.mission
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def event_loads(groups: WeldGroups, plan: Plan, scratch: Path | None = None) -> tuple[EventLoad, ...]:
+def event_loads(
+    groups: WeldGroups, plan: Plan, scratch: Path | None = None, threads: int | None = None
+) -> tuple[EventLoad, ...]:
     """Read the records of all events and compute what all stations share; they are kept while welds stream by.
 
     ``scratch`` is a folder for the longest records where all of them are more than ``HELD_BYTES``; None: all are held
-    in memory, whatever their size.
+    in memory, whatever their size. ``threads`` prepare an event each, by default one per processor core; the numbers do
+    not depend on how many there are.
     """
     body, events = groups.body, groups.body.case.mission.event
     sizes = np.array([len(body.modes.mode) * p.samples for p in plan.passes])
     factor = body.case.counting.upsample
     folders = _folders(4 * sizes, scratch)
     factors = _automatic_factors(groups, folders) if factor == "auto" else [factor] * len(events)
-    stations = sum(len(line.node) for line in body.lines)
+    stations = int(body.lines.begin[-1])
     samples = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
     single = 2 * stations * samples > DOUBLE_PRECISION_SAMPLES
     log.info("cycles are counted in %s precision", "single" if single else "double")
+    for event, upsample in zip(events, factors, strict=True):
+        if upsample > 1:
+            log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
-    return tuple(
-        event_load(body, event, upsample, single=single, scratch=folder)
-        for event, upsample, folder in zip(events, factors, _folders(bytes_held, scratch), strict=True)
-    )
+
+    def prepared(job: tuple[Event, int, Path | None]) -> EventLoad:
+        event, upsample, folder = job
+        return event_load(body, event, upsample, single=single, scratch=folder)
+
+    jobs = zip(events, factors, _folders(bytes_held, scratch), strict=True)
+    return tuple(in_order(prepared, jobs, threads))
 
 
 def event_load(
@@ -91,8 +91,6 @@ def event_load(
 ) -> EventLoad:
     """Read the record of one event and compute what all stations share; ``scratch``: folder to keep the record in."""
     history = _record(body, event, scratch)
-    if upsample > 1:
-        log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     try:
         with np.errstate(over="raise"):
             spectra = event_spectra(body, history)
@@ -153,6 +151,26 @@ def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
         scratch=scratch and scratch / RECORD,
     )
     return kept(whole, event.start_s)
+
+
+def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
+    """Read and check the record of an event: its passes and the doubts about it, or what is wrong with it."""
+    case = body.case
+    try:
+        grid, doubts = check_history(
+            case.resolve(event.history), body.modes.mode, case.body.ignore_modes, strict=body.strict
+        )
+        samples = _kept_samples(case, event, grid)
+    except FatigueError as error:
+        return error
+    one = Pass(
+        event=event.name,
+        samples=samples,
+        length=event_length_km(event, samples * grid.step),
+        share=event.share,
+        per_1000_km=event.per_1000_km,
+    )
+    return one, doubts + _record_warnings(body, event, samples, grid.step)
 
 
 def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:

@@ -16,12 +16,14 @@ from fatigue.quotient import quotient
 class MissionBlock:
     """Results of the whole mission at a block of stations; every array is (n, 2): top and bottom face.
 
-    ``governing`` is the index of the event with the largest share of the damage, -1 where nothing damages; ``verdict``
-    that of the event with the largest share of the damage among those that have a spectrum.
+    ``life_km_raw_end`` is the life without the end treatment, NaN where that was not counted. ``governing`` is the
+    index of the event with the largest share of the damage, -1 where nothing damages; ``verdict`` that of the event
+    with the largest share of the damage among those that have a spectrum.
     """
 
     damage_per_km: NDArray[np.float64]
     life_km: NDArray[np.float64]
+    life_km_raw_end: NDArray[np.float64]
     utilisation: NDArray[np.float64]
     load_factor: NDArray[np.float64]
     life_km_dirlik: NDArray[np.float64]
@@ -63,6 +65,7 @@ def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> Mi
     return MissionBlock(
         damage_per_km=damage,
         life_km=life_km(damage, plan.damage_limit),
+        life_km_raw_end=_life(_sum_over("damage_raw_end", parts, plan), plan),
         utilisation=utilisation,
         load_factor=_load_factor(parts, utilisation, plan, law, counted),
         life_km_dirlik=_life(dirlik, plan),

@@ -1,7 +1,10 @@
 """Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
-from collections.abc import Mapping, Sequence
+import os
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,15 +19,16 @@ from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.pipeline.stations import Stations, stations_of
 from fatigue.readers.body import Mesh, Modes, Weld
 from fatigue.readers.force_pieces import ForcePieces
-from fatigue.readers.forces import read_element_forces, read_nodal_forces, read_weld_elements
+from fatigue.readers.forces import check_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
+from fatigue.readers.spare_memory import give_back
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.element_forces import ElementForces, balance, side_forces
-from fatigue.weld.line import WeldLine, split_at_kinks, stacked
+from fatigue.weld.line import LineStack, WeldLine, line_of_node, split_at_kinks, stacked
 from fatigue.weld.line_load import line_load
-from fatigue.weld.structural_stress import LineStress, StructuralStress, assess_line, line_stresses
+from fatigue.weld.structural_stress import StructuralStress, assess_line, line_stress
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
-SMALLEST_GROUP, LARGEST_GROUP = 32, 1024  # of so many stations: memory is bounded, matrices stay efficient
+SMALLEST_GROUP, LARGEST_GROUP = 32, 4096  # of so many stations: memory is bounded, matrices stay efficient
 IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
@@ -32,13 +36,13 @@ IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; s
 class Model:
     """Some welds of a body, or all of them, ready for events.
 
-    ``lines`` are the solved line parts of ``welds``, ``stations`` the same as one table, its ``weld`` an index into
-    ``welds``; ``warnings`` are the doubts about these welds' forces and lines.
+    ``lines`` are the line parts of ``welds`` in their order, ``stations`` their nodes, solved, as one table, its
+    ``weld`` an index into ``welds``; ``warnings`` are the doubts about these welds' forces and lines.
     """
 
     body: Body
     welds: tuple[Weld, ...]
-    lines: tuple[LineStress, ...]
+    lines: LineStack
     stations: Stations
     warnings: tuple[Problem, ...]
 
@@ -108,16 +112,35 @@ def weld_groups(body: Body, scratch: Path) -> WeldGroups:
 
     ``scratch`` is a folder for a sorted copy of the forces, should they need one.
     """
-    sizes = np.cumsum([len(line.node) for line in body.lines])
+    sizes = body.lines.begin[1:]
     group = (sizes - 1) // min(LARGEST_GROUP, max(SMALLEST_GROUP, int(sizes[-1]) // GROUPS))
-    first = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), len(sizes)]
+    first = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), sizes.size]
     return _open_groups(body, tuple(slice(a, b) for a, b in pairwise(first)), scratch)
 
 
-def check_forces(groups: WeldGroups) -> None:
-    """Read the forces of all welds once, so that a mistake in them is refused before anything is counted."""
-    for number in range(len(groups)):
-        _forces(groups, number)
+def check_forces(groups: WeldGroups, threads: int | None) -> None:
+    """Read the forces of all welds once, so that a mistake in them is refused before anything is counted.
+
+    ``threads``: by default one per processor core.
+
+    Raises
+    ------
+    DataError : the mistakes of the first group of welds that has any
+    """
+    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+        for _ in pool.map(partial(_check_group, groups), range(len(groups))):
+            pass
+    give_back()
+
+
+def _check_group(groups: WeldGroups, number: int) -> None:
+    """Check the forces of a group of welds; of element forces only the sums are left to be checked."""
+    body, lines = groups.body, groups.body.lines.lines(groups.groups[number])
+    if isinstance(groups.forces, SideForces):
+        _sums_of_sides(groups.forces, lines, body.modes)
+    else:
+        ignored = body.case.body.ignore_modes
+        check_nodal_forces(groups.forces.table(number), lines, body.modes, ignored, strict=body.strict)
 
 
 def solve_group(groups: WeldGroups, number: int) -> Model:
@@ -130,23 +153,20 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     body = groups.body
     welds = body.welds[groups.groups[number]]
     lines, forces, warnings = _forces(groups, number)
-    together = stacked(lines)
-    load = line_load(together, np.concatenate(forces))
+    load = line_load(lines, forces)
     with np.errstate(over="ignore", invalid="ignore"):
-        solved = line_stresses(together, load)
-        _refuse_overflow(solved, forces)
-        jumpy = jumpy_lines(together, load)
-    for i, (line, force, result) in enumerate(zip(lines, forces, solved, strict=True)):
+        solved = line_stress(lines, load)
+        if not _is_finite(solved.treated):
+            _refuse_overflow(lines, solved.treated, forces)
+        jumpy = jumpy_lines(lines, load)
+    doubtful = np.union1d(jumpy, line_of_node(lines)[solved.unresolved])
+    for i in doubtful.tolist():
+        line, nodes = lines[i], slice(lines.begin[i], lines.begin[i + 1])
         where = f"{body.case.body.weld_nodes}: weld {line.weld}"
-        warnings += edge_type_warnings(line, force, where) if i in jumpy else []
-        warnings += _end_warnings(result, where)
-    return Model(
-        body=body,
-        welds=welds,
-        lines=solved,
-        stations=stations_of(solved, [weld.name for weld in welds]),
-        warnings=tuple(warnings),
-    )
+        warnings += edge_type_warnings(line, forces[nodes], where) if i in jumpy else []
+        warnings += _end_warnings(line.node[solved.unresolved[nodes]], where)
+    stations = stations_of(lines, solved, [weld.name for weld in welds])
+    return Model(body, welds, lines, stations, tuple(warnings))
 
 
 def toe_faces(model: Model) -> NDArray[np.bool_]:
@@ -155,28 +175,28 @@ def toe_faces(model: Model) -> NDArray[np.bool_]:
     return np.array([faces[weld.surface] for weld in model.welds])[model.stations.weld]
 
 
-def _refuse_overflow(solved: Sequence[LineStress], forces: Sequence[NDArray[np.floating]]) -> None:
+def _refuse_overflow(lines: LineStack, solved: StructuralStress, forces: NDArray[np.floating]) -> None:
     """Refuse a line that has grown beyond all bounds, also when it is solved without its neighbours."""
-    for result, force in zip(solved, forces, strict=True):
-        if not _is_finite(result) and not _is_finite(assess_line(result.line, force)):
+    for line, (a, b) in zip(lines, pairwise(lines.begin), strict=True):
+        if not _is_finite(solved, slice(a, b)) and not _is_finite(assess_line(line, forces[a:b]).treated):
             problem = Problem(
                 "overflow",
-                f"weld {result.line.weld}",
+                f"weld {line.weld}",
                 "the structural stress per unit modal coordinate exceeds what double precision can hold",
                 "Check forces, coordinates and thickness of the weld for a value that is far too large or small",
             )
             raise NumericalError(problem)
 
 
-def _is_finite(solved: LineStress) -> bool:
-    return all(np.isfinite(getattr(solved.treated, part.name)).all() for part in fields(StructuralStress))
+def _is_finite(stress: StructuralStress, nodes: slice = slice(None)) -> bool:
+    return all(np.isfinite(getattr(stress, part.name)[nodes]).all() for part in fields(StructuralStress))
 
 
 def _open_groups(body: Body, groups: tuple[slice, ...], scratch: Path) -> WeldGroups:
     path = body.case.body.nodal_forces
     if path is None:
         return WeldGroups(body, groups, _side_forces(body))
-    names = [[line.weld for line in body.lines[group]] for group in groups]
+    names = [body.lines.weld[group] for group in groups]
     return WeldGroups(body, groups, ForcePieces(body.case.resolve(path), names, scratch))
 
 
@@ -194,12 +214,10 @@ def _side_forces(body: Body) -> SideForces:
     return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
 
 
-def _forces(
-    groups: WeldGroups, number: int
-) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...], list[Problem]]:
-    """Read the forces of a group of welds: their line parts, (n, m, 6) forces of each, and the doubts about them."""
+def _forces(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
+    """Read the forces of a group of welds: their line parts, the (n, m, 6) forces, and the doubts about them."""
     body, files = groups.body, groups.body.case.body
-    lines = body.lines[groups.groups[number]]
+    lines = body.lines.lines(groups.groups[number])
     if isinstance(groups.forces, SideForces):
         parts, summed = _sums_of_sides(groups.forces, lines, body.modes)
         return parts, summed, list(groups.forces.warnings) if number == 0 else []
@@ -211,10 +229,8 @@ def _forces(
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
 
 
-def _sums_of_sides(
-    sides: SideForces, lines: Sequence[WeldLine], modes: Modes
-) -> tuple[tuple[WeldLine, ...], tuple[NDArray[np.floating], ...]]:
-    """Split lines at their kinks and sum the element forces of the assessed side per part."""
+def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[LineStack, NDArray[np.floating]]:
+    """Split lines at their kinks and sum the element forces of the assessed side per part, (n, m, 6)."""
     parts: list[WeldLine] = []
     summed: list[NDArray[np.float64]] = []
     for line in lines:
@@ -222,7 +238,7 @@ def _sums_of_sides(
         parts += split
         where = f"{sides.file}: weld {line.weld}"
         summed += side_forces(split, sides.elements[line.weld], sides.forces, modes.mode, where)
-    return tuple(parts), tuple(summed)
+    return stacked(parts), np.concatenate(summed)
 
 
 def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> list[Problem]:
@@ -245,10 +261,11 @@ def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> li
     return [problem]
 
 
-def _end_warnings(solved: LineStress, where: str) -> list[Problem]:
-    if not solved.unresolved.any():
+def _end_warnings(unresolved: NDArray[np.int64], where: str) -> list[Problem]:
+    """Tell the end nodes, by id, whose edge is longer than the end treatment."""
+    if not unresolved.size:
         return []
-    nodes = ", ".join(str(node) for node in solved.line.node[solved.unresolved])
+    nodes = ", ".join(str(node) for node in unresolved)
     return [
         Problem(
             "end_unresolved",

@@ -64,7 +64,7 @@ def _opened(path: str, strict: bool, counted: Counted, key: str) -> tuple[Work, 
             )
         )
     body = read_body(case, strict=strict)
-    plan, _ = mission_plan(body)
+    plan, _ = mission_plan(body, threads=1)
     folder = TemporaryDirectory(prefix="fatigue-")
     scratch = Path(folder.name)
-    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch), folder
+    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch, threads=1), folder

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from fatigue.pipeline.model import Model, toe_faces
 from fatigue.pipeline.rows import FACES
 from fatigue.readers.weld_register import RegisterRow
 from fatigue.results import WELDS
-from fatigue.weld.line import length
+from fatigue.weld.line import lengths
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,21 +34,29 @@ def worst_points(model: Model, result: GroupResult) -> tuple[WorstPoint, ...]:
     counted = (result.tier == 0)[:, None]
     utilisation = np.where(counted & toe_faces(model), result.mission.utilisation, -1.0)
     worst = []
-    for weld in range(len(model.welds)):
-        stations = np.flatnonzero(model.stations.weld == weld)
-        at, face = divmod(int(utilisation[stations].argmax()), 2)
-        worst.append(WorstPoint(weld, int(stations[at]), face))
+    for weld, (first, end) in enumerate(pairwise(_first_stations(model))):
+        at, face = divmod(int(utilisation[first:end].argmax()), 2)
+        worst.append(WorstPoint(weld, first + at, face))
     return tuple(worst)
+
+
+def _first_stations(model: Model) -> list[int]:
+    """First station of every weld, and the number of stations."""
+    found: list[int] = np.searchsorted(model.stations.weld, np.arange(len(model.welds) + 1)).tolist()
+    return found
 
 
 def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[WorstPoint]) -> dict[str, Any]:
     """Rows of ``welds.parquet``: every weld of the case."""
-    lines = [[s.line for s in model.lines if s.line.weld == weld.name] for weld in model.welds]
+    first = _first_stations(model)
+    part_of_weld = model.stations.weld[model.lines.begin[:-1]]
+    part_lengths = lengths(model.lines)
     stations, at = model.stations, [(p.station, p.face) for p in worst]
     life = np.array([mission.life_km[i] for i in at])
     events = [*(p.event for p in plan.passes), None]
-    largest = np.where(toe_faces(model), mission.utilisation, -1.0).max(axis=1)  # or a bound of it
-    proven = [bool(largest[stations.weld == p.weld].max() <= mission.utilisation[p.station, p.face]) for p in worst]
+    of_toes = np.where(toe_faces(model), mission.utilisation, -1.0).max(axis=1)
+    largest = np.maximum.reduceat(of_toes, first[:-1])  # or a bound of it
+    proven = [bool(largest[p.weld] <= mission.utilisation[p.station, p.face]) for p in worst]
     curves = [model.curves[name] for name in model.curve_of_weld]
     return {
         "weld": [weld.name for weld in model.welds],
@@ -55,11 +64,11 @@ def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[W
         "reason": [""] * len(model.welds),
         "description": [weld.description for weld in model.welds],
         "closed": [weld.closed for weld in model.welds],
-        "parts": [len(parts) for parts in lines],
-        "nodes": [len({int(n) for part in parts for n in part.node}) for parts in lines],
-        "length_mm": [sum(length(part) for part in parts) for parts in lines],
-        "thickness_min_mm": [min(float(part.thickness.min()) for part in parts) for parts in lines],
-        "thickness_max_mm": [max(float(part.thickness.max()) for part in parts) for parts in lines],
+        "parts": np.bincount(part_of_weld),
+        "nodes": [np.unique(stations.node[a:b]).size for a, b in pairwise(first)],
+        "length_mm": np.bincount(part_of_weld, part_lengths),
+        "thickness_min_mm": np.minimum.reduceat(stations.thickness, first[:-1]),
+        "thickness_max_mm": np.maximum.reduceat(stations.thickness, first[:-1]),
         "surface": [weld.surface for weld in model.welds],
         "curve": [rated.curve.name for rated in curves],
         "survival": [rated.survival for rated in curves],

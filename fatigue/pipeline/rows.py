@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.mission_block import MissionBlock
-from fatigue.pipeline.settle import TIERS
+from fatigue.pipeline.piece import TIERS
 from fatigue.pipeline.stations import Stations
 from fatigue.results import coded
 from fatigue.spectrum.diagnosis import VERDICTS
@@ -31,7 +31,6 @@ def point_columns(stations: Stations, welds: Sequence[str], repeat: int = 1) -> 
 def node_rows(
     stations: Stations,
     block: MissionBlock,
-    life_km_raw_end: NDArray[np.float64],
     toe: NDArray[np.bool_],
     screened: NDArray[np.integer],
     plan: Plan,
@@ -66,7 +65,7 @@ def node_rows(
         "damage_factor_if_shear": block.factor_if_shear.ravel(),
         "governing_event": coded(block.governing.ravel(), [p.event for p in plan.passes]),
         "bending_ratio": block.bending_ratio.ravel(),
-        "life_km_raw_end": life_km_raw_end.ravel(),
+        "life_km_raw_end": block.life_km_raw_end.ravel(),
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
         "screened": coded(screened.ravel(), TIERS),

@@ -8,7 +8,7 @@ enough to know the likely worst point of welds that stay below the share everywh
 them: it takes most of the time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,11 +20,10 @@ from fatigue.life.screening import ModalExtent, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
 from fatigue.pipeline.bounds import Bound, event_bound
 from fatigue.pipeline.estimate import Estimate, estimate_event
-from fatigue.pipeline.event_block import EventBlock, count_event, no_overflow
+from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
+from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at
 from fatigue.pipeline.shapes import Shapes
-
-TIERS = ("", "modal bound", "weld bound")  # of the column `screened`: counted, or the bound that settled the point
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,20 +41,6 @@ class Screening:
     records: tuple[Record, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Settled:
-    """What became of the stations of a group.
-
-    ``tier`` (n,) is an index into `TIERS`; ``counted`` are the rows that were counted and their events, piece by
-    piece; ``bounds`` and ``estimates`` are those of every event at all stations.
-    """
-
-    tier: NDArray[np.int8]
-    counted: tuple[tuple[NDArray[np.intp], tuple[EventBlock, ...]], ...]
-    bounds: tuple[Bound, ...]
-    estimates: tuple[Estimate, ...]
-
-
 def settle(
     shapes: Shapes,
     weld: NDArray[np.int64],
@@ -63,11 +48,9 @@ def settle(
     loads: Sequence[EventLoad],
     plan: Plan,
     screening: Screening,
-    yield_MPa: float | None,
-    mean_stress: bool,
-    where: str,
-) -> Settled:
-    """Settle or count every station of some whole welds.
+    rules: Rules,
+) -> Iterator[Piece]:
+    """Settle or count every station of some whole welds that share a curve.
 
     Parameters
     ----------
@@ -76,34 +59,29 @@ def settle(
     toe : (n, 2) faces that carry a weld toe
     loads, plan : the events
     screening : up to which share of the limit a bound is enough
-    yield_MPa, mean_stress : as in `count_event`
-    where : the welds, for messages
+    rules : of the curve
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    needs_yield = yield_MPa if mean_stress else None
+    needs_yield = rules.yield_MPa if rules.mean_stress else None
     estimates: tuple[Estimate, ...] = ()
     bounds: tuple[Bound, ...] = ()
     for load, extent in zip(loads, screening.extents, strict=True):
-        with no_overflow(load.counted.event, where):
+        with no_overflow(load.counted.event, rules.welds):
             estimates += (estimate_event(shapes, load),)
             bounds += (_modal_bound(shapes, estimates[-1], load, extent, needs_yield),)
+
     tier = np.ones(len(shapes), dtype=np.int8)
-
-    def count(rows: NDArray[np.intp]) -> tuple[EventBlock, ...]:
-        tier[rows] = 0
-        some, events = shapes.at(rows), []
-        for load, estimate in zip(loads, estimates, strict=True):
-            with no_overflow(load.counted.event, where):
-                events.append(count_event(some, load, estimate.at(rows), yield_MPa, mean_stress))
-        return tuple(events)
-
     likely_worst = _likely_worst(weld, toe, estimates, bounds, plan)
-    counted = [(likely_worst, count(likely_worst))]
-    at_worst = np.where(toe[likely_worst], _utilisation(counted[0][1], plan), 0.0).max(axis=1)
-    worst = at_worst[np.searchsorted(weld[likely_worst], weld), None]
+    tier[likely_worst] = 0
+    worst = np.zeros((len(shapes), 1))
+    for piece in counted_at(likely_worst, shapes, loads, estimates, plan, rules):
+        yield piece
+        at_worst = np.where(toe[piece.rows], piece.mission.utilisation, 0.0).max(axis=1)
+        of_these = np.isin(weld, weld[piece.rows])
+        worst[of_these, 0] = at_worst[np.searchsorted(weld[piece.rows], weld[of_these])]
 
     def unsettled() -> NDArray[np.intp]:
         """Stations whose bound neither stays below the share nor below the worst point of their weld."""
@@ -119,14 +97,17 @@ def settle(
         tier[rest] = 2
         bounds = _weld_bounds(shapes, weld, rest, bounds, estimates, loads, screening, needs_yield)
         rest = unsettled()
-    if rest.size:
-        counted.append((rest, count(rest)))
-    return Settled(tier, tuple(counted), bounds, estimates)
+        tier[rest] = 0
+        yield from counted_at(rest, shapes, loads, estimates, plan, rules)
+    for number in range(1, len(TIERS)):
+        rows = np.flatnonzero(tier == number)
+        if rows.size:
+            yield bounded_at(rows, shapes, estimates, bounds, plan, number)
 
 
-def _utilisation(blocks: Sequence[EventBlock] | Sequence[Bound], plan: Plan) -> NDArray[np.float64]:
-    """Share of the damage limit that the whole mission uses up, (n, 2)."""
-    per_km = mission_sum(np.stack([block.damage for block in blocks]), plan.passes)
+def _utilisation(bounds: Sequence[Bound], plan: Plan) -> NDArray[np.float64]:
+    """Largest share of the damage limit that the whole mission can use up, (n, 2)."""
+    per_km = mission_sum(np.stack([bound.damage for bound in bounds]), plan.passes)
     return per_km * plan.target_km / plan.damage_limit
 
 
@@ -134,9 +115,15 @@ def _modal_bound(
     shapes: Shapes, estimate: Estimate, load: EventLoad, extent: ModalExtent, yield_MPa: float | None
 ) -> Bound:
     """Bound an event from how its modal coordinates move, without a loop over time."""
-    f = load.stress_factor
-    stress_range, sums = extent_bound(f * shapes.membrane, f * shapes.bending, extent)
-    return event_bound(stress_range, sums, shapes, estimate, yield_MPa)
+    stress_range, sums = extent_bound(shapes.membrane, shapes.bending, extent)
+    return event_bound(*_scaled(stress_range, sums, load.stress_factor), shapes, estimate, yield_MPa)
+
+
+def _scaled(
+    stress_range: NDArray[np.float64], power_sums: NDArray[np.float64], f: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Take range and sums n S^q, q = 1, 2 ..., of f times the stress."""
+    return f * stress_range, f ** np.arange(1, len(power_sums) + 1)[:, None, None] * power_sums
 
 
 def _weld_bounds(
@@ -150,17 +137,16 @@ def _weld_bounds(
     yield_MPa: float | None,
 ) -> tuple[Bound, ...]:
     """Tighten the bounds of some stations by the range and the variation of their stress, weld by weld."""
-    bases = weld_bases(shapes.membrane, shapes.bending, weld, screening.extents)
-    some = shapes.at(rows)
+    whole = np.flatnonzero(np.isin(weld, weld[rows]))
+    bases = weld_bases(shapes.membrane[whole], shapes.bending[whole], weld[whole], screening.extents)
+    some, of_bases = shapes.at(rows), np.searchsorted(whole, rows)
     tighter = []
     for load, extent, record, bound, estimate in zip(
         loads, screening.extents, screening.records, bounds, estimates, strict=True
     ):
-        f = load.stress_factor
-        stress_range, sums = reduced_bound(bases, rows, record, extent)
-        powers = f ** np.arange(1, len(sums) + 1)[:, None, None]
-        found = event_bound(f * stress_range, powers * sums, some, estimate.at(rows), yield_MPa)
-        tighter.append(bound.tightened(found, rows))
+        found = _scaled(*reduced_bound(bases, of_bases, record, extent), load.stress_factor)
+        bounded = event_bound(*found, some, estimate.at(rows), yield_MPa)
+        tighter.append(bound.tightened(bounded, rows))
     return tuple(tighter)
 
 

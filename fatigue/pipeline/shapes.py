@@ -10,12 +10,30 @@ from fatigue.life.curves import DamageLaw
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class RawEnds:
+    """Stations of a block whose stress the end treatment changes, and their stress without it.
+
+    ``rows`` (e,) are ascending, ``membrane`` and ``bending`` (e, m) as in `Shapes`.
+    """
+
+    rows: NDArray[np.intp]
+    membrane: NDArray[np.float64]
+    bending: NDArray[np.float64]
+
+    def at(self, rows: NDArray[np.intp]) -> Self:
+        """Take those among some ascending rows of the block."""
+        mine, theirs = np.flatnonzero(np.isin(self.rows, rows)), np.flatnonzero(np.isin(rows, self.rows))
+        return type(self)(theirs, self.membrane[mine], self.bending[mine])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Shapes:
     """Structural stress shapes of a block of stations that share one S-N curve.
 
     ``membrane``, ``bending``, ``in_plane_shear``, ``twist_shear`` are (n, m) [MPa per unit modal coordinate], bending
     and twist those of the top face; ``size`` (n,) turns a structural stress range over ``I(r)^(1/m)`` into the
     equivalent range of the law; ``uses_bending_ratio`` is False for curves in plain structural stress, where I is 1.
+    ``raw_ends`` is None where there is no end treatment.
     """
 
     membrane: NDArray[np.float64]
@@ -25,13 +43,14 @@ class Shapes:
     size: NDArray[np.float64]
     law: DamageLaw
     uses_bending_ratio: bool
+    raw_ends: RawEnds | None = None
 
     def __len__(self) -> int:
         """Count the stations."""
         return len(self.size)
 
     def at(self, rows: NDArray[np.intp]) -> Self:
-        """Take some stations."""
+        """Take some stations, ascending."""
         return replace(
             self,
             membrane=self.membrane[rows],
@@ -39,6 +58,7 @@ class Shapes:
             in_plane_shear=self.in_plane_shear[rows],
             twist_shear=self.twist_shear[rows],
             size=self.size[rows],
+            raw_ends=None if self.raw_ends is None else self.raw_ends.at(rows),
         )
 
 

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fatigue.life.damage import ThicknessRule, size_factor
 from fatigue.pipeline.rated_curves import RatedCurve
-from fatigue.pipeline.shapes import Shapes
-from fatigue.weld.line import arc_length, stacked
+from fatigue.pipeline.shapes import RawEnds, Shapes
+from fatigue.weld.line import LineStack, arc_length, line_of_node
 from fatigue.weld.structural_stress import LineStress, StructuralStress
 
 
@@ -43,23 +43,22 @@ class Stations:
         return len(self.node)
 
 
-def stations_of(lines: Sequence[LineStress], weld_names: Sequence[str]) -> Stations:
-    """Lay the solved line parts one after the other, welds in the order of the register."""
+def stations_of(lines: LineStack, solved: LineStress, weld_names: Sequence[str]) -> Stations:
+    """Lay out the nodes of solved line parts, which follow each other as in the register of the welds."""
     place = {name: i for i, name in enumerate(weld_names)}
-    lines = sorted(lines, key=lambda solved: (place[solved.line.weld], solved.line.part))
-    parts = [solved.line for solved in lines]
+    line = line_of_node(lines)
     return Stations(
-        weld=np.concatenate([np.full(len(p.node), place[p.weld]) for p in parts]),
-        part=np.concatenate([np.full(len(p.node), p.part) for p in parts]),
-        order=np.concatenate([p.order for p in parts]),
-        node=np.concatenate([p.node for p in parts]),
-        arc_length=arc_length(stacked(parts)),
-        xyz=np.concatenate([p.xyz for p in parts]),
-        thickness=np.concatenate([p.thickness for p in parts]),
-        at_end=np.concatenate([solved.at_end for solved in lines]),
-        at_corner=np.concatenate([solved.at_corner for solved in lines]),
-        treated=_joined([solved.treated for solved in lines]),
-        raw=_joined([solved.raw for solved in lines]),
+        weld=np.array([place[name] for name in lines.weld])[line],
+        part=lines.part[line],
+        order=lines.order,
+        node=lines.node,
+        arc_length=arc_length(lines),
+        xyz=lines.xyz,
+        thickness=lines.thickness,
+        at_end=solved.at_end,
+        at_corner=solved.at_corner,
+        treated=solved.treated,
+        raw=solved.raw,
     )
 
 
@@ -69,17 +68,10 @@ def treated_rows(stations: Stations) -> NDArray[np.intp]:
     return np.flatnonzero(changed.any(axis=1))
 
 
-def shapes_of(
-    stations: Stations,
-    stress: StructuralStress,
-    rows: NDArray[np.intp],
-    rated: RatedCurve,
-    thickness_rule: ThicknessRule,
-) -> Shapes:
-    """Stress shapes of some stations, treated or raw, with the law of their curve and the size factor of their plates.
-
-    ``stress`` is ``stations.treated`` or ``stations.raw``.
-    """
+def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve, thickness_rule: ThicknessRule) -> Shapes:
+    """Stress shapes of some stations, ascending, with the law of their curve and the size factor of their plates."""
+    stress, raw = stations.treated, stations.raw
+    ends = np.flatnonzero(np.isin(rows, treated_rows(stations)))
     return Shapes(
         membrane=stress.membrane[rows],
         bending=stress.bending[rows],
@@ -88,14 +80,5 @@ def shapes_of(
         size=size_factor(stations.thickness[rows], rated.curve, thickness_rule),
         law=rated.law,
         uses_bending_ratio=rated.curve.applies == "dS",
-    )
-
-
-def _joined(pieces: Sequence[StructuralStress]) -> StructuralStress:
-    return StructuralStress(
-        membrane=np.concatenate([p.membrane for p in pieces]),
-        bending=np.concatenate([p.bending for p in pieces]),
-        in_plane_shear=np.concatenate([p.in_plane_shear for p in pieces]),
-        twist_shear=np.concatenate([p.twist_shear for p in pieces]),
-        transverse_shear=np.concatenate([p.transverse_shear for p in pieces]),
+        raw_ends=RawEnds(ends, raw.membrane[rows[ends]], raw.bending[rows[ends]]),
     )

@@ -15,6 +15,7 @@ from fatigue.pipeline.events import event_loads
 from fatigue.pipeline.group import GroupResult, assess_group
 from fatigue.pipeline.model import GROUPS, LARGEST_GROUP, SMALLEST_GROUP, Model, WeldGroups, solve_group
 from fatigue.pipeline.settle import Screening
+from fatigue.pipeline.side_by_side import in_order
 from fatigue.results import input_register, software_versions
 
 log = logging.getLogger(__name__)
@@ -54,22 +55,27 @@ class Work:
         return model, assess_group(model, self.loads, self.plan, self.screening)
 
 
-def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path) -> Work:
-    """Read the records of all events and prepare the screening; ``scratch`` is a folder for what memory cannot hold."""
-    loads = event_loads(groups, plan, scratch / "histories")
+def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, threads: int | None) -> Work:
+    """Read the records of all events and prepare the screening, on some threads, by default one per processor core.
+
+    ``scratch`` is a folder for what memory cannot hold.
+    """
+    loads = event_loads(groups, plan, scratch / "histories", threads)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
     share = large if counted.share is None else counted.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
-    screening = None if share == 0.0 else _screening(share, counted.proves_worst, loads, scratch)
+    screening = None if share == 0.0 else _screening(share, counted.proves_worst, loads, scratch, threads)
     return Work(groups, loads, plan, screening, kept_from=large)
 
 
-def _screening(share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path) -> Screening:
+def _screening(
+    share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path, threads: int | None
+) -> Screening:
     return Screening(
         share=share,
         proves_worst=proves_worst,
-        extents=tuple(modal_extent(load.counted.q, load.residue) for load in loads),
-        records=tuple(load.single or fast_record(load.counted.q, scratch) for load in loads),
+        extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue), loads, threads)),
+        records=tuple(in_order(lambda load: load.single or fast_record(load.counted.q, scratch), loads, threads)),
     )
 
 

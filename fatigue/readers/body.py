@@ -2,7 +2,6 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import Literal, TypeAlias, cast
 
@@ -10,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.tables import open_table
-from fatigue.weld.line import WeldLine, stacked
+from fatigue.readers.tables import Table, open_table
+from fatigue.weld.line import LineStack, WeldLine
 from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
 
 Surface: TypeAlias = Literal["top", "bottom", "both"]
@@ -143,7 +142,7 @@ def read_welds(path: Path, curves: Collection[str], *, strict: bool) -> tuple[tu
     return welds, table.warnings
 
 
-def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple[tuple[WeldLine, ...], list[Problem]]:
+def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple[LineStack, list[Problem]]:
     """Read the line of every weld, in the order of ``welds`` and sorted by ``order``, and check its geometry.
 
     Columns: ``weld, order, node, x_mm, y_mm, z_mm, thickness_mm, normal_x|y|z, outward_x|y|z`` and, where present,
@@ -165,56 +164,61 @@ def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple
     names, code = table.groups("weld")
     order = table.integers("order")
     node = table.integers("node")
-    xyz = np.column_stack([table.numbers(name) for name in coordinates]).astype(np.float64, copy=False)
+    xyz = _vectors(table, coordinates)
     thickness = table.numbers("thickness_mm", above=0.0).astype(np.float64)
-    normal = np.column_stack([table.numbers(name) for name in vectors["normal"]]).astype(np.float64, copy=False)
-    outward = np.column_stack([table.numbers(name) for name in vectors["outward"]]).astype(np.float64, copy=False)
+    normal, outward = _vectors(table, vectors["normal"]), _vectors(table, vectors["outward"])
     edge_mid = table.flags("edge_mid", default=False)
     table.unique({"weld": code, "order": order}, {"weld": names})
     table.unique({"weld": code, "node": node}, {"weld": names})
     table.known("weld", names, code, {weld.name for weld in welds}, "the welds")
     table.complete("weld", names, [weld.name for weld in welds], "nodes")
     table.refuse()
-    along = np.lexsort((order, code))
+    place = {weld.name: i for i, weld in enumerate(welds)}
+    of_weld = np.array([place[name] for name in names])[code]
+    along = np.lexsort((order, of_weld))
     at = slice(None) if np.array_equal(along, np.arange(along.size)) else along  # no copies of a sorted file
-    begin = [0, *(np.flatnonzero(np.diff(code[at])) + 1).tolist(), table.rows]
-    rows = {name: slice(a, b) for name, (a, b) in zip(names, pairwise(begin), strict=True)}
-    order, node, xyz, thickness = order[at], node[at], xyz[at], thickness[at]
-    normal, outward, edge_mid = normal[at], outward[at], edge_mid[at]
-    lines = tuple(
-        WeldLine(
-            weld=weld.name,
-            part=1,
-            order=order[row],
-            node=node[row],
-            xyz=xyz[row],
-            thickness=thickness[row],
-            normal=normal[row],
-            outward=outward[row],
-            edge_mid=edge_mid[row],
-            closed=weld.closed,
-            end_length=weld.end_length,
-        )
-        for weld in welds
-        for row in (rows[weld.name],)
+    bare = np.zeros(len(welds), dtype=np.bool_)
+    lines = LineStack(
+        weld=tuple(weld.name for weld in welds),
+        part=np.ones(len(welds), dtype=np.int64),
+        closed=np.array([weld.closed for weld in welds]),
+        end_length=np.array([np.nan if weld.end_length is None else weld.end_length for weld in welds]),
+        corner_start=bare,
+        corner_end=bare,
+        begin=np.append(0, np.cumsum(np.bincount(of_weld, minlength=len(welds)))),
+        order=order[at],
+        node=node[at],
+        xyz=xyz[at],
+        thickness=thickness[at],
+        normal=normal[at],
+        outward=outward[at],
+        edge_mid=edge_mid[at],
     )
     return lines, table.warnings + _checked(lines, path.name)
 
 
-def _checked(lines: Sequence[WeldLine], file: str) -> list[Problem]:
+def _vectors(table: Table, names: Sequence[str]) -> NDArray[np.float64]:
+    """Read three columns of numbers as vectors, (r, 3)."""
+    vectors = np.empty((table.rows, 3))
+    for axis, name in enumerate(names):
+        vectors[:, axis] = table.numbers(name)
+    return vectors
+
+
+def _checked(lines: LineStack, file: str) -> list[Problem]:
     """Refuse the unfit lines of all welds together; return the doubts about the others."""
     problems: list[Problem] = []
     warnings: list[Problem] = []
     for first in range(0, len(lines), CHECKED_TOGETHER):
-        some = stacked(lines[first : first + CHECKED_TOGETHER])
+        some = lines.lines(slice(first, first + CHECKED_TOGETHER))
         for i in unfit_lines(some):
             try:
-                check_line(some.lines[i], _place(file, some.lines[i]))
+                check_line(some[i], _place(file, some[i]))
             except DataError as error:
                 problems += error.problems
         if not problems:
             for i in doubtful_lines(some):
-                warnings += line_warnings(some.lines[i], _place(file, some.lines[i]))
+                warnings += line_warnings(some[i], _place(file, some[i]))
     refuse(DataError, problems)
     return warnings
 

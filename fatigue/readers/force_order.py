@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError
 from fatigue.readers.files import DAMAGE, Columns, csv_batches, csv_names, damaged
 from fatigue.readers.forces import COMPONENTS, open_nodal_forces
-from fatigue.readers.tables import Table, named
+from fatigue.readers.tables import Table, codes_of, named
 
 CODE, ROW = "weld among all", "row of the file"  # columns of a piece; no names of the neutral format
 BATCH = 200_000  # rows in memory together while a file is parted
@@ -45,14 +45,22 @@ class WeldCodes:
 
     def of(self, welds: pa.ChunkedArray) -> NDArray[np.int32]:
         """Numbers of a column of names, (r,); -1 where there is no such weld."""
+        numbers = [known[place] for known, place in self._coded(welds)]
+        return numbers[0] if len(numbers) == 1 else np.concatenate([np.zeros(0, dtype=np.int32), *numbers])
+
+    def among(self, welds: pa.ChunkedArray) -> NDArray[np.int32]:
+        """Distinct numbers in a column of names, ascending; -1 where there is a name that no weld has."""
+        present = [known[np.bincount(place, minlength=known.size) > 0] for known, place in self._coded(welds)]
+        return np.unique(np.concatenate(present))
+
+    def _coded(self, welds: pa.ChunkedArray) -> Iterator[tuple[NDArray[np.int32], NDArray[np.integer]]]:
+        """Numbers of the distinct names of each chunk, -1 last, and the place of each row's name among them."""
         if not pt.is_dictionary(welds.type):
             welds = welds.cast(pa.string()).dictionary_encode()
-        numbers = [np.zeros(0, dtype=np.int32)]
         for chunk in welds.chunks:
             names = chunk.dictionary.cast(pa.string()).to_pylist()
             known = np.array([*(self.code.get((name or "").strip(), -1) for name in names), -1], dtype=np.int32)
-            numbers.append(known[chunk.indices.fill_null(len(names)).to_numpy()])
-        return np.concatenate(numbers)
+            yield known, codes_of(chunk, len(names))
 
 
 def weld_codes(groups: Sequence[Sequence[str]]) -> WeldCodes:
@@ -101,10 +109,10 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
     pieces: list[list[int]] = [[] for _ in welds.groups]
     for i in range(len(rows)):
         column = _decoded(path, partial(file.read_row_group, i, [weld])).column(0)
-        code = welds.of(column)
-        strays.look(column, code, int(first[i]))
-        present = np.bincount(code[code >= 0], minlength=welds.group.size) > 0
-        for group in np.unique(welds.group[present]):
+        present = welds.among(column)
+        if present[0] < 0:
+            strays.look(column, welds.of(column), int(first[i]))
+        for group in np.unique(welds.group[present[present >= 0]]):
             pieces[group].append(i)
     strays.refuse(welds.code)
 

@@ -20,18 +20,28 @@ DETOUR = 1.5  # a file is read where it is if all groups in turn decode no more 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Piece:
-    """Rows of the file in the order of the groups; ``begin``, (g + 1,), is where each group begins."""
+    """Rows of the file in the order of the groups.
+
+    ``begin``, (g + 1,), is where each group begins; ``expected`` are the groups that have not been asked for yet.
+    """
 
     rows: pa.Table
     begin: NDArray[np.int64]
+    expected: set[int]
+
+    def rows_of(self, group: int) -> pa.Table:
+        """Rows of one group, a view."""
+        first, end = self.begin[group : group + 2]
+        return self.rows.slice(first, end - first)
 
 
 class ForcePieces:
     """The rows of each group of welds as a table of its own.
 
     ``groups`` are the names of the welds of each group. Any group may be asked for at any time, by several threads at
-    once; those near the groups asked for last come without decoding anything again. ``scratch`` is a folder for a
-    parted copy of the file, should it need one; no other process may use it.
+    once; those near the groups asked for last come without decoding anything again, and of groups asked for in turn
+    hardly more than one piece is in memory. ``scratch`` is a folder for a parted copy of the file, should it need one;
+    no other process may use it.
 
     Raises
     ------
@@ -63,15 +73,25 @@ class ForcePieces:
         return Table(self._path, columns, header.position)
 
     def _rows(self, group: int) -> pa.Table:
-        """Rows of a group with their ``CODE`` and ``ROW``; pieces used last stay decoded as long as there is room."""
+        """Rows of a group with their ``CODE`` and ``ROW``.
+
+        A piece stays decoded until all its groups have been asked for, those used last as long as there is room.
+        """
         wanted = self._source.pieces[group]
+        cuts = []
         with self._lock:
             for i in _dropped(list(self._decoded), wanted, self._source.rows):
                 del self._decoded[i]
             for i in wanted:
-                self._decoded[i] = self._decoded.pop(i) if i in self._decoded else self._piece(i)
-            pieces = [self._decoded[i] for i in wanted]
-        cuts = [piece.rows.slice(a, b - a) for piece in pieces for a, b in [piece.begin[group : group + 2]]]
+                piece = self._decoded.pop(i) if i in self._decoded else self._piece(i)
+                piece.expected.discard(group)
+                cut = piece.rows_of(group)
+                if piece.expected:
+                    self._decoded[i] = piece
+                elif i != wanted[-1]:
+                    cut = cut.take(np.arange(len(cut)))  # a view would keep the piece while the next one is decoded
+                cuts.append(cut)
+                del piece
         return pa.concat_tables(cuts or [self._source.nothing])
 
     def _piece(self, number: int) -> _Piece:
@@ -81,7 +101,8 @@ class ForcePieces:
         if np.any(group[1:] < group[:-1]):
             order = np.argsort(group, kind="stable")
             rows, group = rows.take(order), group[order]
-        return _Piece(rows, np.searchsorted(group, np.arange(len(self._welds.groups) + 1)))
+        begin = np.searchsorted(group, np.arange(len(self._welds.groups) + 1))
+        return _Piece(rows, begin, set(np.flatnonzero(np.diff(begin)).tolist()))
 
 
 def _source(path: Path, welds: WeldCodes, scratch: Path) -> Source:

@@ -15,7 +15,7 @@ from fatigue.errors import Problem
 from fatigue.readers.body import Modes, Weld
 from fatigue.readers.tables import Table, open_table
 from fatigue.weld.element_forces import ElementForces
-from fatigue.weld.line import WeldLine
+from fatigue.weld.line import LineStack, WeldLine, line_of_node
 
 Convention: TypeAlias = Literal["on_element", "on_node"]
 COMPONENTS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
@@ -29,16 +29,16 @@ def open_nodal_forces(path: Path) -> Table:
 
 def read_nodal_forces(
     table: Table,
-    lines: Sequence[WeldLine],
+    lines: LineStack,
     modes: Modes,
     convention: Convention,
     ignore_modes: Collection[int],
     *,
     strict: bool,
-) -> tuple[tuple[NDArray[Any], ...], list[Problem]]:
-    """Read ``weld, node, mode, fx_N ... mz_Nmm``: the forces on the elements of each line, (n, m, 6) [N, N mm].
+) -> tuple[NDArray[Any], list[Problem]]:
+    """Read ``weld, node, mode, fx_N ... mz_Nmm``: the forces on the elements of all lines, (n, m, 6) [N, N mm].
 
-    ``table`` is a whole file, or the rows of the lines' welds in it. Nodes are in the order of the line, modes in that
+    ``table`` is a whole file, or the rows of the lines' welds in it. Nodes are in the order of the lines, modes in that
     of ``modes``; float32 where the file has float32. Rows of ignored modes and of nodes that are not on the weld's line
     are skipped.
 
@@ -47,26 +47,33 @@ def read_nodal_forces(
     DataError
         a (weld, node, mode) missing or given twice, an unknown weld or mode, a value that is no finite number
     """
-    table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
-    keys = _keys(table)
-    sizes = [line.node.size for line in lines]
+    places = _places(table, lines, modes, ignore_modes, strict=strict)
     dtype = np.float32 if table.single_precision(COMPONENTS) else np.float64
-    by_mode = np.empty((sum(sizes), modes.mode.size, 6), dtype)
-    if not table.problems and (grid := _grid(keys, lines, modes, ignore_modes)):
+    by_mode = np.empty((lines.node.size, modes.mode.size, 6), dtype)
+    if isinstance(places, _Grid):
         for axis, name in enumerate(COMPONENTS):
-            by_mode[..., axis] = grid.by_station(table.numbers(name))
+            by_mode[..., axis] = places.by_station(table.numbers(name))
     else:
-        slot = _slots(table, keys, lines, modes, ignore_modes)
         force = by_mode.reshape(-1, 6)
-        used = slice(None) if len(force) == table.rows else slot >= 0
+        used = slice(None) if len(force) == table.rows else places >= 0
         for axis, name in enumerate(COMPONENTS):
-            force[slot[used], axis] = table.numbers(name)[used]
+            force[places[used], axis] = table.numbers(name)[used]
     table.refuse()
     factor = _factor(modes, convention)[:, np.newaxis]
     if not np.isin(factor, (-1.0, 1.0)).all():
         by_mode = by_mode.astype(np.float64)  # a product in single precision would cost the last digits
     by_mode *= factor.astype(by_mode.dtype)
-    return tuple(np.split(by_mode, np.cumsum(sizes)[:-1])), table.warnings
+    return by_mode, table.warnings
+
+
+def check_nodal_forces(
+    table: Table, lines: LineStack, modes: Modes, ignore_modes: Collection[int], *, strict: bool
+) -> None:
+    """Refuse what ``read_nodal_forces`` refuses, in the same words, and keep nothing."""
+    _places(table, lines, modes, ignore_modes, strict=strict)
+    for name in COMPONENTS:
+        table.numbers(name)
+    table.refuse()
 
 
 def read_element_forces(
@@ -156,10 +163,10 @@ class _Grid:
         return grid if in_order else grid[np.ix_(self.station, self.mode)]
 
 
-def _grid(keys: _Keys, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Collection[int]) -> _Grid | None:
+def _grid(keys: _Keys, lines: LineStack, modes: Modes, ignore_modes: Collection[int]) -> _Grid | None:
     """Recognise a complete regular table, which needs no search for every row; None if anything is unusual."""
     names, weld, node, mode = keys.names, keys.weld, keys.node, keys.mode
-    if not {line.weld for line in lines}.issuperset(names):
+    if not set(lines.weld).issuperset(names):
         return None
     width = min(_run(node), _run(weld))
     by_node = width > 1
@@ -177,11 +184,20 @@ def _grid(keys: _Keys, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Co
     ignored = column < 0
     if not np.isin(mode[of_mode][ignored], list(ignore_modes)).all():
         return None
-    stations = sum(line.node.size for line in lines)
-    for found, n in ((station, stations), (column[~ignored], modes.mode.size)):
+    for found, n in ((station, lines.node.size), (column[~ignored], modes.mode.size)):
         if not np.array_equal(np.sort(found), np.arange(n)):
             return None
     return _Grid(shape, by_node, np.argsort(station), np.argsort(column)[np.count_nonzero(ignored) :])
+
+
+def _places(
+    table: Table, lines: LineStack, modes: Modes, ignore_modes: Collection[int], *, strict: bool
+) -> _Grid | NDArray[np.int64]:
+    """Find out where the forces of each row belong: on a grid, or each at a slot of its own, as ``_slots`` says."""
+    table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
+    keys = _keys(table)
+    grid = None if table.problems else _grid(keys, lines, modes, ignore_modes)
+    return _slots(table, keys, lines, modes, ignore_modes) if grid is None else grid
 
 
 def _run(values: NDArray[Any]) -> int:
@@ -191,14 +207,14 @@ def _run(values: NDArray[Any]) -> int:
 
 
 def _slots(
-    table: Table, keys: _Keys, lines: Sequence[WeldLine], modes: Modes, ignore_modes: Collection[int]
+    table: Table, keys: _Keys, lines: LineStack, modes: Modes, ignore_modes: Collection[int]
 ) -> NDArray[np.int64]:
     """Position of each row among the (station, mode) of all lines (r,), -1 where it is not used.
 
     Every slot is filled by exactly one row, or the table is refused.
     """
     names, code, node, mode = keys.names, keys.weld, keys.node, keys.mode
-    table.known("weld", names, code, {line.weld for line in lines}, "the welds")
+    table.known("weld", names, code, set(lines.weld), "the welds")
     column = _mode_columns(table, mode, modes, ignore_modes)
     table.refuse()
     station = _stations(names, code, node, lines)
@@ -209,13 +225,13 @@ def _slots(
         remedy = "Remove them, or add the nodes to the weld's line"
         table.warnings.append(Problem("extra_node", table.where("node", row), what, remedy))
     slot = np.where(stray | (column < 0), -1, station.astype(np.int64) * modes.mode.size + column)
-    filled = np.zeros((sum(line.node.size for line in lines), modes.mode.size), dtype=np.bool_)
+    filled = np.zeros((lines.node.size, modes.mode.size), dtype=np.bool_)
     filled.reshape(-1)[slot[slot >= 0]] = True
     if np.count_nonzero(filled) < np.count_nonzero(slot >= 0):
         table.unique({"weld": code, "node": node, "mode": mode}, {"weld": names})
-    ends = np.cumsum([line.node.size for line in lines])
-    for line, present in zip(lines, np.split(filled, ends[:-1]), strict=True):
-        table.problems.extend(_gaps(table.path, line, modes, present))
+    if not filled.all():
+        for line, present in zip(lines, np.split(filled, lines.begin[1:-1]), strict=True):
+            table.problems.extend(_gaps(table.path, line, modes, present))
     table.refuse()
     return slot
 
@@ -235,13 +251,13 @@ def _mode_columns(
 
 
 def _stations(
-    names: Sequence[str], code: NDArray[np.int32], node: NDArray[np.int64], lines: Sequence[WeldLine]
+    names: Sequence[str], code: NDArray[np.int32], node: NDArray[np.int64], lines: LineStack
 ) -> NDArray[np.int32]:
     """Position of each row's (weld, node) along all lines one after another (r,), -1 where the line lacks the node."""
-    nodes = np.unique(np.concatenate([line.node for line in lines]))
-    keys = np.concatenate([i * nodes.size + np.searchsorted(nodes, line.node) for i, line in enumerate(lines)])
+    nodes = np.unique(lines.node)
+    keys = line_of_node(lines) * nodes.size + np.searchsorted(nodes, lines.node)
     along = np.argsort(keys)
-    index = {line.weld: i for i, line in enumerate(lines)}
+    index = {weld: i for i, weld in enumerate(lines.weld)}
     line_of = np.array([index[name] for name in names])
     station = np.empty(node.size, dtype=np.int32)
     for start in range(0, node.size, BLOCK):

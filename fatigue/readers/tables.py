@@ -163,11 +163,14 @@ class Table:
         stored = [(text or "").strip() for text in chunks[0].dictionary.cast(pa.string()).to_pylist()]
         stored.append("")  # position -1 stands for an empty cell
         names, merged = np.unique(np.array([text or default or "" for text in stored], object), return_inverse=True)
-        code = np.concatenate([merged.astype(np.int32)[chunk.indices.fill_null(-1).to_numpy()] for chunk in chunks])
-        used = np.bincount(code, minlength=names.size) > 0
+        places = [codes_of(chunk, len(stored) - 1) for chunk in chunks]
+        place = places[0] if len(places) == 1 else np.concatenate(places)
+        used = np.zeros(names.size, dtype=np.bool_)
+        used[merged[np.bincount(place, minlength=len(stored)) > 0]] = True
+        code = (np.cumsum(used, dtype=np.int32) - 1)[merged][place]
         if names[0] == "" and used[0] and default is None:
             self.report(code == 0, "missing_value", name, "the text is missing", "Give a text")
-        return tuple(names[used]), (np.cumsum(used, dtype=np.int32) - 1)[code]
+        return tuple(names[used]), code
 
     def choices(self, name: str, values: Sequence[str], allowed: Sequence[str]) -> None:
         """Note a text that is none of the allowed ones."""
@@ -271,6 +274,12 @@ def named(path: Path, columns: Columns) -> Table:
     ]
     refuse(DataError, problems)
     return Table(path, columns, position)
+
+
+def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:
+    """Codes of a coded column (r,), those of empty cells ``missing``."""
+    codes = texts.indices if texts.null_count == 0 else texts.indices.fill_null(missing)
+    return np.asarray(codes.to_numpy())
 
 
 def _is_text(kind: pa.DataType) -> bool:

@@ -3,9 +3,10 @@
 One row group is in memory at a time. Numbers of all rows, a column at a time, are what `read_table` is for.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -27,7 +28,7 @@ def read_rows(folder: Path, table: str, rows: NDArray[np.integer], columns: Sequ
     ascending = np.argsort(rows, kind="stable")
     wanted = rows[ascending]
     with _opened(folder, table) as file:
-        names = [name for name in file.schema_arrow.names if columns is None or name in columns]
+        names = _wanted(file, columns)
         end = np.cumsum([0, *(file.metadata.row_group(i).num_rows for i in range(file.num_row_groups))])
         group = np.searchsorted(end, wanted, side="right") - 1
         pieces = [file.schema_arrow.empty_table().select(names)]
@@ -50,6 +51,42 @@ def row_groups(folder: Path, table: str) -> Iterator[pa.Table]:
             yield _plain(file.schema_arrow.empty_table())
         for number in range(file.num_row_groups):
             yield _plain(file.read_row_group(number))
+
+
+def row_count(folder: Path, table: str) -> int:
+    """Count the rows of a table.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    with _opened(folder, table) as file:
+        rows: int = file.metadata.num_rows
+    return rows
+
+
+def number_groups(
+    folder: Path, table: str, numbers: Sequence[str], texts: Mapping[str, Sequence[str]]
+) -> Iterator[dict[str, NDArray[Any]]]:
+    """Read columns of a table as plain arrays, one row group after the other.
+
+    ``numbers`` are columns of numbers and flags, NaN where there is none. ``texts`` has for each column of texts the
+    list of those that are known; the array holds the place of each text in it, -1 for any other and for a missing one.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    places = {name: {text: place for place, text in enumerate(known)} for name, known in texts.items()}
+    with _opened(folder, table) as file:
+        names = _wanted(file, [*numbers, *texts])
+        for number in range(file.num_row_groups):
+            group = file.read_row_group(number, names)
+            columns: dict[str, NDArray[Any]] = {name: group.column(name).to_numpy() for name in numbers}
+            for name, place in places.items():
+                codes, found = _coded(group.select([name]))
+                columns[name] = np.array([*(place.get(text, -1) for text in found.to_pylist()), -1])[codes]
+            yield columns
 
 
 def rows_of_welds(folder: Path, table: str, welds: Sequence[str]) -> dict[str, NDArray[np.int64]]:
@@ -103,13 +140,27 @@ def read_codes(folder: Path, table: str, column: str) -> tuple[NDArray[np.int32]
     return codes, names.to_pylist()
 
 
+def _wanted(file: pq.ParquetFile, columns: Sequence[str] | None) -> list[str]:
+    """Give the names of the columns to read, in the order of the file; all of them must be there."""
+    there = file.schema_arrow.names
+    missing = [name for name in columns or () if name not in there]
+    if missing:
+        raise pa.ArrowInvalid(f"it has no column {missing[0]}")
+    return [name for name in there if columns is None or name in columns]
+
+
 @contextmanager
 def _opened(folder: Path, table: str) -> Iterator[pq.ParquetFile]:
     """Open a table, its texts to be read as codes."""
     texts = [column.name for column in TABLES[table] if column.type == "text"]
     path = folder / f"{table}.parquet"
-    with readable(path), pq.ParquetFile(path, read_dictionary=texts) as file:
-        yield file
+    with readable(path):
+        try:
+            opened = pq.ParquetFile(path, read_dictionary=texts)
+        except KeyError as error:  # of the library, for a coded column that is not there
+            raise pa.ArrowInvalid(f"it has no column {error.args[0].decode()}") from None
+        with opened as file:
+            yield file
 
 
 def _may_hold(statistics: pq.Statistics | None, welds: Sequence[str]) -> bool:

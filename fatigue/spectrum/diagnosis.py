@@ -15,12 +15,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.curves import DamageLaw
 from fatigue.life.history import ModalHistory
 from fatigue.quotient import quotient
-from fatigue.spectrum.methods import dirlik_damage_rate, narrow_band_damage_rate, spectral_shape
-from fatigue.spectrum.moments import Spectra, quadratic_forms
-from fatigue.spectrum.stationarity import PeriodMatrices, Stationarity, modulation_factor, period_matrices, stationarity
+from fatigue.spectrum.methods import SpectralShape, dirlik_over_narrow_band, spectral_shape
+from fatigue.spectrum.moments import MomentMatrices, Spectra, quadratic_forms
+from fatigue.spectrum.stationarity import (
+    PeriodMatrices,
+    Stationarity,
+    modulation_factor,
+    moments_and_variances,
+    period_matrices,
+    stationarity,
+)
 from fatigue.spectrum.whole_record import RecordMatrices, record_matrices
 
 VERDICTS = (
@@ -57,9 +63,11 @@ RATIO_SCATTER = 0.5  # of ln(Dirlik / rainflow) over that of each damage (Monte 
 class DiagnosisMatrices:
     """What the diagnosis of all points of an event needs, computed once.
 
-    ``periods`` is None if the record holds too few segments to judge its scatter.
+    ``moments`` are the moment matrices of the event, from the same transforms as the periods. ``periods`` is None if
+    the record holds too few segments to judge its scatter.
     """
 
+    moments: MomentMatrices
     record: RecordMatrices
     periods: PeriodMatrices | None
     duration: float
@@ -125,9 +133,11 @@ class Diagnosis:
 
 def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatrices:
     """Prepare the diagnosis of an event from its kept record and the segment spectra of it."""
+    moments, variances = moments_and_variances(spectra)
     return DiagnosisMatrices(
+        moments=moments,
         record=record_matrices(history, spectra.upper_hz),
-        periods=period_matrices(history, spectra),
+        periods=period_matrices(history, spectra, variances),
         duration=history.duration,
         segments=len(spectra.starts),
     )
@@ -161,9 +171,8 @@ def diagnose(
     top_mode_hz : highest frequency of a normal mode [Hz]; None: unknown
     """
     shape = spectral_shape(moments)
-    total, slow, lines = quadratic_forms(
-        shapes, np.stack([matrices.record.covariance, matrices.record.slow, matrices.record.lines])
-    )
+    record = matrices.record
+    total, slow, lines = (quadratic_forms(shapes, M[None])[0] for M in (record.covariance, record.slow, record.lines))
     line_share = np.clip(quotient(lines, total), 0.0, 1.0)
     time = _stationarity(shapes, matrices.periods)
     lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
@@ -171,7 +180,7 @@ def diagnose(
     steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
     damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
-    chance = np.exp(1.645 * RATIO_SCATTER * np.nan_to_num(damage_cov, nan=2 * CONFIDENT))
+    chance = np.exp(1.645 * RATIO_SCATTER * np.where(np.isnan(damage_cov), 2 * CONFIDENT, damage_cov))
     diagnosis = Diagnosis(
         verdict=np.zeros(len(shapes), dtype=np.int8),
         record_too_short=~(damage_cov <= CONFIDENT),
@@ -185,7 +194,7 @@ def diagnose(
         slow_share=quotient(slow, total),
         top_cycle_share=top_cycle_share,
         top_cycle_limit=np.clip(
-            _top_cycle_share(_rayleigh_cycles(moments, time, matrices.duration, slope), slope),
+            _top_cycle_share(_rayleigh_cycles(shape, time, matrices.duration, slope), slope),
             TOP_CYCLE_SHARE,
             HALF_OF_DAMAGE,
         ),
@@ -244,8 +253,10 @@ def _verdict(of: Diagnosis) -> NDArray[np.int8]:
         "non_gaussian": np.abs(of.kurtosis - of.expected_kurtosis) > of.kurtosis_tolerance,
         "bandwidth": (of.dirlik_ratio < of.ratio_low) | (of.dirlik_ratio > of.ratio_high),
     }
-    codes = [VERDICTS.index(name) for name in findings]
-    return np.select(list(findings.values()), codes, VERDICTS.index("valid")).astype(np.int8)
+    verdict = np.full(len(of.verdict), VERDICTS.index("valid"), dtype=np.int8)
+    for name, found in reversed(findings.items()):  # the first one is written last
+        verdict[found] = VERDICTS.index(name)
+    return verdict
 
 
 def _stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
@@ -262,15 +273,12 @@ def _ratio_band(slope: float) -> tuple[float, float]:
     return float(np.interp(slope, slopes, bands[:, 0])), float(np.interp(slope, slopes, bands[:, 1]))
 
 
-def _rayleigh_cycles(
-    moments: NDArray[np.float64], time: Stationarity, duration: float, k: float
-) -> NDArray[np.float64]:
+def _rayleigh_cycles(shape: SpectralShape, time: Stationarity, duration: float, k: float) -> NDArray[np.float64]:
     """Count the Rayleigh cycles that would do Dirlik's damage, those only that fall into the periods which do it."""
-    law = DamageLaw(np.array([k]), np.array([0.0]), np.array([]), 0.0)
-    share = quotient(dirlik_damage_rate(moments, law), narrow_band_damage_rate(moments, law))
-    damage = np.nan_to_num(time.relative_variance, nan=1.0) ** (k / 2)
+    variance = time.relative_variance
+    damage = np.where(np.isnan(variance), 1.0, variance) ** (k / 2)
     busy = damage.mean(axis=0) ** 2 / np.mean(damage**2, axis=0)
-    return np.asarray(spectral_shape(moments).zero_crossings * duration * share * busy)
+    return np.asarray(shape.zero_crossings * duration * dirlik_over_narrow_band(shape, k) * busy)
 
 
 def _top_cycle_share(cycles: NDArray[np.float64], k: float) -> NDArray[np.float64]:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
+from fatigue.quotient import quotient
 
 NARROW = 1e-7  # below this 1 - alpha2 the narrow-band result is exact to 2e-7, and Dirlik's Q is 0 / 0
 VANISHING = 1e-12  # a weight of the exponential part too small to determine its scale
@@ -130,6 +131,17 @@ def narrow_band_damage_rate(moments: NDArray[np.float64], law: DamageLaw) -> NDA
     """Damage per second if every upward crossing of the mean began a Rayleigh cycle: (n,) [1/s] from moments (4, n)."""
     rayleigh = 2.0 * np.sqrt(2.0 * np.maximum(moments[0], 0.0))
     return np.asarray(spectral_shape(moments).zero_crossings * damage_per_cycle(rayleigh, RAYLEIGH, law))
+
+
+def dirlik_over_narrow_band(shape: SpectralShape, k: float) -> NDArray[np.float64]:
+    """Dirlik's damage over that of the narrow band on a straight curve of slope k, (n,); NaN without stress.
+
+    The ratio of `dirlik_damage_rate` and `narrow_band_damage_rate`: no stress is left in it, only rates and bandwidth.
+    """
+    density = dirlik_density(shape)
+    exponential = math.gamma(1.0 + k) / (2.0 ** (k / 2) * math.gamma(1.0 + k / 2))
+    per_peak = density.d1 * density.q**k * exponential + density.d2 * np.abs(density.r) ** k + density.d3
+    return quotient(shape.peaks * per_peak, shape.zero_crossings)
 
 
 def damage_per_cycle(scale: NDArray[np.float64], weibull_shape: float, law: DamageLaw) -> NDArray[np.float64]:

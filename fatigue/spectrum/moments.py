@@ -6,6 +6,7 @@ Windowed, detrended segments are linear in q as well: the result is that of Welc
 stress history, to rounding (Braccesi, Cianetti et al. published the idea for modal models, 2005 and later).
 """
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -15,12 +16,15 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.life.history import ModalHistory
+from fatigue.spectrum.pairs import pairs
+from fatigue.spectrum.taper import hann, tapered
 
 Real = TypeVar("Real", bound=np.floating)
 
 DIRLIK_ORDERS = (0.0, 1.0, 2.0, 4.0)
 FREQUENCY_TOLERANCE = 1e-9  # a bin that rounding puts above the upper limit still counts
-NUMBERS_AT_ONCE = 1_000_000  # of the segment spectra: 16 MB
+NUMBERS_AT_ONCE = 2_000_000  # of samples or spectra, of several segments: 16 MB
+CACHED_NUMBERS = 80_000  # in double precision, with as many again beside them
 BLOCK_POINTS = 1024  # keeps a block of points and its product with one matrix in the processor's cache
 
 
@@ -55,22 +59,32 @@ class Spectra:
         """Take the segments from ``first`` to before ``last``."""
         return replace(self, starts=self.starts[first:last])
 
-    def amplitudes(self) -> Iterator[NDArray[np.complex128]]:
-        """Transform some segments after the others, (some, f, m), in bounded memory.
+    def transforms(self) -> Iterator[NDArray[np.float64]]:
+        """Transform one segment after the other: (m, 2 f), the real and the imaginary part of each bin.
 
-        The mean over segments of ``amplitude[:, :, i].conj() * amplitude[:, :, j]`` is the one-sided cross-spectral
-        density of modes i and j [unit modal coordinate**2 / Hz].
+        The mean over segments of the products of two modes, summed over both parts of a bin, is the real part of their
+        one-sided cross-spectral density [unit modal coordinate**2 / Hz]. The imaginary part is antisymmetric and leaves
+        no trace in a quadratic form.
         """
-        modes, bins, length = self.history.q.shape[0], len(self.frequency), len(self.window)
-        some = max(1, NUMBERS_AT_ONCE // (modes * max(bins, self.starts.step // 4)))
+        length = len(self.window)
+        some = max(1, NUMBERS_AT_ONCE // (self.history.q.shape[0] * self.starts.step))  # read together
         for first in range(0, len(self.starts), some):
             starts = self.starts[first : first + some]
             samples = self.history.q[:, starts[0] : starts[-1] + length]
-            amplitude = np.empty((len(starts), bins, modes), dtype=np.complex128)
-            for spectrum, start in zip(amplitude, starts, strict=True):
-                segment = windowed(samples[:, start - starts[0] : start - starts[0] + length], self.window)
-                spectrum[:] = self.scale[:, None] * np.fft.rfft(segment, axis=1).T[:bins]
-            yield amplitude
+            for start in starts:
+                yield self._transform(samples[:, start - starts[0] : start - starts[0] + length])
+
+    def _transform(self, samples: NDArray[np.floating]) -> NDArray[np.float64]:
+        """Transform one segment, (m, length of a segment), some modes at a time."""
+        length, bins = samples.shape[1], len(self.frequency)
+        amplitude = np.empty((len(samples), bins), dtype=np.complex128)
+        at_once = max(1, CACHED_NUMBERS // length)
+        for first in range(0, len(samples), at_once):
+            some = slice(first, first + at_once)
+            transform = np.fft.rfft(_from_first(samples[some]), axis=1)
+            transform[:, 0] = 0.0  # the mean of the segment
+            np.multiply(tapered(transform, length, slice(0, bins)), self.scale, out=amplitude[some])
+        return amplitude.view(np.float64)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,11 +160,6 @@ def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) ->
     )
 
 
-def hann(length: int) -> NDArray[np.float64]:
-    """Return the periodic Hann window, which a spectrum wants (the symmetric one is for filters)."""
-    return 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(length) / length)
-
-
 def segment_starts(samples: int, length: int) -> range:
     """First samples of the segments that overlap by half."""
     return range(0, samples - length + 1, length - length // 2)
@@ -161,52 +170,71 @@ def windowed(samples: NDArray[np.floating], window: NDArray[np.float64]) -> NDAr
 
     The mean goes in double precision: gravity can be a thousand times what is left.
     """
-    segment = samples.astype(np.float64)
-    segment -= segment[:, :1]  # a record at rest then has exactly no spectrum
+    segment = _from_first(samples)
     segment -= segment.mean(axis=1, keepdims=True)
     segment *= window
     return segment
 
 
+def _from_first(samples: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Take samples from the first one of each mode, in double precision: a record at rest has exactly no spectrum."""
+    return np.asarray(samples - samples[:, :1].astype(np.float64), dtype=np.float64)
+
+
 def moment_matrices(spectra: Spectra, orders: Sequence[float] = DIRLIK_ORDERS) -> MomentMatrices:
     """Integrate the cross-spectra of the modal coordinates, times f**p, over the kept bins."""
+    return next(moments_by_run(spectra, orders, len(spectra.starts)))
+
+
+def moments_by_run(spectra: Spectra, orders: Sequence[float], run: int) -> Iterator[MomentMatrices]:
+    """Moment matrices of ``run`` segments after the other; at the end there may be fewer."""
     modes, segments = spectra.history.q.shape[0], len(spectra.starts)
+    exponents = np.asarray(orders, dtype=np.float64)
+    roots = np.repeat(np.sqrt(spectra.weight * spectra.frequency ** exponents[:, None]), 2, axis=1)
     matrix = np.zeros((len(orders), modes, modes))
-    for amplitude in spectra.amplitudes():
-        parts = _real_parts(amplitude)
-        for i, order in enumerate(orders):
-            rows = (parts * np.sqrt(spectra.weight * spectra.frequency**order)[:, None]).reshape(-1, modes)
-            matrix[i] += rows.T @ rows
-    return MomentMatrices(
-        orders=np.asarray(orders, dtype=np.float64),
-        matrix=matrix / segments,
-        segments=segments,
-        resolution_hz=spectra.resolution_hz,
-        upper_hz=spectra.upper_hz,
-    )
+    for number, parts in enumerate(spectra.transforms()):
+        for i, root in enumerate(roots):
+            rows = parts * root
+            matrix[i] += rows @ rows.T
+        in_run = number % run + 1
+        if in_run == run or number + 1 == segments:
+            yield MomentMatrices(
+                orders=exponents,
+                matrix=matrix / in_run,
+                segments=in_run,
+                resolution_hz=spectra.resolution_hz,
+                upper_hz=spectra.upper_hz,
+            )
+            matrix[:] = 0.0
 
 
 def cross_densities(spectra: Spectra) -> NDArray[np.float64]:
     """Real parts of the one-sided cross-spectral densities of the modes, (f, m, m) [unit modal coordinate**2 / Hz]."""
-    modes, bins = spectra.history.q.shape[0], len(spectra.frequency)
-    density = np.zeros((bins, modes, modes))
-    some = max(1, NUMBERS_AT_ONCE // modes**2)
-    for amplitude in spectra.amplitudes():
-        parts = _real_parts(amplitude)
-        for first in range(0, bins, some):
-            rows = np.ascontiguousarray(parts[:, first : first + some].transpose(1, 0, 2))
-            density[first : first + some] += rows.transpose(0, 2, 1) @ rows
-    density /= len(spectra.starts)
+    modes = spectra.history.q.shape[0]
+    first, second = pairs(modes)
+    density = np.empty((len(spectra.frequency), modes, modes))
+    density[:, first, second] = density[:, second, first] = pair_densities(spectra)
     return density
 
 
-def _real_parts(amplitude: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """Real and imaginary parts of segment spectra, one after the other, (2 s, f, m).
-
-    Their products add up to the real part of a cross-spectrum. Its imaginary part is antisymmetric and leaves no trace
-    in a quadratic form.
-    """
-    return np.concatenate([amplitude.real, amplitude.imag])
+def pair_densities(spectra: Spectra) -> NDArray[np.float64]:
+    """Real part of the one-sided cross-spectral density of each of the `pairs` of modes, (f, pairs), see above."""
+    modes, bins = spectra.history.q.shape[0], len(spectra.frequency)
+    upper = np.ravel_multi_index(pairs(modes), (modes, modes))
+    density = np.zeros((bins, len(upper)))
+    some = max(1, NUMBERS_AT_ONCE // (2 * modes * bins))
+    bins_at_once = max(1, CACHED_NUMBERS // modes**2)
+    transforms = spectra.transforms()
+    while segments := list(itertools.islice(transforms, some)):
+        rows = np.empty((bins, 2 * len(segments), modes))
+        for i, parts in enumerate(segments):
+            rows[:, 2 * i : 2 * i + 2] = parts.reshape(modes, bins, 2).transpose(1, 2, 0)
+        for first in range(0, bins, bins_at_once):
+            block = rows[first : first + bins_at_once]
+            products = block.transpose(0, 2, 1).copy() @ block  # of a copy: the product with itself is slower
+            density[first : first + bins_at_once] += products.reshape(len(block), -1).take(upper, axis=1)
+    density /= len(spectra.starts)
+    return density
 
 
 def point_moments(shapes: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:

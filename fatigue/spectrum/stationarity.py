@@ -1,12 +1,11 @@
 """Is an event one stationary Gaussian case? Its variance over time, beside the scatter that chance allows.
 
-The record is cut into periods. The variance of a point's stress in each of them is a quadratic form in its shape, so
-is the autocovariance at each lag, and the variance of a Gaussian process' variance is a sum of squared autocovariances
-(Bendat and Piersol, Random Data, section 8.3). Both need matrices of the modal coordinates only.
+The record is cut into periods. The variance of a point's stress in each of them is a quadratic form in its shape, and
+the scatter to be expected of it a sum of squared ones, see `scatter`. Both need matrices of the modal coordinates only.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,46 +13,43 @@ from numpy.typing import NDArray
 from fatigue.life.history import ModalHistory
 from fatigue.quotient import quotient
 from fatigue.spectrum.moments import (
+    DIRLIK_ORDERS,
     MomentMatrices,
     Spectra,
-    cross_densities,
-    hann,
-    moment_matrices,
+    moments_by_run,
+    pair_densities,
     point_moments,
-    quadratic_forms,
     samples_per_segment,
     segment_spectra,
-    segment_starts,
 )
+from fatigue.spectrum.pairs import pair_forms, pairs, weights_of_pairs
+from fatigue.spectrum.scatter import period_taper, principal_scatter
 
 FEWEST_PERIODS = 8  # below, a scatter between periods says nothing
 MOST_PERIODS = 32  # into which a long record is cut: more would cost time and tell no more
-LONGEST_LAG = 0.4  # of the segment an autocovariance comes from: beyond, its taper leaves too little
-NEGLIGIBLE = 0.01  # share of the scatter energy the principal spectra may miss: a few per cent at a single point
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PeriodMatrices:
     """Variance of the modal coordinates period by period, and the scatter to be expected of it by chance.
 
-    The matrices are those of coordinates scaled to unit variance, in single precision: they take ``shapes * rms``.
-    The expected squared coefficient of variation of a point's variance from period to period, were the record Gaussian
-    and stationary, is ``sum over j of (s' scatter[j] s)**2 / (s' mean s)**2``.
+    The forms are those of coordinates scaled to unit variance, in single precision: they take ``shapes * rms``. Each is
+    a row of ``forms``, its weights of the `pairs` of modes: first the variance of each period, then that of the record,
+    then the principal spectra of the scatter. The expected squared coefficient of variation of a point's variance from
+    period to period, were the record Gaussian and stationary, is ``sum of scatter**2 / mean**2``.
 
     Attributes
     ----------
     rms : (m,) [unit modal coordinate]
-    variance : (p, m, m), of each period
-    mean : (1, m, m), of the record
-    scatter : (r, m, m) principal spectra
+    forms : (periods + 1 + r, pairs)
+    periods : how many there are
     period_s : effective length of a period under its taper [s]
     segments : segments of the spectrum in one period
     """
 
     rms: NDArray[np.float64]
-    variance: NDArray[np.float32]
-    mean: NDArray[np.float32]
-    scatter: NDArray[np.float32]
+    forms: NDArray[np.float32]
+    periods: int
     period_s: float
     segments: int
 
@@ -79,26 +75,41 @@ class Stationarity:
     expected_cov: NDArray[np.float64]
 
 
-def period_matrices(history: ModalHistory, spectra: Spectra) -> PeriodMatrices | None:
-    """Cut an event into periods of one or, in a long record, some segments; None if there are fewer than eight."""
+def moments_and_variances(spectra: Spectra) -> tuple[MomentMatrices, NDArray[np.float64]]:
+    """Moment matrices of an event, and from the same transforms the variance matrix of each period, (p, m, m)."""
+    run = segments_per_period(spectra)
+    total, variances = np.zeros(()), []
+    for part in moments_by_run(spectra, DIRLIK_ORDERS, run):
+        total = total + part.segments * part.matrix
+        if part.segments == run:
+            variances.append(part.matrix[0].copy())
+    segments = len(spectra.starts)
+    return replace(part, matrix=total / segments, segments=segments), np.stack(variances)
+
+
+def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[np.float64]) -> PeriodMatrices | None:
+    """Judge the periods of an event, one or, in a long record, some segments each; None if there are fewer than eight.
+
+    ``variances`` is (p, m, m), see `moments_and_variances`.
+    """
     if len(spectra.starts) < FEWEST_PERIODS:
         return None
     long = segment_spectra(history, 2 * spectra.segment_s, spectra.upper_hz)
-    mean = moment_matrices(long, (0,)).matrix
-    rms = np.sqrt(np.diag(mean[0]))
+    first, second = pairs(len(history.mode))
+    density = pair_densities(long)
+    mean = long.weight @ density
+    rms = np.sqrt(mean[first == second])
     scale = np.where(rms > 0, rms, 1.0)  # a mode that is never excited stays zero
-    unit = 1 / np.outer(scale, scale)
 
     segments = segments_per_period(spectra)
-    variance = np.concatenate([m.matrix for m in moments_by_period(spectra, (0,))])
-    taper = _period_taper(samples_per_segment(history.step, spectra.segment_s), segments)
+    taper = period_taper(samples_per_segment(history.step, spectra.segment_s), segments)
     period_s = history.step / float(np.sum(taper**2))
-    scatter = _principal_scatter(long, unit, taper, history.step)
+    unit = weights_of_pairs(len(scale)) / (scale[first] * scale[second])
+    known = np.concatenate([variances[:, first, second], mean[None]]) * unit
+    scatter = principal_scatter(long, density, scale, taper)
     scatter /= np.sqrt(1 + period_s / history.duration)  # the autocovariances have their own scatter, which adds
-    single = np.float32
-    return PeriodMatrices(
-        rms, (variance * unit).astype(single), (mean * unit).astype(single), scatter.astype(single), period_s, segments
-    )
+    forms = np.concatenate([known.astype(np.float32), scatter.astype(np.float32)])
+    return PeriodMatrices(rms, forms, len(variances), period_s, segments)
 
 
 def segments_per_period(spectra: Spectra) -> int:
@@ -108,17 +119,15 @@ def segments_per_period(spectra: Spectra) -> int:
 
 def moments_by_period(spectra: Spectra, orders: tuple[float, ...]) -> list[MomentMatrices]:
     """Moment matrices of each period; segments that do not fill a last period are left out."""
-    segments = segments_per_period(spectra)
-    starts = range(0, len(spectra.starts) - segments + 1, segments)
-    return [moment_matrices(spectra.part(first, first + segments), orders) for first in starts]
+    run = segments_per_period(spectra)
+    return [part for part in moments_by_run(spectra, orders, run) if part.segments == run]
 
 
 def stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices) -> Stationarity:
     """Judge the variance over time of the stress at every point; ``shapes`` is (n, m). NaN where the stress is zero."""
-    unit = shapes * periods.rms
-    variance = quadratic_forms(unit, periods.variance).astype(np.float64)
-    mean = quadratic_forms(unit, periods.mean)[0].astype(np.float64)
-    scatter = np.sqrt(np.sum(quadratic_forms(unit, periods.scatter).astype(np.float64) ** 2, axis=0))
+    forms = pair_forms(shapes * periods.rms, periods.forms).astype(np.float64)
+    variance, mean = forms[: periods.periods], forms[periods.periods]
+    scatter = np.sqrt(np.sum(forms[periods.periods + 1 :] ** 2, axis=0))
     expected_cov = quotient(scatter, mean)
     relative = quotient(variance, variance.mean(axis=0))
     count = len(relative)
@@ -156,48 +165,6 @@ def damage_rate_by_period(
     """
     rates = [damage_rate(point_moments(shapes, m)) for m in moments_by_period(spectra, (0.0, 1.0, 2.0, 4.0))]
     return np.asarray(np.mean(rates, axis=0))
-
-
-def _principal_scatter(
-    spectra: Spectra, unit: NDArray[np.float64], taper: NDArray[np.float64], step: float
-) -> NDArray[np.float64]:
-    """Find matrices H_j (r, m, m) with ``sum (s' H_j s)**2`` the variance of a Gaussian process' tapered variance.
-
-    That variance is ``2 sum over lags of overlap(lag) (s' R(lag) s)**2`` with the autocovariance R of the coordinates
-    and the autocorrelation of the taper. Most of the hundreds of lags repeat each other: the few principal directions
-    of the stack of matrices hold all but `NEGLIGIBLE` of its energy.
-    """
-    density = cross_densities(spectra)
-    density *= unit
-
-    window = hann(round(spectra.segment_s / step))
-    stride = max(1, int(1 / (2.5 * spectra.upper_hz * step)))  # R**2 has twice the bandwidth of the stress
-    lag = np.arange(0, min(int(LONGEST_LAG * len(window)), len(taper)), stride)
-    both_signs = np.where(lag == 0, 1.0, 2.0)
-    overlap = stride * both_signs * _autocorrelation(taper)[lag]
-    seen = _autocorrelation(window)[lag] / np.sum(window**2)  # of R, through the taper of the spectrum
-    to_lags = np.cos(2 * np.pi * np.outer(lag * step, spectra.frequency)) * spectra.weight
-    stack = (np.sqrt(2 * overlap) / seen)[:, None] * to_lags @ density.reshape(len(density), -1)
-
-    if len(stack) > stack.shape[1]:
-        stack = np.asarray(np.linalg.qr(stack, mode="r"))  # the same sums of squares from as many rows as columns
-    energy, direction = np.linalg.eigh(stack @ stack.T)
-    first = int(np.searchsorted(np.cumsum(energy), NEGLIGIBLE * energy.sum()))
-    return np.asarray((direction[:, first:].T @ stack).reshape(-1, *unit.shape))
-
-
-def _period_taper(length: int, segments: int) -> NDArray[np.float64]:
-    """Weight with which each squared sample enters the variance of a period; sums to 1."""
-    hop = length - length // 2
-    taper = np.zeros(length + (segments - 1) * hop)
-    for start in segment_starts(len(taper), length):
-        taper[start : start + length] += hann(length) ** 2
-    return np.asarray(taper / taper.sum())
-
-
-def _autocorrelation(x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """``sum of x(i) x(i + lag)`` for lags 0 to len(x) - 1."""
-    return np.fft.irfft(np.abs(np.fft.rfft(x, 2 * len(x))) ** 2, 2 * len(x))[: len(x)]
 
 
 def _chi_square_over_freedom(normal: float, freedom: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.history import ModalHistory
-from fatigue.spectrum.moments import hann, samples_per_segment, segment_starts, windowed
+from fatigue.spectrum.moments import samples_per_segment, segment_starts, windowed
+from fatigue.spectrum.taper import hann
 
 MOST_SEGMENTS = 64  # that one surrogate draws on
 LONGEST = 16  # segments; a longer surrogate tells no more than several

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 
 from fatigue.life.history import ModalHistory, mean_and_covariance
 from fatigue.life.spool import Samples
-from fatigue.spectrum.moments import hann
+from fatigue.spectrum.taper import tapered
 
 SLOWEST_HZ = 0.3
 SLOWEST_CYCLES = 10.0  # per record; fewer are an event, not a spectrum
 LINE_OVER_MEDIAN = 20.0  # one bin of noise in a million stands out so far
 NUMBERS_AT_ONCE = 2_000_000  # of the whole record's spectra: 32 MB
+UNDER_WINDOW = 8 / 3  # variance of a tone over that under the Hann window, whose mean square is 3/8
+CACHED_NUMBERS = 250_000  # samples in double precision: 2 MB
 LINE_BLOCK = 16  # bins of a local median: narrow against resonances, wide against the four bins of a tapered tone
 
 
@@ -25,12 +27,14 @@ class RecordMatrices:
 
     Attributes
     ----------
+    mean : (m,) time mean
     covariance : of the record, mean removed
     slow : part below ``slow_hz``
     lines : part in spectral lines, bins of the whole record's spectrum that stand out of their neighbours
     slow_hz : frequency below which the record holds too few cycles for a spectrum [Hz]
     """
 
+    mean: NDArray[np.float64]
     covariance: NDArray[np.float64]
     slow: NDArray[np.float64]
     lines: NDArray[np.float64]
@@ -40,58 +44,87 @@ class RecordMatrices:
 def record_matrices(history: ModalHistory, upper_hz: float) -> RecordMatrices:
     """Split the covariance of the whole record; lines are looked for between the slow part and ``upper_hz`` [Hz].
 
-    One mode is transformed at a time, in about seven times the memory of its samples in double precision.
+    Some modes are transformed at a time, at least one, in about seven times the memory of their samples in double
+    precision.
     """
-    samples = history.q.shape[1]
+    modes, samples = history.q.shape
     frequency = np.fft.rfftfreq(samples, history.step)
     slow_hz = max(SLOWEST_HZ, SLOWEST_CYCLES / history.duration)
-    slow = np.flatnonzero((frequency > 0) & (frequency < slow_hz))
-    fast = slice(*np.searchsorted(frequency, [slow_hz, np.nextafter(upper_hz, np.inf)]).tolist())
+    slow = slice(1, max(1, int(np.searchsorted(frequency, slow_hz))))
+    begin, end = np.searchsorted(frequency, [slow_hz, np.nextafter(upper_hz, np.inf)]).tolist()
+    fast = slice(begin, max(begin, end))
     del frequency
 
-    taper = hann(samples)
-    stands_out = np.zeros(max(0, fast.stop - fast.start), dtype=np.bool_)
-    for mode in range(history.q.shape[0]):
-        stands_out |= _stands_out(np.abs(_line_amplitudes(history.q, mode, taper)[fast]) ** 2)
-    lines = fast.start + np.flatnonzero(stands_out)
+    mean, covariance = mean_and_covariance(history.q)
+    slowly = np.empty((modes, slow.stop - slow.start), dtype=np.complex128)  # some hundredths of the record
+    stands_out = np.zeros(fast.stop - fast.start, dtype=np.bool_)
+    for some in _few_modes(modes, samples):
+        spectrum = _spectrum(history.q, some, mean)
+        slowly[some] = spectrum[:, slow]
+        amplitude = tapered(spectrum, samples, fast)
+        stands_out |= _stands_out(amplitude.real**2 + amplitude.imag**2).any(axis=0)
     # A tapered tone reaches into the bins beside it, whether or not they stand out themselves.
-    beside = np.unique(lines[:, None] + np.arange(-1, 2))
-    beside = beside[(beside >= fast.start) & (beside < fast.stop)]
+    lines = stands_out.copy()
+    lines[1:] |= stands_out[:-1]
+    lines[:-1] |= stands_out[1:]
     return RecordMatrices(
-        covariance=mean_and_covariance(history.q)[1],
-        slow=_part(history.q, np.ones(samples), slow),
-        lines=_part(history.q, taper, beside),
+        mean=mean,
+        covariance=covariance,
+        slow=_products(slowly),
+        lines=_in_bins(history.q, mean, fast, np.flatnonzero(lines)),
         slow_hz=slow_hz,
     )
 
 
-def _part(q: Samples, taper: NDArray[np.float64], bins: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Part of the covariance in some bins of the whole record's spectrum, a bounded number of them at a time."""
-    modes = q.shape[0]
+def _in_bins(q: Samples, mean: NDArray[np.float64], bins: slice, chosen: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Part of the covariance in some chosen bins of the tapered record's spectrum, a bounded number of them at a time.
+
+    ``chosen`` counts from the first of ``bins``.
+    """
+    modes, samples = q.shape
     part = np.zeros((modes, modes))
     at_once = max(1, NUMBERS_AT_ONCE // modes)
-    for first in range(0, len(bins), at_once):
-        some = bins[first : first + at_once]
-        amplitude = np.stack([_line_amplitudes(q, mode, taper)[some] for mode in range(modes)])
-        part += (amplitude @ amplitude.conj().T).real
+    for first in range(0, len(chosen), at_once):
+        now = chosen[first : first + at_once]
+        amplitude = np.empty((modes, len(now)), dtype=np.complex128)
+        for some in _few_modes(modes, samples):
+            amplitude[some] = tapered(_spectrum(q, some, mean), samples, bins)[:, now]
+        part += UNDER_WINDOW * _products(amplitude)
     return part
 
 
-def _line_amplitudes(q: Samples, mode: int, taper: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Spectrum of one coordinate over the whole record; squared magnitudes sum to its variance."""
-    coordinate = q[mode : mode + 1, :][0]
-    centred = (coordinate - coordinate.mean(dtype=np.float64)) * taper
-    spectrum = np.fft.rfft(centred)
-    spectrum *= np.sqrt(2 / (len(taper) * np.sum(taper**2)))
+def _products(amplitude: NDArray[np.complex128]) -> NDArray[np.float64]:
+    """Real parts of the products of all modes, summed over bins: (m, m) from (m, bins)."""
+    parts = np.ascontiguousarray(amplitude).view(np.float64)
+    return np.asarray(parts @ parts.T)
+
+
+def _few_modes(modes: int, samples: int) -> list[slice]:
+    """Cut the modes so that the records of a few stay in the processor's cache."""
+    few = max(1, CACHED_NUMBERS // samples)
+    return [slice(first, first + few) for first in range(0, modes, few)]
+
+
+def _spectrum(q: Samples, some: slice, mean: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Spectra of some coordinates over the whole record; squared magnitudes of one sum to its variance."""
+    coordinates = q[some, :].astype(np.float64)
+    coordinates -= mean[some, None]
+    spectrum = np.fft.rfft(coordinates, axis=1)
+    spectrum *= np.sqrt(2) / coordinates.shape[1]
     return spectrum
 
 
 def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Bins far above the medians of their block and of those beside it, so that the edge of a band is no tone."""
-    blocks = len(power) // LINE_BLOCK
+    """Bins of (n, f) far above the medians of their block and of those beside it: the edge of a band is no tone."""
+    blocks = power.shape[1] // LINE_BLOCK
     if blocks == 0:
-        return np.zeros(len(power), dtype=np.bool_)
-    median = np.pad(np.median(power[: blocks * LINE_BLOCK].reshape(blocks, LINE_BLOCK), axis=1), 1, mode="edge")
-    around = np.maximum(np.maximum(median[:-2], median[1:-1]), median[2:])
-    block = np.minimum(np.arange(len(power)) // LINE_BLOCK, blocks - 1)  # the last, incomplete one joins its neighbour
-    return np.asarray(power > LINE_OVER_MEDIAN * around[block])
+        return np.zeros(power.shape, dtype=np.bool_)
+    half = LINE_BLOCK // 2
+    block = power[:, : blocks * LINE_BLOCK].reshape(-1, blocks, LINE_BLOCK)
+    median = np.partition(block, (half - 1, half), axis=2)[:, :, half - 1 : half + 1].mean(axis=2)
+    median = np.concatenate([median[:, :1], median, median[:, -1:]], axis=1)
+    around = np.maximum(np.maximum(median[:, :-2], median[:, 1:-1]), median[:, 2:])
+    of_bin = np.minimum(
+        np.arange(power.shape[1]) // LINE_BLOCK, blocks - 1
+    )  # the last, incomplete one joins the one before
+    return np.asarray(power > LINE_OVER_MEDIAN * around[:, of_bin])

@@ -5,10 +5,11 @@ its chord: one set of formulas serves linear, parabolic and mixed lines. A body 
 nodes, so whatever is computed by node or by edge takes one line or a stack of them.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import wraps
 from itertools import pairwise
-from typing import TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,7 @@ class WeldLine:
     closed : whether the last node is joined to the first, which is not repeated
     end_length : length of the end treatment [mm]; None: the plate thickness; 0: none
     corner_start, corner_end : whether the part begins or ends at a kink of the weld instead of a weld end
+    kept : what has been computed of the line, see ``once``
     """
 
     weld: str
@@ -51,11 +53,7 @@ class WeldLine:
     end_length: float | None
     corner_start: bool = False
     corner_end: bool = False
-
-    @property
-    def lines(self) -> tuple["WeldLine", ...]:
-        """The line itself, as the only one of a stack."""
-        return (self,)
+    kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def begin(self) -> NDArray[np.int64]:
@@ -65,45 +63,106 @@ class WeldLine:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineStack:
-    """Weld lines laid one after another, k lines with n nodes in all.
+    """Weld lines laid one after another, k lines with n nodes in all; single lines are cut out when asked for.
 
     Attributes
     ----------
-    lines : the lines
+    weld, part : (k,) name of the weld and number of the part
+    closed, corner_start, corner_end : (k,) as in ``WeldLine``
+    end_length : (k,) length of the end treatment [mm]; NaN: the plate thickness; 0: none
     begin : (k + 1,) position of each line's first node in the stack, and n
-    node, xyz, thickness, normal, outward, edge_mid : as in ``WeldLine``, of all nodes
+    order, node, xyz, thickness, normal, outward, edge_mid : as in ``WeldLine``, of all nodes
+    kept : what has been computed of the lines, see ``once``
     """
 
-    lines: tuple[WeldLine, ...]
+    weld: tuple[str, ...]
+    part: NDArray[np.int64]
+    closed: NDArray[np.bool_]
+    end_length: NDArray[np.float64]
+    corner_start: NDArray[np.bool_]
+    corner_end: NDArray[np.bool_]
     begin: NDArray[np.int64]
+    order: NDArray[np.int64]
     node: NDArray[np.int64]
     xyz: Vectors
     thickness: NDArray[np.float64]
     normal: Vectors
     outward: Vectors
     edge_mid: NDArray[np.bool_]
+    kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
+
+    def __len__(self) -> int:
+        """Count the lines."""
+        return len(self.weld)
+
+    def __getitem__(self, number: int) -> WeldLine:
+        """Cut out one line, a view of its nodes."""
+        nodes = slice(int(self.begin[number]), int(self.begin[number + 1]))
+        length_given = float(self.end_length[number])
+        return WeldLine(
+            weld=self.weld[number],
+            part=int(self.part[number]),
+            **{name: getattr(self, name)[nodes] for name in NODE_COLUMNS},
+            closed=bool(self.closed[number]),
+            end_length=None if np.isnan(length_given) else length_given,
+            corner_start=bool(self.corner_start[number]),
+            corner_end=bool(self.corner_end[number]),
+        )
+
+    def __iter__(self) -> Iterator[WeldLine]:
+        """Cut out one line after the other."""
+        return (self[number] for number in range(len(self)))
+
+    def lines(self, some: slice) -> "LineStack":
+        """Take some neighbouring lines, a view of their nodes."""
+        first, end, _ = some.indices(len(self))
+        nodes = slice(int(self.begin[first]), int(self.begin[end]))
+        return LineStack(
+            **{name: getattr(self, name)[some] for name in LINE_COLUMNS},
+            begin=self.begin[first : end + 1] - self.begin[first],
+            **{name: getattr(self, name)[nodes] for name in NODE_COLUMNS},
+        )
 
 
 Lines: TypeAlias = WeldLine | LineStack
+NODE_COLUMNS = ("order", "node", "xyz", "thickness", "normal", "outward", "edge_mid")
+LINE_COLUMNS = ("weld", "part", "closed", "end_length", "corner_start", "corner_end")
+Computed = TypeVar("Computed")
+
+
+def once(compute: Callable[[Lines], Computed]) -> Callable[[Lines], Computed]:
+    """Compute something of a line or stack at the first call and keep it there: half of the rest is computed from it.
+
+    What is returned must not be changed.
+    """
+
+    @wraps(compute)
+    def kept(line: Lines) -> Computed:
+        if compute.__name__ not in line.kept:
+            line.kept[compute.__name__] = compute(line)
+        found: Computed = line.kept[compute.__name__]
+        return found
+
+    return kept
 
 
 def stacked(lines: Sequence[WeldLine]) -> LineStack:
     """Lay lines one after another."""
     return LineStack(
-        lines=tuple(lines),
+        weld=tuple(line.weld for line in lines),
+        part=np.array([line.part for line in lines]),
+        closed=np.array([line.closed for line in lines]),
+        end_length=np.array([np.nan if line.end_length is None else line.end_length for line in lines]),
+        corner_start=np.array([line.corner_start for line in lines]),
+        corner_end=np.array([line.corner_end for line in lines]),
         begin=np.cumsum([0, *(line.node.size for line in lines)]),
-        node=np.concatenate([line.node for line in lines]),
-        xyz=np.concatenate([line.xyz for line in lines]),
-        thickness=np.concatenate([line.thickness for line in lines]),
-        normal=np.concatenate([line.normal for line in lines]),
-        outward=np.concatenate([line.outward for line in lines]),
-        edge_mid=np.concatenate([line.edge_mid for line in lines]),
+        **{name: np.concatenate([getattr(line, name) for line in lines]) for name in NODE_COLUMNS},
     )
 
 
 def line_of_node(line: Lines) -> NDArray[np.int64]:
     """Which line of the stack each node belongs to, (n,)."""
-    return np.repeat(np.arange(len(line.lines)), np.diff(line.begin))
+    return np.repeat(np.arange(line.begin.size - 1), np.diff(line.begin))
 
 
 def neighbours(line: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -116,9 +175,17 @@ def neighbours(line: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 def is_closed(line: Lines) -> NDArray[np.bool_]:
     """Whether each line of the stack is closed, (k,)."""
-    return np.array([one.closed for one in line.lines])
+    return np.atleast_1d(line.closed)
 
 
+def end_lengths(line: Lines) -> NDArray[np.float64]:
+    """Length of the end treatment given for each line of the stack, (k,) [mm]; NaN: the plate thickness."""
+    if isinstance(line, WeldLine):
+        return np.array([np.nan if line.end_length is None else line.end_length])
+    return line.end_length
+
+
+@once
 def edge_nodes(line: Lines) -> NDArray[np.int64]:
     """Positions of each edge's first, mid and last node, (e, 3); mid is -1 on a linear edge."""
     vertex = np.flatnonzero(~line.edge_mid)
@@ -139,6 +206,7 @@ def edges(line: WeldLine) -> list[tuple[int, ...]]:
     return [(first, last) if mid < 0 else (first, mid, last) for first, mid, last in edge_nodes(line).tolist()]
 
 
+@once
 def edge_points(line: Lines) -> Vectors:
     """First, middle and last point of each edge, (e, 3, 3) [mm]; the middle of a linear edge is its centre."""
     nodes = edge_nodes(line)
@@ -155,6 +223,7 @@ def edge_derivative(points: Vectors, xi: NDArray[np.float64]) -> Vectors:
     return half_chord[:, np.newaxis] + xi[..., np.newaxis] * bend[:, np.newaxis]
 
 
+@once
 def step_lengths(line: Lines) -> NDArray[np.float64]:
     """Arc length from each node to the next, (n,) [mm]; from the last of a ring to the first, of an open line 0."""
     nodes, points = edge_nodes(line), edge_points(line)
@@ -176,6 +245,12 @@ def arc_length(line: Lines) -> NDArray[np.float64]:
 def length(line: WeldLine) -> float:
     """Length of the line [mm], on closed lines the whole way round."""
     return float(step_lengths(line).sum())
+
+
+def lengths(line: Lines) -> NDArray[np.float64]:
+    """Length of each line of the stack, (k,) [mm], on closed lines the whole way round."""
+    steps = step_lengths(line)
+    return np.array([steps[a:b].sum() for a, b in pairwise(line.begin)])
 
 
 def local_axes(line: Lines) -> Vectors:
@@ -253,6 +328,7 @@ def unit(vectors: Vectors) -> Vectors:
     return scaled
 
 
+@once
 def edge_tangents(line: Lines) -> tuple[Vectors, Vectors]:
     """Return the unit tangents before and after each node, (n, 3) each; zero where an open line has no edge."""
     first, mid, last = edge_nodes(line).T

@@ -22,6 +22,7 @@ from fatigue.weld.line import (
     edge_derivative,
     edge_nodes,
     edge_points,
+    end_lengths,
     is_closed,
     line_of_node,
 )
@@ -48,34 +49,56 @@ def line_load(line: Lines, nodal: NDArray[np.floating]) -> NDArray[np.float64]:
     matrix, right_sides = line_load_matrix(line), nodal.reshape(line.node.size, -1)
     order = _band_order(line)
     width = _band_width(line, matrix, order)[line_of_node(line)]
+    if np.all(width == width[0]) and not is_closed(line).any():
+        return _solved(matrix, int(width[0]), right_sides).reshape(nodal.shape)
     load: NDArray[np.float64] = np.empty(right_sides.shape, order="F")
     for one in np.unique(width):
         nodes = order[width[order] == one]
-        at = slice(None) if np.array_equal(nodes, np.arange(line.node.size)) else nodes
-        upper = triu(matrix[at][:, at]).tocoo()
-        band = np.zeros((one + 1, nodes.size))
-        band[one + upper.row - upper.col, upper.col] = upper.data
-        ordered = np.array(right_sides[at], dtype=np.float64, order="F")
-        load[at] = solveh_banded(band, ordered, overwrite_ab=True, overwrite_b=True)
+        load[nodes] = _solved(matrix[nodes][:, nodes], int(one), right_sides[nodes])
     return load.reshape(nodal.shape)
+
+
+def _solved(matrix: csr_array, width: int, right_sides: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Solve a system with so many bands above the diagonal, (n, k), Fortran order."""
+    upper = triu(matrix).tocoo()
+    band = np.zeros((width + 1, len(right_sides)))
+    band[width + upper.row - upper.col, upper.col] = upper.data
+    ordered = np.array(right_sides, dtype=np.float64, order="F")
+    solution: NDArray[np.float64] = solveh_banded(
+        band,
+        ordered,
+        overwrite_ab=True,
+        overwrite_b=True,
+        check_finite=False,  # readers refuse what is not
+    )
+    return solution
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EndTreatment:
-    """A line load with its weld ends treated.
+    """What the treatment of its weld ends makes of a line load.
 
     Attributes
     ----------
-    value : (n, ...) line load, in the end zones replaced by its mean over the zone [N/mm or N]
-    treated : (n,) replaced by a mean
+    load : (n, ...) line load as it was solved [N/mm or N]
+    treated : (n,) in an end zone, where a mean replaces it
+    mean : (z, ...) its mean over the zone at the z treated nodes [N/mm or N]
     at_end : (n,) within the zone of a weld end; the end node itself also where nothing is treated
     unresolved : (n,) end node whose edge is longer than the zone
     """
 
-    value: NDArray[np.float64]
+    load: NDArray[np.float64]
     treated: NDArray[np.bool_]
+    mean: NDArray[np.float64]
     at_end: NDArray[np.bool_]
     unresolved: NDArray[np.bool_]
+
+    @property
+    def value(self) -> NDArray[np.float64]:
+        """Line load with its weld ends treated, (n, ...) [N/mm or N]."""
+        value = self.load.copy(order="K")
+        value[self.treated] = self.mean
+        return value
 
 
 def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
@@ -88,13 +111,13 @@ def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
     """
     owner, s = line_of_node(line), arc_length(line)
     total = s[line.begin[1:] - 1]
-    given = np.array([np.nan if one.end_length is None else one.end_length for one in line.lines])
+    given = end_lengths(line)
     nodes, points = edge_nodes(line), edge_points(line)
     zones, at_end, unresolved = np.zeros((3, 2, line.node.size), dtype=bool)
     means = []
     for side, end, is_corner in (
-        (0, line.begin[:-1], np.array([one.corner_start for one in line.lines])),
-        (1, line.begin[1:] - 1, np.array([one.corner_end for one in line.lines])),
+        (0, line.begin[:-1], np.atleast_1d(line.corner_start)),
+        (1, line.begin[1:] - 1, np.atleast_1d(line.corner_end)),
     ):
         a = np.minimum(np.where(np.isnan(given), line.thickness[end], given), total / 2)
         a[is_closed(line)] = -np.inf
@@ -113,9 +136,7 @@ def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
     treated: NDArray[np.bool_] = np.logical_or(*zones)
     share = zones[:, treated] / zones[:, treated].sum(axis=0)
     mean = np.einsum("zt,zt...->t...", share, np.stack(means)[:, owner[treated]])
-    value = load.copy(order="K")
-    value[treated] = mean
-    return EndTreatment(value, treated, np.logical_or(*at_end), np.logical_or(*unresolved))
+    return EndTreatment(load, treated, mean, np.logical_or(*at_end), np.logical_or(*unresolved))
 
 
 def _band_order(line: Lines) -> NDArray[np.int64]:
@@ -132,7 +153,7 @@ def _band_width(line: Lines, matrix: csr_array, order: NDArray[np.int64]) -> NDA
     """Count the bands above the diagonal of each line's part of A in that order, (k,)."""
     place = np.argsort(order)
     entries = matrix.tocoo()
-    width = np.zeros(len(line.lines), dtype=np.int64)
+    width = np.zeros(line.begin.size - 1, dtype=np.int64)
     np.maximum.at(width, line_of_node(line)[entries.row], np.abs(place[entries.row] - place[entries.col]))
     return width
 
@@ -165,7 +186,7 @@ def _sums(
 ) -> NDArray[np.float64]:
     """Weighted sums of the line load over the given nodes of each line, (k, ...)."""
     at = _with_dummy_mid(nodes).ravel()
-    of_line = csr_array((weights.ravel(), (line_of_node(line)[at], np.arange(at.size))), (len(line.lines), at.size))
+    of_line = csr_array((weights.ravel(), (line_of_node(line)[at], np.arange(at.size))), (line.begin.size - 1, at.size))
     sums: NDArray[np.float64] = of_line @ load[at].reshape(at.size, math.prod(load.shape[1:]))
     return sums.reshape(-1, *load.shape[1:])
 

@@ -6,12 +6,11 @@ tau(z) x' the moment m_y' = int z tau dz (Dong, Int. J. Fatigue 23 (2001) 865; A
 """
 
 from dataclasses import dataclass, fields
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.weld.line import Lines, WeldLine, corners, local_axes
+from fatigue.weld.line import Lines, corners, local_axes
 from fatigue.weld.line_load import line_load, treat_ends
 
 
@@ -62,17 +61,17 @@ def _component(vectors: NDArray[np.float64], along: NDArray[np.float64]) -> NDAr
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineStress:
-    """Structural stress along one line, as solved (raw) and with its ends treated.
+    """Structural stress along a line or a stack of lines, as solved (raw) and with the ends treated.
 
     Attributes
     ----------
-    line : the weld line, n nodes
+    line : the weld line or lines, n nodes
     raw, treated : structural stress before and after the treatment of weld ends
     at_end, at_corner : (n,) near a weld end; at a kink of more than 30 degrees
     unresolved : (n,) end node whose edge is longer than the end zone
     """
 
-    line: WeldLine
+    line: Lines
     raw: StructuralStress
     treated: StructuralStress
     at_end: NDArray[np.bool_]
@@ -80,33 +79,27 @@ class LineStress:
     unresolved: NDArray[np.bool_]
 
 
-def assess_line(line: WeldLine, nodal_force: NDArray[np.floating]) -> LineStress:
+def assess_line(line: Lines, nodal_force: NDArray[np.floating]) -> LineStress:
     """Structural stress of nodal forces and moments on the assessed elements, (n, m, 6) [N, N mm], in global axes."""
-    (solved,) = line_stresses(line, line_load(line, nodal_force))
-    return solved
+    return line_stress(line, line_load(line, nodal_force))
 
 
-def line_stresses(line: Lines, load: NDArray[np.float64]) -> tuple[LineStress, ...]:
-    """Structural stress of each line, as loaded by a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
+def line_stress(line: Lines, load: NDArray[np.float64]) -> LineStress:
+    """Structural stress of a line or lines under a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
     axes, ends, at_corner = local_axes(line), treat_ends(line, load), corners(line)
     raw = _of_section(axes, line.thickness, load)
     near = ends.treated
-    mended = _of_section(axes[near], line.thickness[near], ends.value[near])
+    mended = _of_section(axes[near], line.thickness[near], ends.mean)
     pairs = zip(_parts(raw), _parts(mended), strict=True)
-    treated = StructuralStress(*(_replaced(old, near, new) for old, new in pairs))
-    at_corner[line.begin[:-1]] |= [one.corner_start for one in line.lines]
-    at_corner[line.begin[1:] - 1] |= [one.corner_end for one in line.lines]
-    return tuple(
-        LineStress(
-            line=one,
-            raw=StructuralStress(*(part[nodes] for part in _parts(raw))),
-            treated=StructuralStress(*(part[nodes] for part in _parts(treated))),
-            at_end=ends.at_end[nodes],
-            at_corner=at_corner[nodes],
-            unresolved=ends.unresolved[nodes],
-        )
-        for one, (a, b) in zip(line.lines, pairwise(line.begin), strict=True)
-        for nodes in (slice(a, b),)
+    at_corner[line.begin[:-1]] |= line.corner_start
+    at_corner[line.begin[1:] - 1] |= line.corner_end
+    return LineStress(
+        line=line,
+        raw=raw,
+        treated=StructuralStress(*(_replaced(old, near, new) for old, new in pairs)),
+        at_end=ends.at_end,
+        at_corner=at_corner,
+        unresolved=ends.unresolved,
     )
 
 

@@ -6,14 +6,15 @@ the events is the ``damage_per_km`` of a point.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.attribution import Credit, DamageRule, credit
 from fatigue.life.history import Residue
-from fatigue.life.mission import Pass
+from fatigue.life.mission import Pass, Plan
 from fatigue.life.rainflow import rainflow
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.readers.body import Modes
@@ -23,6 +24,7 @@ from fatigue.why.points import Points
 Floats = NDArray[np.float64]
 
 TIME_BINS = 40  # of an event that has no distance
+_OTHER_NUMBERS = 50  # of a point and event: damage, slopes, what the verdict says
 _SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a piece of points: 8 MB
 
 
@@ -63,6 +65,11 @@ class EventAttribution:
     place_s: Floats
     place_km: Floats
 
+    def of(self, index: NDArray[np.int64] | slice) -> Self:
+        """Take some of the points."""
+        of_event = {"event", "edges_hz", "place_s", "place_km"}
+        return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self) if f.name not in of_event})
+
     @property
     def has_bands(self) -> bool:
         """Whether the record is long enough for frequency bands."""
@@ -81,6 +88,10 @@ class Attribution:
 
     points: Points
     events: tuple[EventAttribution, ...]
+
+    def of(self, index: NDArray[np.int64] | slice) -> Self:
+        """Take some of the points."""
+        return replace(self, points=self.points.of(index), events=tuple(event.of(index) for event in self.events))
 
     @property
     def damage(self) -> Floats:
@@ -118,6 +129,12 @@ class Attribution:
         resolved = [event.band for event in self.events if event.has_bands]
         short = sum((event.damage for event in self.events if not event.has_bands), np.zeros(len(self.points)))
         return self.share(np.column_stack([np.asarray(sum(resolved)), short] if resolved else [short]))
+
+
+def numbers_of_point(plan: Plan, modes: Modes, edges_hz: Floats, bin_km: float) -> int:
+    """Count the numbers that are held of one point for all events."""
+    places = sum(TIME_BINS if one.length is None else int(one.length / bin_km) + 1 for one in plan.passes)
+    return places + len(plan.passes) * (3 * len(modes.mode) + 2 * len(edges_hz) + _OTHER_NUMBERS)
 
 
 def attribute_event(

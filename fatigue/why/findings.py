@@ -155,20 +155,21 @@ def findings(
 def _finding(
     modes: Modes, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], row: int
 ) -> Finding:
-    point, points = int(levers.point[row]), attribution.points
-    event_share = attribution.event_share[point]
+    point = int(levers.point[row])
+    own = attribution.of(slice(point, point + 1))
+    points, event_share, exponent = own.points, own.event_share[0], own.mode_exponent[0]
     governing = int(event_share.argmax())
-    event, verdict = attribution.events[governing], verdicts[governing]
-    share, resonant = attribution.mode_share[point], attribution.resonant_share[point]
-    intensity = event.place[point] / event.damage[point] / event.place_length
+    event, verdict = own.events[governing], verdicts[governing]
+    share, resonant = own.mode_share[0], own.resonant_share[0]
+    intensity = event.place[0] / event.damage[0] / event.place_length
     hottest = int(intensity.argmax())
     return Finding(
-        weld=str(points.weld[point]),
-        part=int(points.part[point]),
-        order=int(points.order[point]),
-        node=int(points.node[point]),
-        surface=FACES[points.face[point]],
-        life_km=float(life_km(attribution.damage[[point]], plan.damage_limit)[0]),
+        weld=str(points.weld[0]),
+        part=int(points.part[0]),
+        order=int(points.order[0]),
+        node=int(points.node[0]),
+        surface=FACES[points.face[0]],
+        life_km=float(life_km(own.damage, plan.damage_limit)[0]),
         event=event.event,
         event_share=float(event_share.max()),
         modes=tuple(
@@ -178,12 +179,12 @@ def _finding(
                 frequency_hz=float(modes.frequency[k]),
                 share=float(share[k]),
                 resonant_share=_or_none(resonant[k]),
-                life_exponent=float(attribution.mode_exponent[point, k]),
+                life_exponent=float(exponent[k]),
             )
             for k in _largest(share)
         ),
         relieving_share=float(share[share < 0.0].sum()),
-        bands=_largest_bands(attribution, point),
+        bands=_largest_bands(own),
         half_damage_part=_part_that_holds(HALF, intensity, event.place_length),
         place_km=_or_none(event.place_km[hottest]),
         place_s=float(event.place_s[hottest]),
@@ -201,12 +202,12 @@ def _finding(
     )
 
 
-def _largest_bands(attribution: Attribution, point: int) -> tuple[BandFinding, ...]:
-    """Take the bands with the largest shares; none where no event is long enough for bands."""
-    edges = next((event.edges_hz for event in attribution.events if event.has_bands), None)
+def _largest_bands(own: Attribution) -> tuple[BandFinding, ...]:
+    """Take the bands with the largest shares at the only point; none where no event is long enough for bands."""
+    edges = next((event.edges_hz for event in own.events if event.has_bands), None)
     if edges is None:
         return ()
-    share = attribution.band_share[point, :-1]
+    share = own.band_share[0, :-1]
     return tuple(BandFinding(float(edges[b]), _or_none(edges[b + 1]), float(share[b])) for b in _largest(share))
 
 

@@ -1,10 +1,13 @@
 """Which points of a result are diagnosed, and what is needed of them: stress shapes and the rule of their damage."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from itertools import islice
 from pathlib import Path
 from typing import Self
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.case import Case
@@ -12,12 +15,15 @@ from fatigue.errors import DataError, Problem
 from fatigue.life.attribution import DamageRule, size_exponent
 from fatigue.life.damage import size_factor
 from fatigue.life.mission import Plan
-from fatigue.pipeline.model import Model, WeldGroups, solve_group
-from fatigue.results import read_table
+from fatigue.pipeline.model import Model, SideForces, WeldGroups, solve_group
+from fatigue.results import read_codes, read_table
+from fatigue.weld.line import split_at_kinks
 
 Floats = NDArray[np.float64]
 
-MOST_SAMPLES = 100_000_000  # stress samples up to which all points are worth a minute
+MOST_SAMPLES = 100_000_000  # stress samples up to which all points are worth some minutes
+MOST_SAMPLES_OF_WORST = 200_000_000  # the same for the worst points
+MOST_NUMBERS = 20_000_000  # of all points, that are held at a time: 160 MB
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,34 +91,74 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
     )
 
 
-def choose_points(
-    folder: Path, case: Case, plan: Plan, share_of_limit: float
-) -> tuple[NDArray[np.object_], NDArray[np.int64], str]:
+@dataclass(frozen=True, slots=True, eq=False)
+class Chosen:
+    """The points to diagnose.
+
+    Attributes
+    ----------
+    rows : (p,) their rows in ``nodes.parquet``, ascending
+    why : (p,) why each was chosen
+    worst : (w,) index of each weld's worst point among them
+    what : the choice in words
+    """
+
+    rows: NDArray[np.int64]
+    why: NDArray[np.object_]
+    worst: NDArray[np.int64]
+    what: str
+
+
+def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, numbers: int) -> Chosen:
     """Choose all points if that is affordable, else the worst of every weld and those above a share of the limit.
 
-    Points that a bound has settled have no cycles to share out and are never chosen.
-    Returns for every row of ``nodes.parquet`` why it is chosen, empty if it is not; where among the chosen rows the
-    worst of every weld is; and the choice in words.
+    ``numbers`` are those that are held for each point. Where even the worst points are too many, those with the highest
+    utilisation stay. Points that a bound has settled have no cycles to share out and are never chosen.
     """
-    nodes = read_table(folder, "nodes", ["weld", "utilisation", "toe", "screened"]).to_pandas()
-    counted = nodes["screened"] == ""
-    utilisation = nodes["utilisation"].where(nodes["toe"] & counted, -1.0)  # a face without a toe never governs
-    worst = np.sort(utilisation.groupby(nodes["weld"]).idxmax().to_numpy())
+    weld, _ = read_codes(folder, "nodes", "weld")
+    tier, tiers = read_codes(folder, "nodes", "screened")
+    table = read_table(folder, "nodes", ["utilisation", "toe"])
+    counted = np.array([name == "" for name in [*tiers, ""]])[tier]
+    toe = table["toe"].to_numpy()
+    utilisation = np.where(toe & counted, table["utilisation"].to_numpy(), -1.0)  # a face without a toe never governs
+    worst = np.sort(pd.Series(utilisation).groupby(weld).idxmax().to_numpy())
 
     upsample = case.counting.upsample
     samples = sum(one.samples for one in plan.passes) * (upsample if isinstance(upsample, int) else 1)
-    if counted.all() and len(nodes) * samples <= MOST_SAMPLES:
-        return np.full(len(nodes), "all", dtype=object), worst, f"all {len(nodes)} points"
+    if counted.all() and len(weld) * samples <= MOST_SAMPLES and len(weld) * numbers <= MOST_NUMBERS:
+        rows = np.arange(len(weld))
+        return Chosen(rows, np.full(len(rows), "all", dtype=object), worst, f"all {len(rows)} points")
     above = f"above {share_of_limit:g} of the limit"
-    chosen = np.where(utilisation >= share_of_limit, above, "").astype(object)
-    chosen[worst] = "worst of its weld"
-    rows = np.flatnonzero(chosen)
-    which = f"the worst point of every weld and those {above}, {len(rows)} of {len(nodes)}: all would take long"
-    return chosen, np.searchsorted(rows, worst), which
+    others = np.setdiff1d(np.flatnonzero(utilisation >= share_of_limit), worst)
+    most = max(1, min(MOST_SAMPLES_OF_WORST // samples, MOST_NUMBERS // numbers))
+    named, kept = worst, others
+    if len(worst) + len(others) > most:
+        named = _highest(worst, utilisation, most)
+        kept = _highest(others, utilisation, most - len(named))
+    rows = np.union1d(named, kept)
+    why = np.where(np.isin(rows, named), "worst of its weld", above).astype(object)
+    if len(rows) == len(worst) + len(others):
+        which = f"the worst point of every weld and those {above}, {len(rows)} of {len(weld)}: all would take long"
+    elif len(named) == len(worst):
+        which = (
+            f"the worst point of every weld and, of the {len(others)} others {above}, the {len(kept)} with the "
+            f"shortest lives, {len(rows)} of {len(weld)}: more would take long"
+        )
+    else:
+        which = (
+            f"the worst points of the {len(named)} of {len(worst)} welds with the shortest lives, of {len(weld)} "
+            "points: more would take long"
+        )
+    return Chosen(rows, why, np.searchsorted(rows, named), which)
 
 
-def gather_points(folder: Path, groups: WeldGroups, chosen: NDArray[np.object_]) -> Points:
-    """Solve the welds group by group and keep what is needed of the chosen points only.
+def _highest(rows: NDArray[np.int64], utilisation: NDArray[np.float64], most: int) -> NDArray[np.int64]:
+    """Take the rows with the highest utilisation, ascending."""
+    return np.sort(rows[np.argsort(-utilisation[rows], kind="stable")[:most]])
+
+
+def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
+    """Solve the groups of welds in which points are chosen, one after the other, and keep what is needed of these.
 
     Raises
     ------
@@ -120,18 +166,27 @@ def gather_points(folder: Path, groups: WeldGroups, chosen: NDArray[np.object_])
     """
     node = read_table(folder, "nodes", ["node"])["node"].to_numpy()
     pieces, first = [], 0
-    for number in range(len(groups)):
-        model = solve_group(groups, number)
-        here = slice(first, first + 2 * len(model.stations))
-        if not np.array_equal(node[here], np.repeat(model.stations.node, 2)):
-            problem = Problem(
-                "other_points",
-                str(folder / "nodes.parquet"),
-                f"has other points than the case from row {first + 1} on",
-                "Run the assessment again",
-            )
-            raise DataError(problem)
-        rows = np.flatnonzero(chosen[here])
-        pieces.append(points_of(model, rows // 2, rows % 2, chosen[here][rows]))
-        first = here.stop
+    for number, of_case in enumerate(_nodes(groups)):
+        end = first + 2 * len(of_case)
+        if not np.array_equal(node[first:end], np.repeat(of_case, 2)):
+            raise DataError(_other_points(folder, f"has other points than the case from row {first + 1} on"))
+        here = slice(*np.searchsorted(chosen.rows, [first, end]).tolist())
+        rows = chosen.rows[here] - first
+        if len(rows):
+            pieces.append(points_of(solve_group(groups, number), rows // 2, rows % 2, chosen.why[here]))
+        first = end
+    if first != len(node):
+        raise DataError(_other_points(folder, f"has {len(node)} points where the case has {first}"))
     return Points(*(np.concatenate([getattr(piece, f.name) for piece in pieces]) for f in fields(Points)))
+
+
+def _nodes(groups: WeldGroups) -> Iterator[NDArray[np.int64]]:
+    """Nodes of the stations of every group of welds, known before it is solved."""
+    lines, is_split = iter(groups.body.lines), isinstance(groups.forces, SideForces)
+    for group in groups.groups:
+        some = islice(lines, len(range(*group.indices(len(groups.body.welds)))))
+        yield np.concatenate([part.node for line in some for part in (split_at_kinks(line) if is_split else (line,))])
+
+
+def _other_points(folder: Path, what: str) -> Problem:
+    return Problem("other_points", str(folder / "nodes.parquet"), what, "Run the assessment again")

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from typing import Self
 
 import numpy as np
 import pandas as pd
@@ -54,6 +55,12 @@ class EventVerdicts:
     process: Floats
     standard_error: Floats
     explained: Floats
+
+    def of(self, index: NDArray[np.int64] | slice) -> Self:
+        """Take some of the points."""
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in {"event", "measured"}}
+        measured = {name: values[index] for name, values in self.measured.items()}
+        return replace(self, measured=measured, **{name: values[index] for name, values in arrays.items()})
 
 
 def event_verdicts(
@@ -137,7 +144,7 @@ def _split(
     The surrogates are those of the few stresses, not of the many modal coordinates: both have the same spectra.
     """
     shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
-    stresses = replace(load.counted, mode=np.arange(len(shapes)), q=shapes @ load.counted.q)
+    stresses = replace(load.counted, mode=np.arange(len(shapes)), q=shapes @ np.asarray(load.counted.q))
 
     def damage_rate(surrogate: ModalHistory) -> Floats:
         nothing = np.zeros(surrogate.q.shape[1])  # with one bending ratio only the sum of membrane and bending counts

@@ -89,7 +89,7 @@ def smooth_weld(q: Floats, stations: int, seed: int) -> tuple[Floats, Floats]:
 
 @pytest.mark.parametrize("residue", ["half", "repeat"])
 def test_a_smooth_weld_needs_few_histories_and_its_bounds_are_close(residue: Residue) -> None:
-    """Four histories of 40 modes; range and variations to a thousandth, damage to a third."""
+    """Four histories of 40 modes; variations to two hundredths, range and damage to a third."""
     q = resonances(40, 20_000, 1)
     S_m, S_b = smooth_weld(q, 10, 2)
     extent = modal_extent(q, residue)
@@ -101,7 +101,7 @@ def test_a_smooth_weld_needs_few_histories_and_its_bounds_are_close(residue: Res
     s -= s.mean(axis=-1, keepdims=True)
     closed = np.concatenate([s, s[..., :1]], axis=-1) if residue == "repeat" else s
     exact = [2.0 ** (p - 2) * np.abs(np.diff(closed * np.abs(closed) ** (p - 1))).sum(axis=-1) for p in (1, 2, 3, 4)]
-    assert largest == pytest.approx(np.ptp(s, axis=-1), rel=2e-3)
+    assert (largest / np.ptp(s, axis=-1)).max() < 1.34
     assert sums == pytest.approx(np.stack(exact), rel=0.02)
     law, ones = LAWS["straight"], np.ones(10)
     choices = {"uses_bending_ratio": False, "residue": residue, "yield_MPa": None, "mean_stress": False}

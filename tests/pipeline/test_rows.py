@@ -11,8 +11,8 @@ from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.mission_block import MissionBlock
 from fatigue.pipeline.model import read_model
+from fatigue.pipeline.piece import TIERS
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
-from fatigue.pipeline.settle import TIERS
 from fatigue.results import table_writer
 from fatigue.spectrum.diagnosis import VERDICTS
 from tests.small_case import small_case
@@ -50,7 +50,7 @@ def test_points_come_station_by_station_top_before_bottom(model, tmp_path):
     screened = np.zeros((n, 2), dtype=np.int8)
     screened[5] = 2
     toe = np.tile([True, False], (n, 1))
-    nodes = written(tmp_path, "nodes", node_rows(model.stations, block, block.life_km, toe, screened, PLAN, WELDS))
+    nodes = written(tmp_path, "nodes", node_rows(model.stations, block, toe, screened, PLAN, WELDS))
 
     assert list(nodes["weld"]) == ["A"] * 14 + ["B"] * 14
     assert list(nodes["surface"]) == ["top", "bottom"] * n

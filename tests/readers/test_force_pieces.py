@@ -136,6 +136,16 @@ def test_groups_asked_for_nearly_in_order_decode_every_row_group_once(small_grou
     assert values_of(pieces, 0) == list(range(10))  # and any group at any time
 
 
+def test_a_piece_is_dropped_when_all_its_groups_have_been_asked_for(small_groups):
+    """Groups asked for in turn: one piece in memory, and none at the end."""
+    pieces, decoded = small_groups
+    for group in range(40):
+        assert values_of(pieces, group) == list(range(10 * group, 10 * group + 10))
+        assert len(pieces._decoded) <= 1
+    assert not pieces._decoded
+    assert decoded == list(range(7))
+
+
 def test_threads_share_the_pieces(small_groups):
     """Each thread gets the rows of the group it asks for."""
     pieces, _ = small_groups

@@ -13,13 +13,14 @@ from fatigue.readers import forces
 from fatigue.readers.body import Modes, Weld, read_modes, read_weld_nodes, read_welds
 from fatigue.readers.forces import (
     COMPONENTS,
+    check_nodal_forces,
     open_nodal_forces,
     read_element_forces,
     read_nodal_forces,
     read_weld_elements,
 )
 from fatigue.weld.element_forces import side_forces
-from fatigue.weld.line import WeldLine
+from fatigue.weld.line import LineStack
 from tests.readers.neutral import MODES, WELD_NODES, WELDS, changed, nodal_forces, picked, without, write
 
 SUFFIXES = pytest.mark.parametrize("suffix", [".csv", ".parquet"])
@@ -32,9 +33,10 @@ ELEMENT_FORCES = {
 } | {name: [float(10 * row + i) for row in range(6)] for i, name in enumerate(COMPONENTS)}
 
 
-def read_forces(path, *rest, strict):
-    """Open and read a table of nodal forces."""
-    return read_nodal_forces(open_nodal_forces(path), *rest, strict=strict)
+def read_forces(path, lines, *rest, strict):
+    """Open and read a table of nodal forces; those of each line apart."""
+    forces, warnings = read_nodal_forces(open_nodal_forces(path), lines, *rest, strict=strict)
+    return np.split(forces, lines.begin[1:-1]), warnings
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +45,7 @@ def body(tmp_path_factory):
     return small_body(tmp_path_factory.mktemp("body"))
 
 
-def small_body(folder: Path, ignore_modes=(), scale=None) -> tuple[Modes, tuple[WeldLine, ...]]:
+def small_body(folder: Path, ignore_modes=(), scale=None) -> tuple[Modes, LineStack]:
     """Write and read the small body."""
     columns = MODES if scale is None else MODES | {"scale": scale}
     modes, _ = read_modes(write(folder / "m.csv", columns), ignore_modes, strict=True)
@@ -65,6 +67,9 @@ def refusal_of(path, body, ignore_modes=()) -> str:
     modes, lines = body
     with pytest.raises(DataError) as refusal:
         read_forces(path, lines, modes, "on_element", ignore_modes, strict=False)
+    with pytest.raises(DataError) as checked:
+        check_nodal_forces(open_nodal_forces(path), lines, modes, ignore_modes, strict=False)
+    assert str(checked.value) == str(refusal.value)
     return str(refusal.value)
 
 

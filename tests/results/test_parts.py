@@ -18,6 +18,7 @@ from fatigue.results import (
     table_writer,
     worst_toes,
 )
+from fatigue.results.parts import number_groups, row_count
 
 ROWS, WELDS = 1000, ["W7", "a", "Z", "שלום"]
 
@@ -102,6 +103,36 @@ def test_worst_toes(folder, whole, welds):
     points = whole[whole["toe"] & (whole["screened"] == "") & (whole["weld"].isin(welds) if welds else True)]
     expected = points.sort_values("utilisation", ascending=False, kind="stable").index[:25]
     assert worst_toes(folder, 25, welds).tolist() == expected.tolist()
+
+
+def test_columns_as_numbers(folder, whole):
+    """Numbers and flags as they are, of a text its place among those that are known."""
+    known = {"weld": ["Z", "a"], "governing_event": ["y", "x"]}
+    pieces = list(number_groups(folder, "nodes", ["node", "toe", "life_km"], known))
+    assert len(pieces) == 16
+    found = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    for name in ("node", "toe", "life_km"):
+        assert found[name].tolist() == whole[name].tolist()
+    for name, texts in known.items():
+        expected = [texts.index(text) if text in texts else -1 for text in whole[name]]
+        assert found[name].tolist() == expected
+
+
+def test_row_count(folder, whole):
+    """Known without reading a row."""
+    assert row_count(folder, "nodes") == len(whole)
+
+
+@pytest.mark.parametrize("gone", ["weld", "order"])
+def test_a_table_without_a_column_is_damaged(tmp_path, whole, gone):
+    """Of texts or of numbers: the column is named."""
+    whole.drop(columns=gone).to_parquet(tmp_path / "nodes.parquet")
+    for read in (
+        lambda: list(number_groups(tmp_path, "nodes", ["order"], {"weld": WELDS})),
+        lambda: read_rows(tmp_path, "nodes", np.array([0]), ["weld", "order"]),
+    ):
+        with pytest.raises(DataError, match=rf"nodes\.parquet: the table cannot be read \(it has no column {gone}\)"):
+            read()
 
 
 def test_a_missing_or_damaged_table_is_named(tmp_path, folder):

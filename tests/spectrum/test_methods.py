@@ -11,6 +11,7 @@ from fatigue.spectrum.methods import (
     damage_per_cycle,
     dirlik_damage_rate,
     dirlik_density,
+    dirlik_over_narrow_band,
     narrow_band_damage_rate,
     spectral_shape,
     tovo_benasciutti_damage_rate,
@@ -114,6 +115,15 @@ def test_dirlik_weights_over_the_whole_triangle():
     assert np.max(density.r) < 1
     np.testing.assert_allclose(density.d1 + density.d2 + density.d3, 1.0, rtol=1e-12)
     assert 0.2 < np.mean(density.r < 0) < 0.3
+
+
+@pytest.mark.parametrize("k", [3.0, 3.6, 5.0])
+def test_dirlik_over_narrow_band(k):
+    """The ratio of the two damage rates on a straight law, up to a narrow band; none without stress."""
+    moments = moments_with(np.array([0.8, 0.99, 0.3, 1.0]), np.array([0.55, 0.45, 0.01, 1.0]))
+    expected = dirlik_damage_rate(moments, straight_law(k)) / narrow_band_damage_rate(moments, straight_law(k))
+    np.testing.assert_allclose(dirlik_over_narrow_band(spectral_shape(moments), k), expected, rtol=1e-12)
+    assert np.isnan(dirlik_over_narrow_band(spectral_shape(np.zeros((4, 1))), k)).all()
 
 
 def test_tovo_benasciutti_closed_form():

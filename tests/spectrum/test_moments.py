@@ -7,9 +7,12 @@ from hypothesis import strategies as st
 
 from fatigue.errors import DataError
 from fatigue.life.history import ModalHistory
+from fatigue.spectrum import moments
 from fatigue.spectrum.moments import (
+    cross_densities,
     has_spectrum,
     moment_matrices,
+    moments_by_run,
     point_moments,
     quadratic_forms,
     segment_spectra,
@@ -59,9 +62,33 @@ def test_describes_its_spectrum():
     assert spectra.resolution_hz == pytest.approx(0.5)
     assert spectra.segment_s == pytest.approx(2.0)
     assert spectra.frequency[-1] == pytest.approx(60.0)
-    assert [amplitude.shape for amplitude in spectra.amplitudes()] == [(4, 121, 3)]
+    assert [parts.shape for parts in spectra.transforms()] == [(3, 242)] * 4
     assert (matrices.segments, matrices.upper_hz, matrices.resolution_hz) == (4, 60.0, pytest.approx(0.5))
     assert matrices.matrix.shape == (4, 3, 3)
+
+
+@pytest.mark.parametrize("modes", [1, 7])
+def test_densities_add_up_to_the_variance(modes, monkeypatch):
+    """The cross-spectral densities are symmetric, and their integral is the moment of order 0; pieces do not matter."""
+    record = history(coloured(np.random.default_rng(4), modes, 3000).astype(np.float32))
+    spectra = segment_spectra(record, 2.0, 60.0)
+    density, expected = cross_densities(spectra), moment_matrices(spectra, (0,)).matrix[0]
+    np.testing.assert_allclose(np.tensordot(spectra.weight, density, axes=1), expected, rtol=1e-12)
+    np.testing.assert_array_equal(density, density.transpose(0, 2, 1))
+    monkeypatch.setattr(moments, "NUMBERS_AT_ONCE", 4000)
+    monkeypatch.setattr(moments, "CACHED_NUMBERS", 100)
+    np.testing.assert_allclose(cross_densities(spectra), density, rtol=1e-12)
+
+
+@pytest.mark.parametrize("run", [1, 2, 3, 8])
+def test_runs_of_segments_make_up_the_record(run):
+    """Each run is the mean over its segments; the last one holds what is left."""
+    spectra = segment_spectra(history(coloured(np.random.default_rng(5), 3, 1250)), 1.0, 60.0)
+    runs = list(moments_by_run(spectra, ORDERS, run))
+    assert sum(part.segments for part in runs) == len(spectra.starts) == 9
+    assert all(part.segments == run for part in runs[:-1])
+    together = sum(part.segments * part.matrix for part in runs) / len(spectra.starts)
+    np.testing.assert_allclose(together, moment_matrices(spectra, ORDERS).matrix, rtol=1e-12)
 
 
 def test_a_large_constant_part_in_single_precision_leaves_no_trace():

@@ -9,15 +9,19 @@ from scipy.stats import chi2
 from fatigue.life.history import ModalHistory
 from fatigue.life.rainflow import rainflow
 from fatigue.spectrum.methods import dirlik_damage_rate
-from fatigue.spectrum.moments import hann, moment_matrices, point_moments, quadratic_forms, segment_spectra
+from fatigue.spectrum.moments import moment_matrices, point_moments, segment_spectra
+from fatigue.spectrum.pairs import pair_forms
 from fatigue.spectrum.stationarity import (
     MOST_PERIODS,
     _chi_square_over_freedom,
     damage_rate_by_period,
     modulation_factor,
+    moments_and_variances,
+    moments_by_period,
     period_matrices,
     stationarity,
 )
+from fatigue.spectrum.taper import hann
 from tests.naive_spectrum import modal_spectrum, narrow_spectrum, straight_law, two_band_spectrum
 from tests.synthetic_records import RATE, gaussian, speed_steps, stationary
 
@@ -29,7 +33,7 @@ def prepared(records, segment_s=4.0, upper_hz=80.0):
     q = np.atleast_2d(records)
     history = ModalHistory("event", np.arange(len(q)) + 1, q, STEP, 0.0)
     spectra = segment_spectra(history, segment_s, upper_hz)
-    return history, spectra, period_matrices(history, spectra)
+    return history, spectra, period_matrices(history, spectra, moments_and_variances(spectra)[1])
 
 
 def ensemble(spectrum, records, samples, seed):
@@ -50,7 +54,7 @@ def test_expected_scatter_is_the_sum_over_lags():
     weight = hann(length) ** 2 / np.sum(hann(length) ** 2)
     window = hann(2 * length)
     for shape, found in zip(shapes, stationarity(shapes, periods).expected_cov, strict=True):
-        density = np.mean(np.abs(np.concatenate([*long.amplitudes()]) @ shape) ** 2, axis=0)
+        density = np.mean([np.sum((shape @ parts).reshape(-1, 2) ** 2, axis=1) for parts in long.transforms()], axis=0)
         variance = 0.0
         for lag in range(0, int(0.4 * len(window)), 2):
             if lag >= length:
@@ -83,6 +87,27 @@ def test_gaussian_records_stay_inside_the_bounds(spectrum, seconds):
     assert np.sqrt(np.mean(found.modulation_index**2)) == pytest.approx(1.0, abs=0.1)
     inside = (found.lower < found.modulation_index) & (found.modulation_index < found.upper)
     assert np.mean(inside) >= 0.9
+
+
+@pytest.mark.parametrize(("modes", "samples"), [(2, 29 * 512), (3, 300 * 512)])
+def test_moments_and_variances_are_those_of_the_segments(modes, samples):
+    """One pass over the segments gives the moments of all of them, and the variance of each whole period."""
+    _, spectra, _ = prepared(ensemble(modal_spectrum(), modes, samples, 10))
+    moments, variances = moments_and_variances(spectra)
+    np.testing.assert_allclose(moments.matrix, moment_matrices(spectra).matrix, rtol=1e-12)
+    assert moments.segments == len(spectra.starts)
+    of_periods = [m.matrix[0] for m in moments_by_period(spectra, (0,))]
+    np.testing.assert_allclose(variances, of_periods, rtol=1e-12)
+
+
+def test_many_modes_or_few_make_the_same_scatter():
+    """More pairs of modes than bins, or fewer: the same scatter at a point that sees the same modes."""
+    q = ensemble(modal_spectrum(), 3, 29 * 512, 11)
+    shapes = np.random.default_rng(12).normal(size=(10, 3))
+    few = stationarity(shapes, prepared(q)[2])
+    still = np.zeros((50, q.shape[1]))
+    many = stationarity(np.hstack([shapes, np.ones((10, 50))]), prepared(np.vstack([q, still]))[2])
+    np.testing.assert_allclose(many.expected_cov, few.expected_cov, rtol=1e-5)
 
 
 def test_modulation_shows():
@@ -125,10 +150,10 @@ def test_a_long_record_is_cut_into_few_periods():
     """Segments are pooled so that there are at most `MOST_PERIODS`, and the variance in the mean stays that of all."""
     _, spectra, periods = prepared(ensemble(modal_spectrum(), 2, 300 * 512, 8))
     assert len(spectra.starts) == 149
-    assert len(periods.variance) == 29 <= MOST_PERIODS
+    assert periods.periods == 29 <= MOST_PERIODS
     assert periods.segments == 5
     assert periods.period_s == pytest.approx(4.0 * 0.514 + 4 * 2.0, rel=0.1)
-    variance = quadratic_forms(np.eye(2), periods.variance)
+    variance = pair_forms(np.eye(2), periods.forms)[:29]
     np.testing.assert_allclose(variance.mean(axis=0), 1.0, rtol=0.1)
 
 

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from fatigue.life.history import ModalHistory
+from fatigue.spectrum import whole_record
 from fatigue.spectrum.moments import quadratic_forms
+from fatigue.spectrum.taper import hann
 from fatigue.spectrum.whole_record import record_matrices
 from tests.synthetic_records import RATE, curves, seconds, sine, stationary
 
@@ -50,6 +52,29 @@ def test_variance_of_a_tone(frequency, duration):
     noise = 0.2 * np.random.default_rng(2).normal(size=samples)
     found = split(np.sin(2 * np.pi * frequency * seconds(samples)) + noise)
     assert found.lines[0, 0] == pytest.approx(0.5, rel=0.03)
+
+
+@pytest.mark.parametrize("samples", [20 * 512, 20 * 512 + 1])
+@pytest.mark.parametrize("at_once", [1, 2_000_000])
+def test_parts_are_those_of_the_tapered_record(samples, at_once, monkeypatch):
+    """Slow part and tones against transforms of each record by itself, one under a taper, up to the last bin."""
+    rng, t = np.random.default_rng(6), seconds(samples)
+    tones = [np.sin(2 * np.pi * 9.3 * t), np.sin(np.pi * RATE * t + 1.0), np.zeros(samples)]
+    q = np.stack(tones) + 0.05 * rng.normal(size=(3, samples)) + 7.0
+    monkeypatch.setattr(whole_record, "NUMBERS_AT_ONCE", at_once)
+    monkeypatch.setattr(whole_record, "CACHED_NUMBERS", at_once)
+    found = split(q, RATE)
+    centred, taper = q - q.mean(axis=1, keepdims=True), hann(samples)
+    frequency = np.fft.rfftfreq(samples, 1 / RATE)
+    plain = np.fft.rfft(centred)[:, (frequency > 0) & (frequency < found.slow_hz)]
+    np.testing.assert_allclose(found.slow, 2 / samples**2 * (plain @ plain.conj().T).real, atol=1e-13)
+
+    tapered = np.fft.rfft(centred * taper) * np.sqrt(2 / (samples * np.sum(taper**2)))
+    near = np.abs(frequency - 9.3) < 0.2
+    near |= frequency > RATE / 2 - 0.2
+    part = (tapered[:, near] @ tapered[:, near].conj().T).real
+    np.testing.assert_allclose(found.lines, part, atol=1e-3)
+    assert found.lines[1, 1] > 0.3
 
 
 def test_one_tone_through_many_modes():

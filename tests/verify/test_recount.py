@@ -87,8 +87,12 @@ def differing(found: Recount) -> set[str]:
 @pytest.mark.parametrize("name", CASES)
 def test_pipeline_and_recount_agree(tmp_path, name):
     """Two programs that share no code agree to rounding in every column of every point, whatever the rules."""
-    found = recount(assessed(tmp_path, CASES[name]), sample=None)
+    result = assessed(tmp_path, CASES[name])
+    found = recount(result, sample=None)
     assert found.passed, found.as_text()
+    of_few = recount(result, sample=1, most_samples=1)  # and all rows belong together
+    assert of_few.passed, of_few.as_text()
+    assert {"nodes, all rows", "damage, all rows", "welds, all rows"} <= {column.table for column in of_few.columns}
     assert found.points == found.points_in_all > 40
     rounding = {c.column: c.difference for c in found.columns if c.column != "load_factor"}
     assert max(rounding.values()) < 1e-10, rounding

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from fatigue.errors import DataError
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
-from fatigue.weld.line import arc_length, edge_nodes, kink_angles, local_axes, stacked
+from fatigue.weld.line import arc_length, edge_nodes, kink_angles, length, lengths, local_axes, stacked
 from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
 from fatigue.weld.line_load import line_load, line_load_matrix
-from fatigue.weld.structural_stress import assess_line, line_stresses
+from fatigue.weld.structural_stress import assess_line, line_stress
 from tests.weld_lines import fields, lines, ring, straight
 
 SMOOTH = straight([10.0] * 6)
@@ -39,17 +39,40 @@ def test_stress_of_a_stack(some):
     some = [*some, SMOOTH, replace(SMOOTH, corner_start=True), ring(9)]
     nodal = [fields(line, 3, 6, seed=i) for i, line in enumerate(some)]
     stack = stacked(some)
-    together = line_stresses(stack, line_load(stack, np.concatenate(nodal)))
-    for line, force, found in zip(some, nodal, together, strict=True):
+    found = line_stress(stack, line_load(stack, np.concatenate(nodal)))
+    for line, force, a, b in zip(some, nodal, stack.begin, stack.begin[1:], strict=False):
         alone = assess_line(line, force)
-        assert found.line is line
         for name in ("at_end", "at_corner", "unresolved"):
-            np.testing.assert_array_equal(getattr(found, name), getattr(alone, name))
+            np.testing.assert_array_equal(getattr(found, name)[a:b], getattr(alone, name))
         for kind in ("raw", "treated"):
             for part in fields_of(alone.raw):
                 value = getattr(getattr(alone, kind), part.name)
                 scale = np.abs(value).max()
-                np.testing.assert_allclose(getattr(getattr(found, kind), part.name), value, atol=1e-12 * scale)
+                together = getattr(getattr(found, kind), part.name)[a:b]
+                np.testing.assert_allclose(together, value, atol=1e-12 * scale)
+
+
+def assert_same_line(found, line):
+    """Compare all that a line says."""
+    for name in (part.name for part in fields_of(line) if part.init):
+        np.testing.assert_array_equal(getattr(found, name), getattr(line, name))
+
+
+@given(STACKS)
+@settings(deadline=None, max_examples=20)
+def test_lines_are_cut_out_as_they_were_put_in(some):
+    """One by one, and as a stack of neighbours that knows nothing of the others."""
+    some = [*some, replace(SMOOTH, corner_start=True), ring(9, end_length=0.0)]
+    stack = stacked(some)
+    arc_length(stack)  # what is kept of the whole does not pass to a part
+    for i, line in enumerate(stack):
+        assert_same_line(line, some[i])
+    end = stack.lines(slice(len(some) - 2, None))
+    assert len(end) == 2
+    for i, line in enumerate(end):
+        assert_same_line(line, some[i - 2])
+    np.testing.assert_allclose(arc_length(end), np.concatenate([arc_length(line) for line in some[-2:]]), atol=1e-12)
+    np.testing.assert_allclose(lengths(end), [length(line) for line in some[-2:]], rtol=1e-14)
 
 
 def spoilt(line, name, at, value):
@@ -81,7 +104,7 @@ def test_an_unfit_line_stands_out_of_any_company(bad):
     with pytest.raises(DataError):
         check_line(bad, "here")
     for some in ([bad], [SMOOTH, bad, ring(6)], [bad, ring(6)], [ring(6), bad]):
-        assert [stacked(some).lines[i] for i in unfit_lines(stacked(some))] == [bad]
+        assert [some[i] for i in unfit_lines(stacked(some))] == [bad]
 
 
 @given(STACKS)

@@ -1,6 +1,6 @@
 """The weld lines of a case and the forces on them: nodal forces as they are, element forces summed per part."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -8,26 +8,61 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.inputs import FORCE_COLUMNS, Inputs, Modes, column, flags
+from fatigue.verify.recount.inputs import Inputs, Modes, column, flags
+from fatigue.verify.recount.layout import Layout
 from fatigue.verify.recount.line import CORNER_DEG, Line, LineStress, edges, kinks, line_stress
+from fatigue.verify.recount.tables import FORCE_COLUMNS, read_pieces, read_rows_where
 
 Floats = NDArray[np.float64]
 Corners = dict[tuple[int, int], Floats]
 """Forces (m, 6) of each element corner, by element and node."""
 
+_WELDS_AT_ONCE = 1000  # whose geometry is in memory
 
-def solved_lines(inputs: Inputs, modes: Modes) -> list[LineStress]:
-    """Read and solve every line part, welds in the order of the weld table."""
-    welds, nodes = inputs.frame("welds"), inputs.frame("weld_nodes")
-    by_weld = dict(tuple(nodes.groupby("weld")))
-    ends = column(welds, "end_length_mm")
-    lines = [
-        _line(by_weld[weld], weld, closed=bool(closed), end_length=None if np.isnan(end) else float(end))
-        for weld, closed, end in zip(welds["weld"], flags(welds, "closed"), ends, strict=True)
-    ]
+
+def layout(inputs: Inputs) -> Layout:
+    """Find where the points are: the keys of all stations, without the forces and without keeping the geometry."""
+    welds = tuple(inputs.frame("welds")["weld"].tolist())
+    if "nodal_forces" in inputs.case["body"]:
+        return _unsplit(inputs, welds)
+    weld, part, order = [], [], []
+    for first in range(0, len(welds), _WELDS_AT_ONCE):
+        for line in _lines(inputs, welds[first : first + _WELDS_AT_ONCE]):
+            for piece in split(line):
+                weld.append(np.full(len(piece.order), welds.index(line.weld, first), dtype=np.int32))
+                part.append(np.full(len(piece.order), piece.part, dtype=np.int64))
+                order.append(piece.order)
+    return Layout(welds, np.concatenate(weld), np.concatenate(part), np.concatenate(order))
+
+
+def _unsplit(inputs: Inputs, welds: tuple[str, ...]) -> Layout:
+    """Lay out lines whose forces are summed already; a kink is then no reason to split."""
+    place = {name: i for i, name in enumerate(welds)}
+    welds_of, orders = [], []
+    for piece in read_pieces(inputs.path("weld_nodes"), ("weld", "order")):
+        welds_of.append(piece["weld"].map(place).to_numpy(dtype=np.int32))
+        orders.append(piece["order"].to_numpy(copy=True))  # of a piece, which need not stay for it
+    weld, order = np.concatenate(welds_of), np.concatenate(orders)
+    ascending = np.lexsort((order, weld))
+    return Layout(welds, weld[ascending], np.ones(len(weld), dtype=np.int64), order[ascending])
+
+
+def solved_lines(inputs: Inputs, modes: Modes, welds: Sequence[str]) -> list[LineStress]:
+    """Read and solve every line part of some welds, in their order."""
+    lines = _lines(inputs, welds)
     if "nodal_forces" in inputs.case["body"]:
         return list(_with_nodal_forces(lines, inputs, modes))
     return list(_with_element_forces(lines, inputs, modes))
+
+
+def _lines(inputs: Inputs, welds: Sequence[str]) -> list[Line]:
+    """Read the lines of some welds."""
+    frame = inputs.frame("welds").set_index("weld").loc[list(welds)]
+    by_weld = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", welds).groupby("weld")))
+    return [
+        _line(by_weld[weld], weld, closed=bool(closed), end_length=None if np.isnan(end) else float(end))
+        for weld, closed, end in zip(welds, flags(frame, "closed"), column(frame, "end_length_mm"), strict=True)
+    ]
 
 
 def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | None) -> Line:
@@ -53,7 +88,7 @@ def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | No
 
 def _with_nodal_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Iterator[LineStress]:
     """Solve lines whose forces are summed already; a kink is then no reason to split."""
-    frame = inputs.frame("nodal_forces")
+    frame = read_rows_where(inputs.path("nodal_forces"), "weld", [line.weld for line in lines])
     frame = frame[frame["mode"].isin(modes.mode)]
     by_weld = dict(tuple(frame.groupby("weld")))
     for line in lines:
@@ -65,9 +100,9 @@ def _with_nodal_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Itera
 
 def _with_element_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Iterator[LineStress]:
     """Split every line at its kinks and sum the forces of the assessed side's elements per part."""
-    frame = inputs.frame("element_forces")
+    sides = read_rows_where(inputs.path("weld_elements"), "weld", [line.weld for line in lines])
+    frame = read_rows_where(inputs.path("element_forces"), "element", sides["element"].unique().tolist())
     frame = frame[frame["mode"].isin(modes.mode)].sort_values("mode")
-    sides = inputs.frame("weld_elements")
     for line in lines:
         elements = sides.loc[sides["weld"] == line.weld, "element"]
         rows = frame[frame["element"].isin(elements)]

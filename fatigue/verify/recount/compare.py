@@ -1,7 +1,7 @@
 """Stored numbers against recounted ones: the largest difference in each column and where it is."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -41,12 +41,13 @@ class ColumnCheck:
 
 @dataclass(frozen=True, slots=True)
 class Recount:
-    """What a recount of a result found."""
+    """What a recount of a result found; ``choice`` says which welds it was made for where not for all of them."""
 
     folder: Path
     points: int
     points_in_all: int
     columns: tuple[ColumnCheck, ...]
+    choice: str = ""
 
     @property
     def passed(self) -> bool:
@@ -61,6 +62,7 @@ class Recount:
             "points_in_all": self.points_in_all,
             "passed": self.passed,
             "columns": [asdict(column) | {"passed": column.passed} for column in self.columns],
+            **({"choice": self.choice} if self.choice else {}),
         }
 
     def as_text(self) -> str:
@@ -70,6 +72,7 @@ class Recount:
         lines = [
             f"{self.folder}: {self.points} of {self.points_in_all} points recounted from the input files: {verdict}"
         ]
+        lines += [f"  recounted: {self.choice}"] if self.choice else []
         for column in wrong:
             unit = "" if column.unit == "-" else f" {column.unit}"
             values = f"{_shown(column.found)} where the recount has {_shown(column.expected)}{unit}"
@@ -124,6 +127,21 @@ def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> 
             )
         )
     return checks
+
+
+def merged(checks: Sequence[ColumnCheck]) -> list[ColumnCheck]:
+    """Join checks of the same columns at different rows, in the order of the tables: the worst difference of each."""
+    by_column: dict[tuple[str, str], list[ColumnCheck]] = {}
+    for check in checks:
+        by_column.setdefault((check.table, check.column), []).append(check)
+    tables = dict.fromkeys(check.table for check in checks)
+    names = {table: [column.name for column in TABLES[table.partition(",")[0]]] for table in tables}
+    joined = []
+    for table, name in sorted(by_column, key=lambda at: (list(tables).index(at[0]), names[at[0]].index(at[1]))):
+        same = by_column[table, name]
+        worst = max(same, key=lambda check: check.difference / check.tolerance)
+        joined.append(replace(worst, compared=sum(check.compared for check in same)))
+    return joined
 
 
 def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnCheck:

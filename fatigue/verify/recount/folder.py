@@ -1,4 +1,8 @@
-"""The recount as a story: inputs as they were, every line solved anew, points counted anew, table against table."""
+"""The recount as a story: inputs as they were, lines solved anew, points counted anew, table against table.
+
+In memory at a time are some welds, one record, and of the result the rows of some points; what grows with the body are
+the keys of its stations and two columns of its points.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -6,53 +10,70 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
-from fatigue.results import read_provenance, read_table
-from fatigue.verify.recount.body import solved_lines
-from fatigue.verify.recount.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, compare_keys
+from fatigue.results import TABLES, read_provenance
+from fatigue.verify.recount.body import layout, solved_lines
+from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
+from fatigue.verify.recount.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.curve import curve_named
 from fatigue.verify.recount.inputs import Inputs, Modes, flags, open_inputs, read_modes, texts
-from fatigue.verify.recount.point import Event, MeanStress, OnePass, one_pass, point_of, point_values
+from fatigue.verify.recount.layout import FACES, Key, Layout
+from fatigue.verify.recount.point import Event, MeanStress, OnePass, Values, one_pass, point_of, point_values
 from fatigue.verify.recount.record import read_record, spectrum_rules
-from fatigue.verify.recount.rows import Key, Station, Weld, cycle_row, damage_row, node_row, stress_rows, weld_row
+from fatigue.verify.recount.rows import Station, Weld, cycle_row, damage_row, node_row, stress_rows, weld_row
+from fatigue.verify.recount.stored import (
+    Stored,
+    fastest_peaks,
+    governing_points,
+    is_counted,
+    open_tables,
+    rows_of,
+    toes_and_utilisation,
+    with_cycles,
+)
+from fatigue.verify.recount.sums import check_sums
 
-KEY = ["weld", "part", "order", "surface"]
-FACES = {"top": ("top",), "bottom": ("bottom",), "both": ("top", "bottom")}
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Stored:
-    """The tables of a result by their keys; ``cycles`` by point and event, empty where there are none."""
-
-    nodes: pd.DataFrame
-    damage: pd.DataFrame
-    stress: pd.DataFrame
-    welds: pd.DataFrame
-    cycles: Mapping[tuple[Any, ...], pd.DataFrame]
-    no_cycles: pd.DataFrame
+TOES = {"top": ("top",), "bottom": ("bottom",), "both": FACES}
+FORCES_AT_ONCE = 400_000  # nodes times modes of the welds that are solved at a time: some 150 MB
+SAMPLES_AT_ONCE = 50_000_000  # of stress that are counted before rows are compared: a curve with knees keeps cycles
+POINTS_AT_ONCE = 2000
+STRESS_ROWS_AT_ONCE = 20_000
+CYCLE_COLUMNS = [column.name for column in TABLES["cycles"] if column.type == "float"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Passes:
-    """One pass of every event at a point, and the damage of each without end treatment."""
+    """One pass of every event at a point, the damage of each without end treatment, and its cycles compared."""
 
     treated: list[OnePass]
     raw_damage: list[float]
+    cycles: list[Row]
 
 
-def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_file: Path | None = None) -> Recount:
+def recount(
+    folder: Path,
+    *,
+    sample: int | None = 50,
+    seed: int = 0,
+    case_file: Path | None = None,
+    most_samples: int = MOST_SAMPLES,
+) -> Recount:
     """Recount points of a finished result from its input files, by other code than the one that made it.
 
     Nothing here imports the line solver, the counting or the spectra of the program: dense matrices, the ``rainflow``
     package, a spectrum of each point's own stress, curves from constants copied a second time.
 
+    Where recounting the worst point of every weld would take long it is done for as many welds as ``most_samples``
+    allows, half of them those with the shortest lives, half drawn; and all rows of the tables are checked for what one
+    follows from the other.
+
     Parameters
     ----------
     folder : the result folder
     sample : how many points beside each weld's worst one; None: all
-    seed : of the choice of these points
+    seed : of what is drawn
     case_file : the case it was made from; by default where the provenance of the result says
+    most_samples : stress samples that counting the worst points may take
 
     Raises
     ------
@@ -60,164 +81,189 @@ def recount(folder: Path, *, sample: int | None = 50, seed: int = 0, case_file: 
     """
     record = read_provenance(folder)
     inputs = open_inputs(record, folder, case_file)
-    modes = read_modes(inputs)
-    welds = _welds(inputs, modes, record)
-    stations = {
-        (solved.line.weld, solved.line.part, int(order)): Station(weld, solved, at)
-        for weld in welds.values()
-        for solved in weld.parts
-        for at, order in enumerate(solved.line.order)
-    }
-    points: list[Key] = [(*station, surface) for station in stations for surface in ("top", "bottom")]
+    modes, body = read_modes(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
-
-    stored = _read_tables(folder)
-    checks = [
-        compare_keys("nodes", stored.nodes.index, points),
-        compare_keys("damage", stored.damage.index, [(*point, event) for point in points for event in events]),
-        compare_keys("structural_stress", stored.stress.index, [(*s, int(m)) for s in stations for m in modes.mode]),
-        compare_keys("welds", stored.welds.index, list(welds)),
-    ]
+    stored = open_tables(folder, body, events, modes)
+    checks = stored.keys
     if not all(check.passed for check in checks):
-        return Recount(folder, 0, len(points), tuple(checks))
+        return Recount(folder, 0, body.points, tuple(checks))
 
-    governing = _governing_points(stored, welds)
-    chosen = _chosen(stored.nodes, points, governing, sample, seed)
-    least = record["rules"]["cycles_kept_from_utilisation"]
-    with_cycles = {key for key in governing if stored.welds.loc[key[0], "utilisation"] >= least}
-    counted, passes = _count(inputs, modes, {key: stations[key[:3]] for key in chosen}, stored.damage, with_cycles)
-    checks += _compared(inputs, modes, welds, stations, stored, counted, passes, with_cycles)
-    return Recount(folder, len(counted), len(points), tuple(checks))
+    toe, utilisation = toes_and_utilisation(stored)
+    worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(inputs, record)
+    limits = {"samples": samples, "most_samples": most_samples}
+    choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, **limits)
+    fastest, cycles_of = fastest_peaks(folder, inputs, events), with_cycles(stored, governing, record)
+    all_counted = bool(is_counted(stored).all())
+    found: list[ColumnCheck] = []
+    mission: list[Event] = []
+    weld_of_point = body.weld[choice.points // 2]
+    for some in batches(body, np.unique(weld_of_point).tolist(), len(modes.mode), FORCES_AT_ONCE):
+        welds = _welds(inputs, modes, record, [body.welds[weld] for weld in some])
+        stations = _stations(body, welds, some)
+        points = choice.points[np.isin(weld_of_point, some)]
+        values: dict[Key, Values] = {}
+        at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
+        for first in range(0, len(points), at_once):
+            few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
+            passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
+            of_few = _values(inputs, few, passes, mission)
+            found += _compared(few, stored, of_few, passes, mission)
+            values |= {body.key(point): of_few[point] for point in few}
+        found += _compared_stress(
+            modes, {number: stations[number] for number in np.unique(points // 2).tolist()}, stored
+        )
+        found += _compared_welds(
+            {body.welds[weld]: welds[body.welds[weld]] for weld in some if weld in choice.welds},
+            stored,
+            values,
+            all_counted=all_counted,
+        )
+    checks += merged(found)
+    if choice.what:
+        checks += check_sums(stored, inputs.case, mission)
+    return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what)
 
 
-def _read_tables(folder: Path) -> Stored:
-    tables = {
-        name: read_table(folder, name).to_pandas()
-        for name in ("nodes", "damage", "structural_stress", "welds", "cycles")
-    }
-    return Stored(
-        nodes=tables["nodes"].set_index(KEY),
-        damage=tables["damage"].set_index([*KEY, "event"]),
-        stress=tables["structural_stress"].set_index([*KEY[:3], "mode"]),
-        welds=tables["welds"].set_index("weld"),
-        cycles=dict(tuple(tables["cycles"].groupby([*KEY, "event"]))),
-        no_cycles=tables["cycles"][:0],
-    )
+def _samples(inputs: Inputs, record: Mapping[str, Any]) -> int:
+    """Add up the samples on which a point is counted, as far as they are known before the records are read."""
+    upsample = inputs.case.get("counting", {}).get("upsample", 1)
+    factor = upsample if isinstance(upsample, int) else 1
+    return factor * sum(int(event["samples"]) for event in record["mission"]["events"])
 
 
-def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any]) -> dict[str, Weld]:
-    """Read and solve all welds, in the order of their table."""
-    frame = inputs.frame("welds")
-    lines = solved_lines(inputs, modes)
-    columns = (frame["weld"], flags(frame, "closed"), texts(frame, "surface"), texts(frame, "curve"))
+def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any], names: Sequence[str]) -> dict[str, Weld]:
+    """Read and solve some welds."""
+    frame = inputs.frame("welds").set_index("weld", drop=False).loc[list(names)]
+    parts: dict[str, list[Any]] = {name: [] for name in names}
+    for solved in solved_lines(inputs, modes, names):
+        parts[solved.line.weld].append(solved)
+    columns = (names, flags(frame, "closed"), texts(frame, "surface"), texts(frame, "curve"))
     welds = {}
     for name, closed, given_surface, given_curve in zip(*columns, strict=True):
         surface, curve = given_surface or "both", given_curve or inputs.case["curve"]["name"]
         welds[name] = Weld(
             given={"closed": closed, "surface": surface},
-            parts=tuple(solved for solved in lines if solved.line.weld == name),
+            parts=tuple(parts[name]),
             curve_name=curve,
             curve=curve_named(curve, inputs.case, record),
-            toes=FACES[surface],
+            toes=TOES[surface],
         )
     return welds
 
 
-def _governing_points(stored: Stored, welds: Mapping[str, Weld]) -> set[Key]:
-    """Find the points whose cycles are in the table; of a weld without any, the worst point."""
-    found = {key[:4] for key in stored.cycles}
-    bare = [name for name in welds if name not in {weld for weld, *_ in found}]
-    worst = stored.welds.loc[bare, ["worst_part", "worst_order", "worst_surface"]]
-    return found | {(name, *row) for name, row in zip(bare, worst.itertuples(index=False), strict=True)}
-
-
-def _chosen(nodes: pd.DataFrame, points: Sequence[Key], named: set[Key], sample: int | None, seed: int) -> list[Key]:
-    """Choose each weld's worst toe point and the named ones, and a random sample of the others."""
-    if sample is None:
-        return list(points)
-    toes = nodes[nodes["toe"]]
-    must = named | {key for _, weld in toes.groupby("weld") for key in [weld["utilisation"].idxmax()]}
-    others = [point for point in points if point not in must]
-    drawn = np.random.default_rng(seed).permutation(len(others))[:sample]
-    must |= {others[i] for i in drawn}
-    return [point for point in points if point in must]
+def _stations(body: Layout, welds: Mapping[str, Weld], some: Sequence[int]) -> dict[int, Station]:
+    """Find the stations of some welds by their numbers in the layout."""
+    stations: dict[int, Station] = {}
+    for index in some:
+        weld = welds[body.welds[index]]
+        places = (Station(weld, solved, at) for solved in weld.parts for at in range(len(solved.line.order)))
+        stations |= dict(enumerate(places, start=int(body.first[index])))
+    return stations
 
 
 def _count(
     inputs: Inputs,
     modes: Modes,
-    stations: Mapping[Key, Station],
-    damage: pd.DataFrame,
-    with_cycles: set[Key],
-) -> tuple[dict[Key, Passes], list[Event]]:
-    """Count every event at every point, one record in memory at a time; keep cycles only where they are compared."""
+    stations: Mapping[int, Station],
+    fastest: Sequence[float],
+    stored: Stored,
+    cycles_of: frozenset[int],
+) -> tuple[dict[int, Passes], list[Event]]:
+    """Count every event at every point, one record in memory at a time; cycles are compared at once."""
     asked = inputs.case["curve"]
     mean_stress = MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
-    counted = {key: Passes([], []) for key in stations}
+    counted = {point: Passes([], [], []) for point in stations}
     events = []
-    for event in inputs.case["mission"]["event"]:
-        fastest = damage["peaks_per_s"][damage.index.get_level_values("event") == event["name"]].max()
-        record = read_record(inputs, event, modes, 0.0 if np.isnan(fastest) else float(fastest))
+    for number, given in enumerate(inputs.case["mission"]["event"]):
+        record = read_record(inputs, given, modes, fastest[number])
         rules = spectrum_rules(inputs.case, modes, record.step)
-        for key, station in stations.items():
-            solved, at, curve = station.solved, station.at, station.weld.curve
+        events.append(Event(record.name, record.length_km, record.passes_per_km))
+        there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
+        for point, station in stations.items():
+            solved, at, curve, key = station.solved, station.at, station.weld.curve, stored.body.key(point)
             thickness = float(solved.line.thickness[at])
             one = one_pass(point_of(solved.treated[at], key[3], curve, thickness), record, rules, mean_stress)
             raw = one
             if not np.array_equal(solved.raw[at], solved.treated[at]):
                 raw = one_pass(point_of(solved.raw[at], key[3], curve, thickness), record, rules, mean_stress)
-            counted[key].treated.append(one if key in with_cycles else replace(one, rows={}))
-            counted[key].raw_damage.append(raw.quantities["damage_per_pass"])
-        events.append(Event(record.name, record.length_km, record.passes_per_km))
+            if point in there:
+                counted[point].cycles.append(cycle_row(key, events[-1], one, there[point]))
+            counted[point].treated.append(replace(one, rows={}))
+            counted[point].raw_damage.append(raw.quantities["damage_per_pass"])
     return counted, events
 
 
-def _compared(
-    inputs: Inputs,
-    modes: Modes,
-    welds: Mapping[str, Weld],
-    stations: Mapping[tuple[str, int, int], Station],
-    stored: Stored,
-    counted: Mapping[Key, Passes],
-    events: Sequence[Event],
-    with_cycles: set[Key],
-) -> list[ColumnCheck]:
-    """Set the recounted rows of all tables beside the stored ones."""
+def _values(
+    inputs: Inputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[Event]
+) -> dict[int, Values]:
+    """Weight the events with the mission, point by point."""
     mission = inputs.case["mission"]
-    values = {
-        key: point_values(passes.treated, passes.raw_damage, events, mission, stations[key[:3]].weld.curve)
-        for key, passes in counted.items()
+    return {
+        point: point_values(of.treated, of.raw_damage, events, mission, stations[point].weld.curve)
+        for point, of in passes.items()
     }
+
+
+def _compared(
+    stations: Mapping[int, Station],
+    stored: Stored,
+    values: Mapping[int, Values],
+    passes: Mapping[int, Passes],
+    events: Sequence[Event],
+) -> list[ColumnCheck]:
+    """Set the recounted rows of some points beside the stored ones."""
+    points, e = np.array(list(stations)), len(events)
+    of_nodes = rows_of(stored, "nodes", stored.nodes.of(points))
+    of_damage = rows_of(stored, "damage", stored.damage.of((points[:, None] * e + np.arange(e)).ravel()))
     nodes: list[Row] = []
     damage: list[Row] = []
-    cycles: list[Row] = []
-    stress: list[Row] = []
-    for key, passes in counted.items():
-        found = stored.nodes.loc[key].to_dict()
-        nodes.append(node_row(key, stations[key[:3]], values[key], found))
-        for event, one in zip(events, passes.treated, strict=True):
-            of_event = stored.damage.loc[(*key, event.name)].to_dict()
-            damage.append(damage_row(key, event, one, of_event, is_bound=bool(found["screened"])))
-            if key in with_cycles:
-                cycles.append(cycle_row(key, event, one, stored.cycles.get((*key, event.name), stored.no_cycles)))
-    for at in dict.fromkeys(key[:3] for key in counted):
-        of_modes = [stored.stress.loc[(*at, mode)].to_dict() for mode in modes.mode.tolist()]
-        stress += stress_rows(stations[at], modes.mode, of_modes)
-    all_counted = bool((stored.nodes["screened"] == "").all())
-    of_welds = [
+    for i, (point, station) in enumerate(stations.items()):
+        key, found = stored.body.key(point), of_nodes[i]
+        nodes.append(node_row(key, station, values[point], found))
+        for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
+            damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
+    cycles = [row for of in passes.values() for row in of.cycles]
+    bins = _bins([station.weld for station in stations.values()])
+    return [
+        *compare("nodes", nodes, bins),
+        *compare("damage", damage, bins),
+        *compare("cycles", cycles, bins),
+    ]
+
+
+def _compared_stress(modes: Modes, stations: Mapping[int, Station], stored: Stored) -> list[ColumnCheck]:
+    """Set the solved stress of some stations beside the stored one, few of them at a time."""
+    numbers, m = np.array(list(stations)), len(modes.mode)
+    checks: list[ColumnCheck] = []
+    for first in range(0, len(numbers), max(1, STRESS_ROWS_AT_ONCE // m)):
+        few = numbers[first : first + max(1, STRESS_ROWS_AT_ONCE // m)]
+        found = rows_of(stored, "structural_stress", stored.stress.of((few[:, None] * m + np.arange(m)).ravel()))
+        of_station = [found[i * m : (i + 1) * m] for i in range(len(few))]
+        rows = [
+            row
+            for number, of in zip(few.tolist(), of_station, strict=True)
+            for row in stress_rows(stations[number], modes.mode, of)
+        ]
+        checks += compare("structural_stress", rows, {})
+    return checks
+
+
+def _compared_welds(
+    welds: Mapping[str, Weld], stored: Stored, values: Mapping[Key, Values], *, all_counted: bool
+) -> list[ColumnCheck]:
+    """Set the rows of some welds beside the stored ones."""
+    rows = [
         weld_row(
             weld,
-            {key: values[key] for key in values if key[0] == name},
+            {key: of for key, of in values.items() if key[0] == name},
             stored.welds.loc[name].to_dict(),
             all_counted=all_counted,
         )
         for name, weld in welds.items()
     ]
-    bins = {} if all(weld.curve.is_straight for weld in welds.values()) else {"load_factor": HISTOGRAM_BIN}
-    return [
-        *compare("nodes", nodes, bins),
-        *compare("damage", damage, bins),
-        *compare("cycles", cycles, bins),
-        *compare("structural_stress", stress, bins),
-        *compare("welds", of_welds, bins),
-    ]
+    return compare("welds", rows, _bins(list(welds.values())))
+
+
+def _bins(welds: Sequence[Weld]) -> dict[str, float]:
+    """Tolerances of columns that are read from a histogram where a curve bends."""
+    return {} if all(weld.curve.is_straight for weld in welds) else {"load_factor": HISTOGRAM_BIN}

@@ -1,4 +1,4 @@
-"""The inputs of a result, found again, compared with the hashes in its provenance, and read anew with pandas."""
+"""The inputs of a result: found again, compared with the hashes in its provenance; the case and its modes."""
 
 import hashlib
 import tomllib
@@ -12,10 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-
-FORCE_COLUMNS = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
-IDS = ("mode", "node", "order", "element")
-TEXTS = ("weld", "surface", "curve", "kind", "description", "closed", "edge_mid")
+from fatigue.verify.recount.tables import read_frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +24,11 @@ class Inputs:
 
     def frame(self, key: str) -> pd.DataFrame:
         """Read one table of the body."""
-        return read_frame(self.folder / self.case["body"][key])
+        return read_frame(self.path(key))
+
+    def path(self, key: str) -> Path:
+        """Name the file of one table of the body."""
+        return self.folder / str(self.case["body"][key])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,23 +78,14 @@ def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
             yield Problem(
                 "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"
             )
-        elif hashlib.sha256(path.read_bytes()).hexdigest() != known["sha256"]:
+        elif _sha256(path) != known["sha256"]:
             what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
             yield Problem("changed_input", str(path), what, "Assess again, or put the old file back")
 
 
-def read_frame(path: Path) -> pd.DataFrame:
-    """Read a table of the neutral format: ids as integers, texts and flags as they are, all else as numbers."""
-    if path.suffix.lower() == ".parquet":
-        frame = pd.read_parquet(path)
-    else:  # as texts: the number parser of pandas may be wrong in the last digit
-        frame = pd.read_csv(path, dtype=str, keep_default_na=False, na_values=[""])
-    frame.columns = frame.columns.str.strip()
-    for name in frame.columns.difference(TEXTS):
-        frame[name] = frame[name].astype(np.int64 if name in IDS else np.float64)
-    if "weld" in frame:
-        frame["weld"] = frame["weld"].astype(str).str.strip()
-    return frame
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[np.float64]:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.inputs import Inputs, Modes, read_frame
+from fatigue.verify.recount.inputs import Inputs, Modes
+from fatigue.verify.recount.tables import read_frame
 
 Floats = NDArray[np.float64]
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.compare import TOLERANCE, Row
 from fatigue.verify.recount.curve import Curve
+from fatigue.verify.recount.layout import Key
 from fatigue.verify.recount.line import LineStress, edge_length, edges
 from fatigue.verify.recount.point import Event, OnePass, Values
 
@@ -18,8 +19,6 @@ NEGLIGIBLE = 1e-9  # of the largest range: what differs between two orders of su
 SMALL = 1e-2  # of the largest range: the ratio of two parts of a smaller one says little
 _NOT_COLUMNS = {"power_sum", "R_largest", "with_mean_stress", "with_shear", "shear_ratio"}  # of a pass
 _OF_STILL_STRESS = ("damage_per_", "damage_same_ratio_", "cycles_", "max_range_", "mean_stress_")
-
-Key = tuple[str, int, int, str]  # weld, part, order, surface
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,7 +61,7 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
     scale["R_largest_cycle"] = max(1.0, values["R_largest_cycle"] ** 2)  # a ratio to a stress that may be close to 0
     scale |= dict.fromkeys(("arc_length_mm", "x_mm", "y_mm", "z_mm"), size)
     scale["mean_stress_MPa"] = values["max_range_MPa"]
-    return Row(_place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
+    return Row(place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
 
 
 def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
@@ -78,7 +77,7 @@ def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *
     if largest <= NEGLIGIBLE * abs(mean):  # a stress that stands still has no bandwidth and no bending ratio
         values = {name: value for name, value in values.items() if name.startswith(_OF_STILL_STRESS)}
     scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": largest}
-    return Row(f"{_place(key)}, event '{event.name}'", found, values, scale, is_bound)
+    return Row(f"{place(key)}, event '{event.name}'", found, values, scale, is_bound)
 
 
 def stress_rows(station: Station, modes: NDArray[np.int64], found: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
@@ -110,7 +109,7 @@ def cycle_row(key: Key, event: Event, one: OnePass, found: pd.DataFrame) -> Row:
             a, b = np.array([float(len(a))]), np.array([float(len(b))])
         worst = int(np.abs(a - b).argmax())
         expected[name], stored[name], scale[name] = float(a[worst]), float(b[worst]), float(np.abs(a).max())
-    return Row(f"{_place(key)}, event '{event.name}'", stored, expected, scale)
+    return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale)
 
 
 def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, Any], *, all_counted: bool) -> Row:
@@ -148,5 +147,6 @@ def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, An
     return Row(f"weld {stored[0]}", found, expected, {"worst_arc_length_mm": expected["length_mm"]})
 
 
-def _place(key: Key) -> str:
+def place(key: Key) -> str:
+    """Say where a point is."""
     return f"weld {key[0]}, part {key[1]}, order {key[2]}, {key[3]}"

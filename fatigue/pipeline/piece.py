@@ -1,0 +1,101 @@
+"""Stations of one curve that were all counted, or all settled by bounds of one kind: their events and their mission."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.mission import Plan
+from fatigue.pipeline.bounds import Bound
+from fatigue.pipeline.estimate import Estimate
+from fatigue.pipeline.event_block import EventBlock, assess_event_block, bounded_event, count_event, no_overflow
+from fatigue.pipeline.event_load import EventLoad
+from fatigue.pipeline.mission_block import MissionBlock, mission_block
+from fatigue.pipeline.shapes import Shapes
+
+TIERS = ("", "modal bound", "weld bound")  # of the column `screened`: counted, or the bound that settled the point
+ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """How stations are counted: ``mean_stress`` says whether damage contains f_M, ``welds`` are for messages."""
+
+    yield_MPa: float | None  # noqa: N815
+    mean_stress: bool
+    welds: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """Some stations of a block, ``rows`` ascending; ``tier`` is an index into `TIERS`; histograms are left out."""
+
+    rows: NDArray[np.intp]
+    events: tuple[EventBlock, ...]
+    mission: MissionBlock
+    tier: int
+
+
+def counted(shapes: Shapes, loads: Sequence[EventLoad], plan: Plan, rules: Rules) -> Iterator[Piece]:
+    """Count all events at all stations of a block.
+
+    Raises
+    ------
+    NumericalError : stress or damage exceeds double precision
+    """
+    for rows in _cut(np.arange(len(shapes)), shapes):
+        some, events = shapes.at(rows), []
+        for load in loads:
+            with no_overflow(load.counted.event, rules.welds):
+                events.append(assess_event_block(some, load, rules.yield_MPa, rules.mean_stress))
+        yield _piece(rows, events, plan, shapes, 0)
+
+
+def counted_at(
+    rows: NDArray[np.intp],
+    shapes: Shapes,
+    loads: Sequence[EventLoad],
+    estimates: Sequence[Estimate],
+    plan: Plan,
+    rules: Rules,
+) -> Iterator[Piece]:
+    """Count all events at some stations of a block, whose estimates are there already.
+
+    Raises
+    ------
+    NumericalError : stress or damage exceeds double precision
+    """
+    for part in _cut(rows, shapes):
+        some, events = shapes.at(part), []
+        for load, estimate in zip(loads, estimates, strict=True):
+            with no_overflow(load.counted.event, rules.welds):
+                events.append(count_event(some, load, estimate.at(part), rules.yield_MPa, rules.mean_stress))
+        yield _piece(part, events, plan, shapes, 0)
+
+
+def bounded_at(
+    rows: NDArray[np.intp],
+    shapes: Shapes,
+    estimates: Sequence[Estimate],
+    bounds: Sequence[Bound],
+    plan: Plan,
+    tier: int,
+) -> Piece:
+    """Take the bounds of all events at some stations of a block."""
+    raw_ends = None if shapes.raw_ends is None else shapes.raw_ends.at(rows)
+    events = [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in zip(estimates, bounds, strict=True)]
+    return _piece(rows, events, plan, shapes, tier)
+
+
+def _cut(rows: NDArray[np.intp], shapes: Shapes) -> Iterator[NDArray[np.intp]]:
+    """Take all rows at once unless their histograms would be large."""
+    step = max(1, len(rows)) if shapes.law.is_straight else ROWS_WITH_HISTOGRAM
+    return (rows[first : first + step] for first in range(0, len(rows), step))
+
+
+def _piece(rows: NDArray[np.intp], events: Sequence[EventBlock], plan: Plan, shapes: Shapes, tier: int) -> Piece:
+    """Weight the events with the mission; only that needs their histograms."""
+    mission = mission_block(events, plan, shapes.law)
+    nothing = np.zeros((len(rows), 2, 0, 2))
+    return Piece(rows, tuple(replace(event, histogram=nothing) for event in events), mission, tier)

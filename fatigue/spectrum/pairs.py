@@ -1,0 +1,35 @@
+"""Many quadratic forms of the same points at once, from the products of all pairs of modes.
+
+``s' M s = sum over i <= j of w_ij s_i s_j`` with ``w_ii = M_ii`` and ``w_ij = 2 M_ij`` beside the diagonal. A symmetric
+matrix holds every number beside the diagonal twice, so this takes half the products of ``s' (M s)``, and for all
+matrices together it is one matrix product: that of their weights with the products of the pairs.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+BLOCK_POINTS = 128  # their products of pairs, of a hundred modes in single precision, stay near the processor
+
+
+def pairs(modes: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """First and second mode of each pair, first <= second: the upper triangle, row by row."""
+    first = np.repeat(np.arange(modes), np.arange(modes, 0, -1))
+    return first, np.arange(len(first)) - first * (2 * modes - first - 1) // 2
+
+
+def weights_of_pairs(modes: int) -> NDArray[np.float64]:
+    """How often the number of each pair stands in a symmetric matrix: 1 on the diagonal, 2 beside it."""
+    first, second = pairs(modes)
+    return np.where(first == second, 1.0, 2.0)
+
+
+def pair_forms(shapes: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Evaluate quadratic forms given by their weights (p, pairs) for all rows of ``shapes`` (n, m): (p, n)."""
+    forms = np.empty((len(weights), len(shapes)), dtype=weights.dtype)
+    first, second = pairs(shapes.shape[1])
+    for begin in range(0, len(shapes), BLOCK_POINTS):
+        block = shapes[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
+        products = block.take(first, axis=0)
+        products *= block.take(second, axis=0)
+        forms[:, begin : begin + BLOCK_POINTS] = weights @ products
+    return forms

@@ -1,0 +1,27 @@
+"""The periodic Hann window, which a spectrum wants (the symmetric one is for filters), on samples or on a transform.
+
+It is three lines, ``(1 - cos(2 pi i / n)) / 2``. So the transform under the window is that without it, half of each bin
+less a quarter of either neighbour; where few bins are kept that costs less than a product with all samples.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def hann(length: int) -> NDArray[np.float64]:
+    """Return the window."""
+    return 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(length) / length)
+
+
+def tapered(transform: NDArray[np.complex128], samples: int, bins: slice) -> NDArray[np.complex128]:
+    """Turn transforms (n, samples // 2 + 1) of real records into those of the records under the window, (n, bins)."""
+    before = transform[:, [1]].conj()  # mirror image: the bin below 0 Hz
+    beyond = transform[:, [samples - transform.shape[1]]].conj()  # ... and that above the last one
+    inside = transform[:, max(0, bins.start - 1) : bins.stop + 1]
+    around = np.concatenate([before, inside, beyond] if bins.start == 0 else [inside, beyond], axis=1)
+    width = bins.stop - bins.start
+    found = around[:, :width] + around[:, 2 : width + 2]
+    found *= -0.5
+    found += around[:, 1 : width + 1]
+    found *= 0.5
+    return np.asarray(found)
