@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-AT_ONCE = 256  # stations whose products stay in the cache
+AT_ONCE = 64  # stations whose products stay in the first-level cache
 
 
 @dataclass(frozen=True, slots=True, eq=False)
