@@ -34,7 +34,7 @@ from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
 
 log = logging.getLogger(__name__)
 
-GIVE_BACK = 4  # groups after which freed memory goes back to the system
+LARGE_GROUP = 1024  # stations from which on it pays to give what was freed back to the system
 
 Progress = Callable[[str, int, int], None]
 
@@ -113,7 +113,7 @@ def assess(
             with result_tables(unpublished) as tables, closing(assessed):
                 for group in assessed:
                     done.add(group, work, write_group(tables, group, work))
-                    if done.groups % GIVE_BACK == 0:
+                    if len(group.model.stations) >= LARGE_GROUP:
                         give_back()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)

@@ -28,7 +28,7 @@ from fatigue.weld.line_load import line_load
 from fatigue.weld.structural_stress import StructuralStress, assess_line, line_stress
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
-SMALLEST_GROUP, LARGEST_GROUP = 32, 4096  # of so many stations: memory is bounded, matrices stay efficient
+SMALLEST_GROUP, LARGEST_GROUP = 32, 3072  # of so many stations: memory is bounded, matrices stay efficient
 IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 

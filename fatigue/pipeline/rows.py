@@ -116,6 +116,8 @@ def stress_rows(stations: Stations, modes: NDArray[np.int64], welds: Sequence[st
         "mode": np.tile(modes, len(stations)),
     }
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
-        columns[f"{component}_MPa"] = getattr(stations.treated, component).ravel()
-        columns[f"{component}_raw_MPa"] = getattr(stations.raw, component).ravel()
+        treated = getattr(stations.treated, component)
+        raw = treated.copy()
+        raw[stations.raw_rows] = getattr(stations.raw, component)
+        columns[f"{component}_MPa"], columns[f"{component}_raw_MPa"] = treated.ravel(), raw.ravel()
     return columns

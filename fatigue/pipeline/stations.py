@@ -1,7 +1,7 @@
 """Weld lines as one long table of stations."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,8 @@ class Stations:
     part, order, node : identity of the station
     arc_length [mm], xyz (n, 3) [mm], thickness [mm] : where it is
     at_end, at_corner : flags of the line solution
-    treated, raw : stress shapes with and without the end treatment, components (n, m) [MPa per unit modal coordinate]
+    treated : stress shapes, components (n, m) [MPa per unit modal coordinate]
+    raw_rows, raw : (e,) stations whose stress the end treatment has changed, and the shapes without it, (e, m)
     """
 
     weld: NDArray[np.int64]
@@ -36,6 +37,7 @@ class Stations:
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
     treated: StructuralStress
+    raw_rows: NDArray[np.intp]
     raw: StructuralStress
 
     def __len__(self) -> int:
@@ -47,6 +49,8 @@ def stations_of(lines: LineStack, solved: LineStress, weld_names: Sequence[str])
     """Lay out the nodes of solved line parts, which follow each other as in the register of the welds."""
     place = {name: i for i, name in enumerate(weld_names)}
     line = line_of_node(lines)
+    parts = [(getattr(solved.raw, part.name), getattr(solved.treated, part.name)) for part in fields(StructuralStress)]
+    changed = np.flatnonzero(np.logical_or.reduce([(raw != treated).any(axis=1) for raw, treated in parts]))
     return Stations(
         weld=np.array([place[name] for name in lines.weld])[line],
         part=lines.part[line],
@@ -58,27 +62,23 @@ def stations_of(lines: LineStack, solved: LineStress, weld_names: Sequence[str])
         at_end=solved.at_end,
         at_corner=solved.at_corner,
         treated=solved.treated,
-        raw=solved.raw,
+        raw_rows=changed,
+        raw=StructuralStress(*(raw[changed] for raw, _ in parts)),
     )
-
-
-def treated_rows(stations: Stations) -> NDArray[np.intp]:
-    """Find the stations whose stress the end treatment has changed."""
-    changed = (stations.treated.membrane != stations.raw.membrane) | (stations.treated.bending != stations.raw.bending)
-    return np.flatnonzero(changed.any(axis=1))
 
 
 def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve, thickness_rule: ThicknessRule) -> Shapes:
     """Stress shapes of some stations, ascending, with the law of their curve and the size factor of their plates."""
-    stress, raw = stations.treated, stations.raw
-    ends = np.flatnonzero(np.isin(rows, treated_rows(stations)))
+    stress = stations.treated
+    mine, ends = np.isin(stations.raw_rows, rows), np.isin(rows, stations.raw_rows)
+    part = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
     return Shapes(
-        membrane=stress.membrane[rows],
-        bending=stress.bending[rows],
-        in_plane_shear=stress.in_plane_shear[rows],
-        twist_shear=stress.twist_shear[rows],
-        size=size_factor(stations.thickness[rows], rated.curve, thickness_rule),
+        membrane=stress.membrane[part],
+        bending=stress.bending[part],
+        in_plane_shear=stress.in_plane_shear[part],
+        twist_shear=stress.twist_shear[part],
+        size=size_factor(stations.thickness[part], rated.curve, thickness_rule),
         law=rated.law,
         uses_bending_ratio=rated.curve.applies == "dS",
-        raw_ends=RawEnds(ends, raw.membrane[rows[ends]], raw.bending[rows[ends]]),
+        raw_ends=RawEnds(np.flatnonzero(ends), stations.raw.membrane[mine], stations.raw.bending[mine]),
     )

@@ -15,8 +15,7 @@ from fatigue.pipeline.model import Model, solve_group
 from fatigue.pipeline.orders import Order, fulfil
 from fatigue.pipeline.work import Work
 
-AHEAD = 1  # groups per thread that may be under way or wait to be written: memory is bounded
-ORDERS_AHEAD = 32  # the same for an executor that does not say how many workers it has
+ORDERS_AHEAD = 32  # groups under way or waiting to be written, by an executor that does not say how many workers it has
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,7 +47,8 @@ def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[
         return executor.submit(assessed, number).result
 
     try:
-        yield from _in_order(begin, len(work.groups), AHEAD * number_of_threads)
+        # While a group is written one thread has nothing to do: its core writes, and memory holds a group less.
+        yield from _in_order(begin, len(work.groups), number_of_threads - 1)
     finally:
         executor.shutdown(cancel_futures=True)
 
