@@ -59,8 +59,11 @@ def stress_history(shape: NDArray[np.float64], q: Samples) -> NDArray[np.float64
     Takes the modal coordinates (m, t) a bounded number of samples at a time, whatever their precision.
     """
     stress = np.empty((*shape.shape[:-1], q.shape[1]))
-    for piece in time_slices(q.shape):
-        stress[..., piece] = shape @ q[:, piece].astype(np.float64, copy=False)
+    first = 0
+    for piece in cached_pieces(q):
+        end = first + piece.shape[1]
+        stress[..., first:end] = shape @ piece.astype(np.float64, copy=False)
+        first = end
     return stress
 
 

@@ -1,7 +1,7 @@
 """Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from functools import partial
@@ -16,7 +16,7 @@ from fatigue.case import Case
 from fatigue.errors import DataError, NumericalError, Problem
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.rated_curves import RatedCurve
-from fatigue.pipeline.stations import Stations, stations_of
+from fatigue.pipeline.stations import Stations, joined, stations_of
 from fatigue.readers.body import Mesh, Modes, Weld
 from fatigue.readers.force_pieces import ForcePieces
 from fatigue.readers.forces import check_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
@@ -29,6 +29,7 @@ from fatigue.weld.structural_stress import StructuralStress, assess_line, line_s
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3072  # of so many stations: memory is bounded, matrices stay efficient
+SOLVED_AT_ONCE = 512  # stations: their loads and stresses take 20 MB at 100 modes
 IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
@@ -153,20 +154,39 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     body = groups.body
     welds = body.welds[groups.groups[number]]
     lines, forces, warnings = _forces(groups, number)
+    names, parts = [weld.name for weld in welds], []
+    for some in _portions(lines):
+        nodes = slice(lines.begin[some.start], lines.begin[some.stop])
+        stations, doubts = _solved(lines.lines(some), forces[nodes], names, body.case.body.weld_nodes)
+        parts.append(stations)
+        warnings += doubts
+    return Model(body, welds, lines, joined(parts), tuple(warnings))
+
+
+def _portions(lines: LineStack) -> list[slice]:
+    """Cut a stack of lines into some of `SOLVED_AT_ONCE` nodes."""
+    portion = (lines.begin[1:] - 1) // SOLVED_AT_ONCE
+    first = [0, *(np.flatnonzero(np.diff(portion)) + 1).tolist(), len(lines)]
+    return [slice(a, b) for a, b in pairwise(first)]
+
+
+def _solved(
+    lines: LineStack, forces: NDArray[np.floating], welds: Sequence[str], file: str
+) -> tuple[Stations, list[Problem]]:
+    """Solve some lines under their nodal forces (n, m, 6), and tell the doubts about them."""
     load = line_load(lines, forces)
     with np.errstate(over="ignore", invalid="ignore"):
         solved = line_stress(lines, load)
         if not _is_finite(solved.treated):
             _refuse_overflow(lines, solved.treated, forces)
         jumpy = jumpy_lines(lines, load)
-    doubtful = np.union1d(jumpy, line_of_node(lines)[solved.unresolved])
-    for i in doubtful.tolist():
+    warnings: list[Problem] = []
+    for i in np.union1d(jumpy, line_of_node(lines)[solved.unresolved]).tolist():
         line, nodes = lines[i], slice(lines.begin[i], lines.begin[i + 1])
-        where = f"{body.case.body.weld_nodes}: weld {line.weld}"
+        where = f"{file}: weld {line.weld}"
         warnings += edge_type_warnings(line, forces[nodes], where) if i in jumpy else []
         warnings += _end_warnings(line.node[solved.unresolved[nodes]], where)
-    stations = stations_of(lines, solved, [weld.name for weld in welds])
-    return Model(body, welds, lines, stations, tuple(warnings))
+    return stations_of(lines, solved, welds), warnings
 
 
 def toe_faces(model: Model) -> NDArray[np.bool_]:

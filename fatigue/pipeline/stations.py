@@ -67,6 +67,23 @@ def stations_of(lines: LineStack, solved: LineStress, weld_names: Sequence[str])
     )
 
 
+def joined(parts: Sequence[Stations]) -> Stations:
+    """Lay stations of several stacks of lines, with the same register of welds, one after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    begin = np.cumsum([0, *(len(part) for part in parts)])
+    arrays = {f.name: [getattr(part, f.name) for part in parts] for f in fields(Stations)}
+    rows = [part.raw_rows + first for part, first in zip(parts, begin[:-1], strict=True)]
+    treated, raw = _joined(arrays.pop("treated")), _joined(arrays.pop("raw"))
+    arrays["raw_rows"] = rows
+    return Stations(**{name: np.concatenate(some) for name, some in arrays.items()}, treated=treated, raw=raw)
+
+
+def _joined(parts: Sequence[StructuralStress]) -> StructuralStress:
+    names = [part.name for part in fields(StructuralStress)]
+    return StructuralStress(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+
 def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve, thickness_rule: ThicknessRule) -> Shapes:
     """Stress shapes of some stations, ascending, with the law of their curve and the size factor of their plates."""
     stress = stations.treated

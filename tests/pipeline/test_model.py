@@ -1,5 +1,7 @@
 """Groups of welds: their forces are read once, and a number beyond all bounds names its weld."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
@@ -37,3 +39,22 @@ def test_a_number_beyond_all_bounds_names_its_weld(tmp_path):
     case.weld_nodes.loc[case.weld_nodes.weld == "B", "thickness_mm"] = 0.01
     with pytest.raises(NumericalError, match="weld B: the structural stress per unit modal coordinate exceeds"):
         read_model(load_case(case.write(tmp_path)), strict=False)
+
+
+def test_lines_solved_some_at_a_time_are_those_solved_together(tmp_path, monkeypatch):
+    """Every column of the stations, also the stress before the end treatment and where that is."""
+    case = small_case(pairs=3)
+    case.nodal_forces["mx_Nmm"] *= 1.0 + 0.01 * case.nodal_forces["node"] % 7
+    path = case.write(tmp_path)
+    together = read_model(load_case(path), strict=False)
+    monkeypatch.setattr(model, "SOLVED_AT_ONCE", 8)
+    apart = read_model(load_case(path), strict=False)
+    assert together.stations.raw_rows.size > 0
+    for part in fields(together.stations):
+        one, other = getattr(together.stations, part.name), getattr(apart.stations, part.name)
+        pairs = [(one, other)]
+        if part.name in ("treated", "raw"):
+            pairs = [(getattr(one, c.name), getattr(other, c.name)) for c in fields(one)]
+        for a, b in pairs:
+            np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-12)
+    assert apart.warnings == together.warnings
