@@ -34,6 +34,7 @@ from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
 
 log = logging.getLogger(__name__)
 
+STRESSES_AT_ONCE = 512  # stations
 LARGE_GROUP = 1024  # stations from which on it pays to give what was freed back to the system
 
 Progress = Callable[[str, int, int], None]
@@ -167,7 +168,9 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     worst, screened = worst_points(model, result), np.repeat(result.tier[:, None], 2, axis=1)
     tables["nodes"].write(node_rows(stations, result.mission, toe_faces(model), screened, plan, welds))
     tables["damage"].write(damage_rows(stations, result.events, plan, welds))
-    tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds))
+    for first in range(0, len(stations), STRESSES_AT_ONCE):  # as many rows as modes each
+        some = slice(first, first + STRESSES_AT_ONCE)
+        tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds, some))
     shown = [p for p in worst if result.mission.utilisation[p.station, p.face] >= work.kept_from]
     for load in work.loads:
         for rows in point_cycles(model, load, shown):

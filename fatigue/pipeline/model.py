@@ -29,7 +29,7 @@ from fatigue.weld.structural_stress import StructuralStress, assess_line, line_s
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3072  # of so many stations: memory is bounded, matrices stay efficient
-SOLVED_AT_ONCE = 512  # stations: their loads and stresses take 20 MB at 100 modes
+PORTION = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
 IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
@@ -83,13 +83,17 @@ class SideForces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WeldGroups:
-    """The welds of a body in groups that are solved one at a time, so that memory does not grow with the body.
+    """The welds of a body in groups that are assessed one at a time, so that memory does not grow with the body.
 
-    ``forces`` are the nodal forces group by group, or the element forces, which do grow with it.
+    ``portions`` of a group, slices of welds like ``groups``, are read and solved one at a time; ``portions_of`` are
+    those of each group. ``forces`` are the nodal forces portion by portion, or the element forces, which do grow with
+    the body.
     """
 
     body: Body
     groups: tuple[slice, ...]
+    portions: tuple[slice, ...]
+    portions_of: tuple[range, ...]
     forces: ForcePieces | SideForces
 
     def __len__(self) -> int:
@@ -105,7 +109,8 @@ def read_model(case: Case, *, strict: bool) -> Model:
     CaseError, DataError : with every mistake found in the file at fault
     """
     with TemporaryDirectory() as scratch:
-        return solve_group(_open_groups(read_body(case, strict=strict), (slice(None),), Path(scratch)), 0)
+        body = read_body(case, strict=strict)
+        return solve_group(_open_groups(body, np.zeros(len(body.welds)), np.zeros(len(body.welds)), Path(scratch)), 0)
 
 
 def weld_groups(body: Body, scratch: Path) -> WeldGroups:
@@ -113,10 +118,9 @@ def weld_groups(body: Body, scratch: Path) -> WeldGroups:
 
     ``scratch`` is a folder for a sorted copy of the forces, should they need one.
     """
-    sizes = body.lines.begin[1:]
-    group = (sizes - 1) // min(LARGEST_GROUP, max(SMALLEST_GROUP, int(sizes[-1]) // GROUPS))
-    first = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), sizes.size]
-    return _open_groups(body, tuple(slice(a, b) for a, b in pairwise(first)), scratch)
+    last = body.lines.begin[1:] - 1
+    group, place = np.divmod(last, min(LARGEST_GROUP, max(SMALLEST_GROUP, (int(last[-1]) + 1) // GROUPS)))
+    return _open_groups(body, group, place // PORTION, scratch)
 
 
 def check_forces(groups: WeldGroups, threads: int | None) -> None:
@@ -126,17 +130,17 @@ def check_forces(groups: WeldGroups, threads: int | None) -> None:
 
     Raises
     ------
-    DataError : the mistakes of the first group of welds that has any
+    DataError : the mistakes of the first portion of a group that has any
     """
     with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-        for _ in pool.map(partial(_check_group, groups), range(len(groups))):
+        for _ in pool.map(partial(_check_portion, groups), range(len(groups.portions))):
             pass
     give_back()
 
 
-def _check_group(groups: WeldGroups, number: int) -> None:
-    """Check the forces of a group of welds; of element forces only the sums are left to be checked."""
-    body, lines = groups.body, groups.body.lines.lines(groups.groups[number])
+def _check_portion(groups: WeldGroups, number: int) -> None:
+    """Check the forces of a portion of a group; of element forces only the sums are left to be checked."""
+    body, lines = groups.body, groups.body.lines.lines(groups.portions[number])
     if isinstance(groups.forces, SideForces):
         _sums_of_sides(groups.forces, lines, body.modes)
     else:
@@ -153,21 +157,18 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     """
     body = groups.body
     welds = body.welds[groups.groups[number]]
-    lines, forces, warnings = _forces(groups, number)
-    names, parts = [weld.name for weld in welds], []
-    for some in _portions(lines):
-        nodes = slice(lines.begin[some.start], lines.begin[some.stop])
-        stations, doubts = _solved(lines.lines(some), forces[nodes], names, body.case.body.weld_nodes)
+    names = [weld.name for weld in welds]
+    stacks: list[LineStack] = []
+    parts: list[Stations] = []
+    warnings: list[Problem] = []
+    for portion in groups.portions_of[number]:
+        lines, forces, of_forces = _forces(groups, portion)
+        stations, of_lines = _solved(lines, forces, names, body.case.body.weld_nodes)
+        stacks.append(lines)
         parts.append(stations)
-        warnings += doubts
-    return Model(body, welds, lines, joined(parts), tuple(warnings))
-
-
-def _portions(lines: LineStack) -> list[slice]:
-    """Cut a stack of lines into some of `SOLVED_AT_ONCE` nodes."""
-    portion = (lines.begin[1:] - 1) // SOLVED_AT_ONCE
-    first = [0, *(np.flatnonzero(np.diff(portion)) + 1).tolist(), len(lines)]
-    return [slice(a, b) for a, b in pairwise(first)]
+        warnings += of_forces + of_lines
+    together = stacks[0] if len(stacks) == 1 else stacked([line for stack in stacks for line in stack])
+    return Model(body, welds, together, joined(parts), tuple(warnings))
 
 
 def _solved(
@@ -212,12 +213,23 @@ def _is_finite(stress: StructuralStress, nodes: slice = slice(None)) -> bool:
     return all(np.isfinite(getattr(stress, part.name)[nodes]).all() for part in fields(StructuralStress))
 
 
-def _open_groups(body: Body, groups: tuple[slice, ...], scratch: Path) -> WeldGroups:
+def _open_groups(body: Body, group: NDArray[np.number], portion: NDArray[np.number], scratch: Path) -> WeldGroups:
+    """Open the forces of a body whose welds have these numbers of group and portion of the group, ascending."""
+    of_portions = _runs((np.diff(group) != 0) | (np.diff(portion) != 0))
+    of_groups = _runs(np.diff(group) != 0)
+    first = np.searchsorted([run.start for run in of_portions], [*(run.start for run in of_groups), len(body.welds)])
+    portions_of = tuple(range(a, b) for a, b in pairwise(first.tolist()))
     path = body.case.body.nodal_forces
     if path is None:
-        return WeldGroups(body, groups, _side_forces(body))
-    names = [body.lines.weld[group] for group in groups]
-    return WeldGroups(body, groups, ForcePieces(body.case.resolve(path), names, scratch))
+        return WeldGroups(body, of_groups, of_portions, portions_of, _side_forces(body))
+    names = [body.lines.weld[run] for run in of_portions]
+    forces = ForcePieces(body.case.resolve(path), names, scratch)
+    return WeldGroups(body, of_groups, of_portions, portions_of, forces)
+
+
+def _runs(changes: NDArray[np.bool_]) -> tuple[slice, ...]:
+    """Cut a sequence where it changes from one element to the next."""
+    return tuple(slice(a, b) for a, b in pairwise([0, *(np.flatnonzero(changes) + 1).tolist(), changes.size + 1]))
 
 
 def _side_forces(body: Body) -> SideForces:
@@ -235,9 +247,9 @@ def _side_forces(body: Body) -> SideForces:
 
 
 def _forces(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
-    """Read the forces of a group of welds: their line parts, the (n, m, 6) forces, and the doubts about them."""
+    """Read the forces of a portion of a group: its line parts, the (n, m, 6) forces, and the doubts about them."""
     body, files = groups.body, groups.body.case.body
-    lines = body.lines.lines(groups.groups[number])
+    lines = body.lines.lines(groups.portions[number])
     if isinstance(groups.forces, SideForces):
         parts, summed = _sums_of_sides(groups.forces, lines, body.modes)
         return parts, summed, list(groups.forces.warnings) if number == 0 else []
@@ -245,7 +257,7 @@ def _forces(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floa
     forces, warnings = read_nodal_forces(
         table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
-    of_file = {"unknown_column"} if number else set()  # told with the first group
+    of_file = {"unknown_column"} if number else set()  # told with the first portion
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
 
 

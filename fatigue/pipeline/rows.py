@@ -106,18 +106,20 @@ def damage_rows(stations: Stations, parts: Sequence[EventBlock], plan: Plan, wel
     }
 
 
-def stress_rows(stations: Stations, modes: NDArray[np.int64], welds: Sequence[str]) -> Mapping[str, Any]:
-    """Rows of ``structural_stress.parquet``: the five components of every mode."""
+def stress_rows(stations: Stations, modes: NDArray[np.int64], welds: Sequence[str], some: slice) -> Mapping[str, Any]:
+    """Rows of ``structural_stress.parquet`` of some stations: the five components of every mode."""
+    changed = np.isin(np.arange(len(stations))[some], stations.raw_rows)
+    of_changed = np.isin(stations.raw_rows, np.arange(len(stations))[some])
     columns: dict[str, Any] = {
-        "weld": coded(np.repeat(stations.weld, len(modes)), welds),
-        "part": np.repeat(stations.part, len(modes)),
-        "order": np.repeat(stations.order, len(modes)),
-        "node": np.repeat(stations.node, len(modes)),
-        "mode": np.tile(modes, len(stations)),
+        "weld": coded(np.repeat(stations.weld[some], len(modes)), welds),
+        "part": np.repeat(stations.part[some], len(modes)),
+        "order": np.repeat(stations.order[some], len(modes)),
+        "node": np.repeat(stations.node[some], len(modes)),
+        "mode": np.tile(modes, changed.size),
     }
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
-        treated = getattr(stations.treated, component)
+        treated = getattr(stations.treated, component)[some]
         raw = treated.copy()
-        raw[stations.raw_rows] = getattr(stations.raw, component)
+        raw[changed] = getattr(stations.raw, component)[of_changed]
         columns[f"{component}_MPa"], columns[f"{component}_raw_MPa"] = treated.ravel(), raw.ravel()
     return columns

@@ -13,7 +13,7 @@ from fatigue.pipeline.checkpoint import state_key
 from fatigue.pipeline.event_load import EventLoad, fast_record
 from fatigue.pipeline.events import event_loads
 from fatigue.pipeline.group import GroupResult, assess_group
-from fatigue.pipeline.model import GROUPS, LARGEST_GROUP, SMALLEST_GROUP, Model, WeldGroups, solve_group
+from fatigue.pipeline.model import GROUPS, LARGEST_GROUP, PORTION, SMALLEST_GROUP, Model, WeldGroups, solve_group
 from fatigue.pipeline.settle import Screening
 from fatigue.pipeline.side_by_side import in_order
 from fatigue.results import input_register, software_versions
@@ -87,7 +87,7 @@ def inputs_of(case: Case) -> list[dict[str, str]]:
 
 def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:
     """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
-    cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP)
+    cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP, PORTION)
     return state_key(
         {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(counted)}
     )

@@ -41,20 +41,24 @@ def test_a_number_beyond_all_bounds_names_its_weld(tmp_path):
         read_model(load_case(case.write(tmp_path)), strict=False)
 
 
-def test_lines_solved_some_at_a_time_are_those_solved_together(tmp_path, monkeypatch):
+def test_portions_of_a_group_are_solved_like_the_whole(tmp_path, monkeypatch):
     """Every column of the stations, also the stress before the end treatment and where that is."""
     case = small_case(pairs=3)
     case.nodal_forces["mx_Nmm"] *= 1.0 + 0.01 * case.nodal_forces["node"] % 7
-    path = case.write(tmp_path)
-    together = read_model(load_case(path), strict=False)
-    monkeypatch.setattr(model, "SOLVED_AT_ONCE", 8)
-    apart = read_model(load_case(path), strict=False)
-    assert together.stations.raw_rows.size > 0
-    for part in fields(together.stations):
-        one, other = getattr(together.stations, part.name), getattr(apart.stations, part.name)
+    body = read_body(load_case(case.write(tmp_path)), strict=False)
+    whole = solve_group(weld_groups(body, tmp_path / "a"), 0)
+    monkeypatch.setattr(model, "PORTION", 8)
+    groups = weld_groups(body, tmp_path / "b")
+    assert max(len(portions) for portions in groups.portions_of) > 1
+    assert sum(len(portions) for portions in groups.portions_of) == len(groups.portions)
+    parts = solve_group(groups, 0)
+    assert whole.stations.raw_rows.size > 0
+    for part in fields(whole.stations):
+        one, other = getattr(whole.stations, part.name), getattr(parts.stations, part.name)
         pairs = [(one, other)]
         if part.name in ("treated", "raw"):
             pairs = [(getattr(one, c.name), getattr(other, c.name)) for c in fields(one)]
         for a, b in pairs:
             np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-12)
-    assert apart.warnings == together.warnings
+    assert parts.warnings == whole.warnings
+    assert parts.lines.weld == whole.lines.weld

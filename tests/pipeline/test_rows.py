@@ -3,6 +3,7 @@
 from dataclasses import fields
 
 import numpy as np
+import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
@@ -35,6 +36,7 @@ def numbered(kind, stations, first, **codes):
 
 def written(folder, table, rows):
     """Write rows and read them again."""
+    folder.mkdir(exist_ok=True)
     with table_writer(folder, table) as writer:
         writer.write(rows)
     return pq.read_table(folder / f"{table}.parquet").to_pandas()
@@ -83,7 +85,7 @@ def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path)
 
 def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path):
     """All five components as solved and with the ends treated."""
-    rows = written(tmp_path, "structural_stress", stress_rows(model.stations, model.modes.mode, WELDS))
+    rows = written(tmp_path, "structural_stress", stress_rows(model.stations, model.modes.mode, WELDS, slice(None)))
     assert list(rows["mode"]) == [1, 2, 7] * len(model.stations)
     assert list(rows["order"]) == list(np.repeat(model.stations.order, 3))
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
@@ -91,3 +93,7 @@ def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path
         raw = getattr(model.stations.treated, component).copy()
         raw[model.stations.raw_rows] = getattr(model.stations.raw, component)
         assert list(rows[f"{component}_raw_MPa"]) == list(raw.ravel())
+    part = written(
+        tmp_path / "part", "structural_stress", stress_rows(model.stations, model.modes.mode, WELDS, slice(5, 9))
+    )
+    pd.testing.assert_frame_equal(part, rows[15:27].reset_index(drop=True))
