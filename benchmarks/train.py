@@ -17,7 +17,8 @@ from fatigue.synth import Size, synthesize
 MODES, SECONDS, RATE = 100, 60.0, 500.0
 _RUN = """
 import resource, sys
-from fatigue.__main__ import main
+from fatigue.cli import main
+code = 0
 try:
     main()
 except SystemExit as done:
