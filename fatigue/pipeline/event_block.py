@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from fatigue.life.rainflow_fast import count_block_fast, is_fast
 from fatigue.life.rainflow_long import count_block_long
 from fatigue.life.spool import Spool
 from fatigue.pipeline.bounds import Bound
-from fatigue.pipeline.estimate import Estimate, estimate_event
+from fatigue.pipeline.estimate import Estimate
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.shapes import RawEnds, Shapes, faces, quadratic
 from fatigue.quotient import quotient
@@ -58,11 +58,6 @@ class EventBlock:
     histogram: NDArray[np.float64]
 
 
-def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> EventBlock:
-    """Damage of one pass of an event at every station of a block, in the time and in the frequency domain."""
-    return count_event(shapes, load, estimate_event(shapes, load), yield_MPa, mean_stress)
-
-
 def count_event(
     shapes: Shapes, load: EventLoad, estimate: Estimate, yield_MPa: float | None, mean_stress: bool
 ) -> EventBlock:
@@ -72,7 +67,7 @@ def count_event(
     """
     f, C = load.stress_factor, load.covariance
     S_m, S_b = f * shapes.membrane, f * shapes.bending
-    counted, raw_end = _counted(S_m, S_b, estimate.one_ratio, shapes, load, yield_MPa, mean_stress)
+    counted, raw_end = _counted(shapes, load, estimate.one_ratio, yield_MPa, mean_stress)
 
     stress, shear = faces(S_m, S_b), faces(f * shapes.in_plane_shear, f * shapes.twist_shear)
     var, shear_var, covar = quadratic(stress, C, stress), quadratic(shear, C, shear), quadratic(stress, C, shear)
@@ -106,11 +101,11 @@ def count_event(
     )
 
 
-def bounded_event(estimate: Estimate, bound: Bound, raw_ends: RawEnds | None) -> EventBlock:
+def bounded_event(estimate: Estimate, bound: Bound, raw_ends: RawEnds) -> EventBlock:
     """Take proven bounds for one pass of an event: damage and largest ranges are never larger; nothing was counted."""
     unknown = np.full(bound.damage.shape, np.nan)
     raw_end = bound.damage.copy()
-    raw_end[[] if raw_ends is None else raw_ends.rows] = np.nan
+    raw_end[raw_ends.rows] = np.nan
     return EventBlock(
         damage=bound.damage,
         damage_same_ratio=unknown,
@@ -159,30 +154,21 @@ def no_overflow(event: str, welds: str) -> Iterator[None]:
 
 
 def _counted(
-    S_m: NDArray[np.float64],
-    S_b: NDArray[np.float64],
-    one_ratio: NDArray[np.float64],
-    shapes: Shapes,
-    load: EventLoad,
-    yield_MPa: float | None,
-    mean_stress: bool,
+    shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64], yield_MPa: float | None, mean_stress: bool
 ) -> tuple[BlockCount, NDArray[np.float64]]:
     """Count a block, and beside it the ends as they are without treatment: their damage is that of (n, 2)."""
-    ends = shapes.raw_ends
-    if ends is None or not ends.rows.size:
-        counted = _superpose_and_count(S_m, S_b, shapes.size, one_ratio, shapes, load, yield_MPa, mean_stress)
+    n, ends = len(shapes), shapes.raw_ends
+    if not ends.rows.size:
+        counted = _superpose_and_count(shapes, load, one_ratio, yield_MPa, mean_stress)
         return counted, counted.damage
-    n, f = len(shapes), load.stress_factor
-    everything = _superpose_and_count(
-        np.concatenate([S_m, f * ends.membrane]),
-        np.concatenate([S_b, f * ends.bending]),
-        np.concatenate([shapes.size, shapes.size[ends.rows]]),
-        np.concatenate([one_ratio, one_ratio[ends.rows]]),
+    with_raw_ends = replace(
         shapes,
-        load,
-        yield_MPa,
-        mean_stress,
+        membrane=np.concatenate([shapes.membrane, ends.membrane]),
+        bending=np.concatenate([shapes.bending, ends.bending]),
+        size=np.concatenate([shapes.size, shapes.size[ends.rows]]),
     )
+    ratios = np.concatenate([one_ratio, one_ratio[ends.rows]])
+    everything = _superpose_and_count(with_raw_ends, load, ratios, yield_MPa, mean_stress)
     counted = BlockCount(*(getattr(everything, field.name)[:n] for field in fields(BlockCount)))
     raw_end = counted.damage.copy()
     raw_end[ends.rows] = everything.damage[n:]
@@ -190,16 +176,10 @@ def _counted(
 
 
 def _superpose_and_count(
-    S_m: NDArray[np.float64],
-    S_b: NDArray[np.float64],
-    size: NDArray[np.float64],
-    one_ratio: NDArray[np.float64],
-    shapes: Shapes,
-    load: EventLoad,
-    yield_MPa: float | None,
-    mean_stress: bool,
+    shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64], yield_MPa: float | None, mean_stress: bool
 ) -> BlockCount:
     """Recover membrane and bending histories, a few rows or some samples at a time, and count them."""
+    S_m, S_b, size = load.stress_factor * shapes.membrane, load.stress_factor * shapes.bending, shapes.size
     if load.single is not None and is_fast(shapes.law, load.single):
         return count_block_fast(
             S_m,

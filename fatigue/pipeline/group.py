@@ -12,7 +12,7 @@ from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.mission_block import MissionBlock
 from fatigue.pipeline.model import Model, toe_faces
-from fatigue.pipeline.piece import Piece, Rules, counted
+from fatigue.pipeline.piece import Piece, Rules, counted_at, estimated
 from fatigue.pipeline.settle import Screening, settle
 from fatigue.pipeline.stations import shapes_of
 
@@ -45,7 +45,7 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    stations = model.stations
+    stations, toe = model.stations, toe_faces(model)
     curve_of = np.array(model.curve_of_weld)[stations.weld]
     curve = model.case.curve
     found: list[tuple[NDArray[np.intp], Piece]] = []
@@ -54,9 +54,9 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
         shapes = shapes_of(stations, rows, model.curves[name], curve.thickness_rule)
         rules = Rules(curve.yield_MPa, curve.mean_stress == "asme", _weld_names(model, rows))
         if screening is None:
-            pieces = counted(shapes, loads, plan, rules)
+            pieces = counted_at(np.arange(len(rows)), shapes, loads, estimated(shapes, loads, rules), plan, rules)
         else:
-            pieces = settle(shapes, stations.weld[rows], toe_faces(model)[rows], loads, plan, screening, rules)
+            pieces = settle(shapes, stations.weld[rows], toe[rows], loads, plan, screening, rules)
         found += [(rows[piece.rows], piece) for piece in pieces]
     events = tuple(_joined([(rows, p.events[e]) for rows, p in found], EventBlock) for e in range(len(loads)))
     mission = _joined([(rows, p.mission) for rows, p in found], MissionBlock)

@@ -1,8 +1,6 @@
 """Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
-import os
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from functools import partial
 from itertools import pairwise
@@ -16,6 +14,7 @@ from fatigue.case import Case
 from fatigue.errors import DataError, NumericalError, Problem
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.rated_curves import RatedCurve
+from fatigue.pipeline.side_by_side import in_order
 from fatigue.pipeline.stations import Stations, joined, stations_of
 from fatigue.readers.body import Mesh, Modes, Weld
 from fatigue.readers.force_pieces import ForcePieces
@@ -132,9 +131,7 @@ def check_forces(groups: WeldGroups, threads: int | None) -> None:
     ------
     DataError : the mistakes of the first portion of a group that has any
     """
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-        for _ in pool.map(partial(_check_portion, groups), range(len(groups.portions))):
-            pass
+    in_order(partial(_check_portion, groups), range(len(groups.portions)), threads)
     give_back()
 
 

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.bounds import Bound
-from fatigue.pipeline.estimate import Estimate
-from fatigue.pipeline.event_block import EventBlock, assess_event_block, bounded_event, count_event, no_overflow
+from fatigue.pipeline.estimate import Estimate, estimate_event
+from fatigue.pipeline.event_block import EventBlock, bounded_event, count_event, no_overflow
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.shapes import Shapes
@@ -37,19 +37,18 @@ class Piece:
     tier: int
 
 
-def counted(shapes: Shapes, loads: Sequence[EventLoad], plan: Plan, rules: Rules) -> Iterator[Piece]:
-    """Count all events at all stations of a block.
+def estimated(shapes: Shapes, loads: Sequence[EventLoad], rules: Rules) -> tuple[Estimate, ...]:
+    """Estimate all events at all stations of a block.
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    for rows in _cut(np.arange(len(shapes)), shapes):
-        some, events = shapes.at(rows), []
-        for load in loads:
-            with no_overflow(load.counted.event, rules.welds):
-                events.append(assess_event_block(some, load, rules.yield_MPa, rules.mean_stress))
-        yield _piece(rows, events, plan, shapes, 0)
+    estimates: tuple[Estimate, ...] = ()
+    for load in loads:
+        with no_overflow(load.counted.event, rules.welds):
+            estimates += (estimate_event(shapes, load),)
+    return estimates
 
 
 def counted_at(
@@ -60,7 +59,7 @@ def counted_at(
     plan: Plan,
     rules: Rules,
 ) -> Iterator[Piece]:
-    """Count all events at some stations of a block, whose estimates are there already.
+    """Count all events at some stations of a block.
 
     Raises
     ------
@@ -83,7 +82,7 @@ def bounded_at(
     tier: int,
 ) -> Piece:
     """Take the bounds of all events at some stations of a block."""
-    raw_ends = None if shapes.raw_ends is None else shapes.raw_ends.at(rows)
+    raw_ends = shapes.raw_ends.at(rows)
     events = [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in zip(estimates, bounds, strict=True)]
     return _piece(rows, events, plan, shapes, tier)
 

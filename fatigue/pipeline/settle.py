@@ -19,10 +19,10 @@ from fatigue.life.rainflow_fast import Record
 from fatigue.life.screening import ModalExtent, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
 from fatigue.pipeline.bounds import Bound, event_bound
-from fatigue.pipeline.estimate import Estimate, estimate_event
+from fatigue.pipeline.estimate import Estimate
 from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at
+from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at, estimated
 from fatigue.pipeline.shapes import Shapes
 
 
@@ -66,12 +66,11 @@ def settle(
     NumericalError : stress or damage exceeds double precision
     """
     needs_yield = rules.yield_MPa if rules.mean_stress else None
-    estimates: tuple[Estimate, ...] = ()
+    estimates = estimated(shapes, loads, rules)
     bounds: tuple[Bound, ...] = ()
-    for load, extent in zip(loads, screening.extents, strict=True):
+    for load, extent, estimate in zip(loads, screening.extents, estimates, strict=True):
         with no_overflow(load.counted.event, rules.welds):
-            estimates += (estimate_event(shapes, load),)
-            bounds += (_modal_bound(shapes, estimates[-1], load, extent, needs_yield),)
+            bounds += (_modal_bound(shapes, estimate, load, extent, needs_yield),)
 
     tier = np.ones(len(shapes), dtype=np.int8)
     likely_worst = _likely_worst(weld, toe, estimates, bounds, plan)

@@ -28,6 +28,9 @@ class RawEnds:
         return type(self)(theirs, self.membrane[mine], self.bending[mine])
 
 
+NO_ENDS = RawEnds(np.zeros(0, np.intp), np.zeros((0, 0)), np.zeros((0, 0)))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Shapes:
     """Structural stress shapes of a block of stations that share one S-N curve.
@@ -35,7 +38,7 @@ class Shapes:
     ``membrane``, ``bending``, ``in_plane_shear``, ``twist_shear`` are (n, m) [MPa per unit modal coordinate], bending
     and twist those of the top face; ``size`` (n,) turns a structural stress range over ``I(r)^(1/m)`` into the
     equivalent range of the law; ``uses_bending_ratio`` is False for curves in plain structural stress, where I is 1.
-    ``raw_ends`` is None where there is no end treatment.
+    ``raw_ends`` are among them.
     """
 
     membrane: NDArray[np.float64]
@@ -45,7 +48,7 @@ class Shapes:
     size: NDArray[np.float64]
     law: DamageLaw
     uses_bending_ratio: bool
-    raw_ends: RawEnds | None = None
+    raw_ends: RawEnds = NO_ENDS
 
     def __len__(self) -> int:
         """Count the stations."""
@@ -60,7 +63,7 @@ class Shapes:
             in_plane_shear=self.in_plane_shear[rows],
             twist_shear=self.twist_shear[rows],
             size=self.size[rows],
-            raw_ends=None if self.raw_ends is None else self.raw_ends.at(rows),
+            raw_ends=self.raw_ends.at(rows),
         )
 
 

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.damage import ratio_factor
 from fatigue.life.history import ModalHistory
-from fatigue.pipeline.event_block import assess_event_block
 from fatigue.pipeline.event_load import prepare_event
 from fatigue.pipeline.shapes import Shapes
 from fatigue.spectrum.methods import dirlik_damage_rate
 from fatigue.spectrum.moments import segment_spectra
+from tests.one_event import assess_event_block
 
 LAW = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7)
 STEP = 0.004

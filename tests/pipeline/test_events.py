@@ -15,10 +15,11 @@ from fatigue.life.rainflow_product import prepared_samples, space_for_samples
 from fatigue.life.spool import Spool
 from fatigue.pipeline import events
 from fatigue.pipeline.body import read_body
-from fatigue.pipeline.event_block import EventBlock, assess_event_block
+from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
 from fatigue.pipeline.model import weld_groups
 from fatigue.pipeline.shapes import Shapes
+from tests.one_event import assess_event_block
 from tests.small_case import small_case
 
 
