@@ -15,7 +15,7 @@ from fatigue.case import Case
 from fatigue.errors import Problem
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import Checkpoint, locked
-from fatigue.pipeline.cycles import point_cycles
+from fatigue.pipeline.cycles import CycleWriter, kept_point
 from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.folder import publish, refuse_foreign, result_log
 from fatigue.pipeline.model import check_forces, toe_faces, weld_groups
@@ -112,10 +112,16 @@ def assess(
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             unpublished = state.folder / "tables"
             with result_tables(unpublished) as tables, closing(assessed):
+                cycles = CycleWriter(tables["cycles"], work.loads, case.curve)
                 for group in assessed:
-                    done.add(group, work, write_group(tables, group, work))
+                    worst = write_group(tables, group, work)
+                    used_up = group.result.mission.utilisation
+                    kept = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
+                    cycles.add([kept_point(group.model, point) for point in kept])
+                    done.add(group, work, worst)
                     if len(group.model.stations) >= LARGE_GROUP:
                         give_back()
+                cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
@@ -162,7 +168,7 @@ class Tally:
 
 
 def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
-    """Write the rows of a group of welds to every table, and return the worst point of each weld."""
+    """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld."""
     model, result, plan = group.model, group.result, work.plan
     stations, welds = model.stations, [weld.name for weld in model.welds]
     worst, screened = worst_points(model, result), np.repeat(result.tier[:, None], 2, axis=1)
@@ -171,10 +177,6 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     for first in range(0, len(stations), STRESSES_AT_ONCE):  # as many rows as modes each
         some = slice(first, first + STRESSES_AT_ONCE)
         tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds, some))
-    shown = [p for p in worst if result.mission.utilisation[p.station, p.face] >= work.kept_from]
-    for load in work.loads:
-        for rows in point_cycles(model, load, shown):
-            tables["cycles"].write(rows)
     tables["welds"].write(weld_rows(model, plan, result.mission, worst))
     return worst
 

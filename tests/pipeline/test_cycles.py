@@ -16,6 +16,11 @@ from tests.small_case import small_case
 POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
 
 
+def kept(model):
+    """What the cycles of the points need."""
+    return [cycles.kept_point(model, point) for point in POINTS]
+
+
 class OnlySlices:
     """Modal coordinates that are never there as a whole."""
 
@@ -47,7 +52,7 @@ def test_cycles_are_those_of_each_point_alone(model, load, monkeypatch, samples_
     """In the order of the points, whatever number of them is recovered at once."""
     monkeypatch.setattr(cycles, "_SAMPLES_AT_ONCE", samples_at_once)
     treated, q = model.stations.treated, load.counted.q[:, :].astype(float)
-    found = list(cycles.point_cycles(model, load, POINTS))
+    found = list(cycles.point_cycles(kept(model), load, model.case.curve))
     for point, rows in zip(POINTS, found, strict=True):
         membrane, bending = (1.5 * s[point.station] @ q for s in (treated.membrane, treated.bending))
         stress = membrane + bending if point.face == 0 else membrane - bending
@@ -60,13 +65,28 @@ def test_cycles_are_those_of_each_point_alone(model, load, monkeypatch, samples_
 
 def test_rows_name_their_point(model, load):
     """Weld, node, face and event are the same in all rows of a point."""
-    for point, rows in zip(POINTS, cycles.point_cycles(model, load, POINTS), strict=True):
+    for point, rows in zip(POINTS, cycles.point_cycles(kept(model), load, model.case.curve), strict=True):
         assert rows["weld"].unique().to_pylist() == ["AB"[point.weld]]
         assert rows["surface"].unique().to_pylist() == [("top", "bottom")[point.face]]
         assert rows["event"].unique().to_pylist() == ["run"]
         assert set(rows["node"]) == {model.stations.node[point.station]}
 
 
-def test_no_points_no_rows(model, load):
-    """A group whose points all stay below the share has none."""
-    assert list(cycles.point_cycles(model, load, ())) == []
+@pytest.mark.parametrize("number_of_points", [0, 1, cycles.POINTS_AT_ONCE, 2 * cycles.POINTS_AT_ONCE + 1])
+def test_points_are_written_many_at_a_time_and_all(model, load, monkeypatch, number_of_points):
+    """However they come in, in their order; a record is read once for as many as belong together."""
+    at_once, found = [], []
+
+    def rows_of(points, load, curve):
+        at_once.append(len(points))
+        return cycles_of(points, load, curve)
+
+    cycles_of = cycles.point_cycles
+    monkeypatch.setattr(cycles, "point_cycles", rows_of)
+    points = (kept(model) * number_of_points)[:number_of_points]
+    writer = cycles.CycleWriter(SimpleNamespace(write=found.append), [load], model.case.curve)
+    for point in points:
+        writer.add([point])
+    writer.flush()
+    assert [rows["node"][0] for rows in found] == [point.node for point in points]
+    assert set(at_once[:-1]) <= {cycles.POINTS_AT_ONCE}
