@@ -1,82 +1,181 @@
-"""Which of two neighbouring samples is the extreme, where rounding in single precision may have decided it.
+"""A surface in one chunk of time, where single precision cannot tell which of two stresses is the larger one.
 
-The larger one of two samples that are equal within rounding hardly matters for the range of a cycle, but its membrane
-stress is the one that counts, and that of the other one may be quite different. The order of the two in double
-precision is worked out for such a pair alone; then both samples are made the one that is the extreme.
+The larger one of two that are equal within rounding hardly matters for the range of a cycle, but its membrane stress is
+the one that counts, and that of the other one may be quite different. So both are worked out in double precision, and
+the surface is counted again in this chunk with what they say. Samples of other chunks are not at hand: if one of them
+is in doubt, or one of the few reversals that are left at the end of the record, the surface has to be counted again
+from the beginning.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
+from fatigue.life.rainflow_loops import (
+    add_cycles,
+    append_last,
+    begin_side,
+    finish,
+    hold_level,
+    list_reversals,
+    resume,
+    suspend,
+)
+from fatigue.life.rainflow_power import PowerLaw
+from fatigue.life.rainflow_state import Room, Stage, State
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating]
-Pairs = NDArray[np.int64]
+Places = NDArray[np.int64]
 
-MOST = 4  # pairs of a surface in a chunk; a surface with more is counted again
+
+class Exact(NamedTuple):
+    """What stress in double precision comes from: shapes (n, m) of coordinates as given, and these (m, t), a chunk."""
+
+    membrane: Floats
+    bending: Floats
+    q: Numbers
 
 
 @compiled()
-def list_pairs(
-    m: Numbers, b: Numbers, steps: int, samples: int, at: tuple[int, int], flat: np.float32, pairs: Pairs, found: int
-) -> int:
-    """Append the steps of a surface that are as small as rounding to ``pairs``, or none if they cannot be settled.
+def rise(exact: Exact, at: tuple[int, int], i: int, j: int) -> float:
+    """Stress at sample j of a chunk minus that at sample i, both from 1, in double precision."""
+    m_i = m_j = b_i = b_j = 0.0
+    for k in range(len(exact.q)):
+        m_i += exact.membrane[at[0], k] * exact.q[k, i - 1]
+        b_i += exact.bending[at[0], k] * exact.q[k, i - 1]
+        m_j += exact.membrane[at[0], k] * exact.q[k, j - 1]
+        b_j += exact.bending[at[0], k] * exact.q[k, j - 1]
+    side = 1.0 - 2.0 * at[1]
+    return (m_j + side * b_j) - (m_i + side * b_i)
 
-    They can be if they are few, and each between two larger steps of the samples 1 to ``samples`` or 0. ``pairs``
-    (n, 3) are point, surface and first sample; returns how many there are now.
+
+@compiled()
+def write_steps(
+    m: Numbers, b: Numbers, steps: int, at: tuple[int, int], flat: np.float32, exact: Exact, room: Room
+) -> bool:
+    """Write whether each step goes up (1), nowhere (0) or down (-1) into the work space; returns whether it is known.
+
+    Samples 1 to t are those of the chunk, sample 0 the one before it and t + 1 the one behind the record.
     """
     side = np.float32(1 - 2 * at[1])
-    listed = found
+    known = True
     for i in range(steps):
         s = m[i] + side * b[i]
         ds = (m[i + 1] + side * b[i + 1]) - s
+        room.marks[0, i] = np.int32(ds > 0) - np.int32(ds < 0)
         if abs(ds) <= flat + flat * abs(s) and m[i + 1] != m[i]:
-            follows = listed > found and pairs[listed - 1, 2] == i - 1
-            if follows or i == 0 or i + 2 > samples or listed - found == MOST:
-                return found
-            pairs[listed, 0], pairs[listed, 1], pairs[listed, 2] = at[0], at[1], i
-            listed += 1
-    return listed
+            if i == 0 or i + 1 > exact.q.shape[1]:
+                known = False
+            else:
+                step = rise(exact, at, i, i + 1)
+                room.marks[0, i] = np.int32(step > 0) - np.int32(step < 0)
+    return known
 
 
 @compiled()
-def directions(
-    membrane: Floats, bending: Floats, q: NDArray[np.floating], scale: Floats, pairs: Pairs
-) -> NDArray[np.int64]:
-    """Tell in double precision whether the steps of `list_pairs` go up (1), nowhere (0) or down (-1).
+def reaches(room: Room, i: int, sign: float, at: tuple[int, int], flat: np.float32, exact: Exact) -> int:
+    """Whether reversal i is as large as the one before it on its side (1) or not (0); -1 if that is not known.
 
-    ``membrane`` and ``bending`` (n, m) are the shapes of the points for coordinates over ``scale`` (m,), ``q`` (m, t)
-    the coordinates themselves, samples 1 to t.
+    ``sign`` is that of both, 1 at peaks; the second row of marks says which sample of the chunk a reversal is.
     """
-    found = np.empty(len(pairs), np.int64)
-    for k in range(len(pairs)):
-        row, surface, sample = pairs[k, 0], pairs[k, 1], pairs[k, 2]
-        m = m_next = b = b_next = 0.0
-        for mode in range(len(q)):
-            w_m, w_b = membrane[row, mode] / scale[mode], bending[row, mode] / scale[mode]
-            m += w_m * q[mode, sample - 1]
-            b += w_b * q[mode, sample - 1]
-            m_next += w_m * q[mode, sample]
-            b_next += w_b * q[mode, sample]
-        side = 1.0 - 2.0 * surface
-        step = (m_next + side * b_next) - (m + side * b)
-        found[k] = int(step > 0.0) - int(step < 0.0)
-    return found
+    z, zm, sample = room.numbers[0], room.numbers[1], room.marks[1]
+    if abs(z[i] - z[i - 2]) > flat + flat * abs(z[i - 2]) or zm[i] == zm[i - 2]:
+        return int(z[i] >= z[i - 2])
+    if sample[i] == 0 or sample[i - 2] == 0:
+        return -1
+    return int(sign * rise(exact, at, sample[i - 2], sample[i]) >= 0.0)
 
 
 @compiled()
-def settle_pair(m: Numbers, b: Numbers, side: np.float32, i: int, direction: int) -> bool:
-    """Make the samples i and i + 1 of a row the one that is the extreme, given the direction of the step between them.
+def close_inner(
+    room: Room, n: int, first_sign: float, at: tuple[int, int], flat: np.float32, exact: Exact
+) -> tuple[int, int, bool]:
+    """Close what `rainflow_loops.close_pass` takes out in any number of passes, on a stack.
 
-    Returns whether the surface turns now as it does in double precision.
+    ``first_sign`` is that of the first reversal; the second row of marks says which sample of the chunk a reversal is,
+    0 if none. Returns how many are left, how many cycles there are, and whether all of that is known.
     """
-    rise_before = (m[i] + side * b[i]) - (m[i - 1] + side * b[i - 1])
-    rise_after = (m[i + 2] + side * b[i + 2]) - (m[i + 1] + side * b[i + 1])
-    goes_on = direction == 0 or (direction > 0) == (rise_before > 0)  # a plateau turns at its last sample
-    turns = rise_before * rise_after < 0
-    if turns and not goes_on:
-        m[i + 1], b[i + 1] = m[i], b[i]
+    z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
+    sample = room.marks[1]
+    top, cycles, known = -1, 0, True
+    for k in range(n):
+        top += 1
+        z[top], zm[top], sample[top] = z[k], zm[k], sample[k]
+        while top >= 3:
+            sign = first_sign * (1 - 2 * (top % 2))
+            last = reaches(room, top, sign, at, flat, exact)
+            last_but_one = reaches(room, top - 1, -sign, at, flat, exact)
+            known &= last >= 0 and last_but_one >= 0
+            if last != 1 or last_but_one == 1:
+                break
+            S[cycles], dm[cycles] = z[top - 2] + z[top - 1], zm[top - 2] + zm[top - 1]
+            cycles += 1
+            z[top - 2], zm[top - 2], sample[top - 2] = z[top], zm[top], sample[top]
+            top -= 2
+    return top + 1, cycles, known
+
+
+@compiled()
+def count_side_exactly(
+    m: Numbers,
+    b: Numbers,
+    steps: int,
+    at: tuple[int, int],
+    stage: Stage,
+    law: PowerLaw,
+    state: State,
+    room: Room,
+    exact: Exact,
+) -> None:
+    """Count one surface as `rainflow_loops.count_side` does, with double precision where it is needed."""
+    known = state.sides[at]
+    side = np.float32(1 - 2 * at[1])
+    if not write_steps(m, b, steps, at, stage.flat, exact, room):
+        known.doubtful = True
+        return
+    if known.up < 0:
+        i = 0
+        while i < steps and room.marks[0, i] == 0:
+            i += 1
+        if i == steps:  # level so far
+            return
+        begin_side(room.marks[0, i] > 0, m[i], at, stage.recurs, state)
+    waiting, sign = resume(state, at, room), 2.0 * known.up - 1.0
+    hold_level(room, steps, known.up)
+    n, known.up = list_reversals(m, b, side, steps, known.up, room, waiting)
+    sample = room.marks[1]
+    for k in range(n - 1, -1, -1):
+        sample[k] = sample[k - waiting] if k >= waiting else 0
+    if stage.ends:
+        sample[n] = 0 if stage.recurs else steps
+        n = append_last(m, b, steps, side, stage.recurs, known, room, n)
+    n, cycles, settled = close_inner(room, n, sign * (1 - 2 * (waiting % 2)), at, stage.flat, exact)
+    known.doubtful |= not settled
+    if stage.ends:
+        cycles = finish(known, n, cycles, stage, law, room)
     else:
-        m[i], b[i] = m[i + 1], b[i + 1]
-    return bool(turns or (goes_on and rise_before * rise_after > 0))
+        suspend(state, at, n, room)
+    add_cycles(room, 2, cycles, 1.0, law, known)
+
+
+@compiled()
+def count_chunk_exactly(
+    stress: Numbers,
+    samples: int,
+    stage: Stage,
+    law: PowerLaw,
+    state: State,
+    room: Room,
+    exact: Exact,
+    doubts: Places,
+) -> None:
+    """Count the surfaces that `rainflow_loops.count_chunk` has left out: rows and faces ``doubts`` (d, 2)."""
+    points = stress.shape[0] // 2
+    steps = samples + int(stage.ends and stage.recurs)
+    for k in range(len(doubts)):
+        at = (doubts[k, 0], doubts[k, 1])
+        m, b = stress[at[0]], stress[points + at[0]]
+        count_side_exactly(m, b, steps, at, stage, law, state, room, exact)

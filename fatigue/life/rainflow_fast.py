@@ -11,10 +11,10 @@ product. Three steps follow per point and surface:
    waits for the next samples; at the end of the record the stack finishes it.
 3. `raise_to_slope` has S^k of all cycles from polynomials for log2 and exp2, and I(r)^(-k/m) from a polynomial in r.
 
-Where single precision cannot tell which of two neighbouring samples is the extreme, double precision does for these
-two alone, see `rainflow_doubt`. Where it cannot tell which of two ranges is the larger one, the surface is counted
-again in the same way in double precision, all such surfaces of a call together. Points in high mean tension, laws with
-knees, and short records go to `count_block_long`. The loops are in `rainflow_loops` and `rainflow_power`;
+Where single precision cannot tell which of two neighbouring samples is the extreme, or which of two ranges is the
+larger one, double precision does in that chunk, see `rainflow_doubt`. The few surfaces of which that is not enough are
+counted again in the same way in double precision, all of a call together. Points in high mean tension, laws with knees,
+and short records go to `count_block_long`. The loops are in `rainflow_loops` and `rainflow_power`;
 `rainflow_simd` has steps 1 and 2 in vector instructions, and without that file the plain loops do the same, bit for
 bit.
 
@@ -32,9 +32,9 @@ from fatigue.life import damage
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue
 from fatigue.life.rainflow import BlockCount, not_finite
-from fatigue.life.rainflow_doubt import MOST, directions
+from fatigue.life.rainflow_doubt import Exact, count_chunk_exactly
 from fatigue.life.rainflow_long import count_block_long
-from fatigue.life.rainflow_loops import count_chunk, count_settled
+from fatigue.life.rainflow_loops import count_chunk
 from fatigue.life.rainflow_power import PowerLaw, power_law
 from fatigue.life.rainflow_product import (
     block_for,
@@ -216,9 +216,9 @@ def _surfaces(membrane: Floats, bending: Floats) -> Floats:
 
 def _normalised(S_m: Floats, S_b: Floats, record: Record) -> _Block:
     """Divide the shapes of each point by a power of 2 so that its modal stresses have an rms of about 1."""
-    membrane, bending, both = (
-        ((a @ record.covariance) * b).sum(axis=1) for a, b in ((S_m, S_m), (S_b, S_b), (S_m, S_b))
-    )
+    of_membrane, of_bending = S_m @ record.covariance, S_b @ record.covariance
+    pairs = (of_membrane, S_m), (of_bending, S_b), (of_membrane, S_b)
+    membrane, bending, both = (np.einsum("nm,nm->n", a, b) for a, b in pairs)
     variance = np.maximum(_surfaces(membrane + bending, 2.0 * both), 0.0)
     modal = (S_m**2 + S_b**2) @ np.diagonal(record.covariance)
     scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])[:, None]
@@ -258,7 +258,7 @@ def _count(
     room = room_for(width, RESIDUE, precision)
     stress = block_for(rows, width, precision)
     space = space_for_samples(modes, min(t, CHUNK), precision)
-    pairs = np.empty((rows * MOST, 3), np.int64)
+    doubts = np.empty((rows, 2), np.int64)
     for first in range(0, t, CHUNK):
         columns = slice(first, min(first + CHUNK, t))
         samples = columns.stop - first
@@ -271,11 +271,12 @@ def _count(
         for piece, laid_out, state_of_piece in zip(pieces, shapes, states, strict=True):
             multiply(laid_out, q, stress)
             some = stress[: 2 * len(state_of_piece.sides)]
-            found = count_chunk(some, samples, stage, rules, state_of_piece, room, pairs)
+            found = count_chunk(some, samples, stage, rules, state_of_piece, room, doubts)
             if found:
                 exact = record.exact[:, columns] if exact is None else exact
-                known = directions(block.membrane[piece], block.bending[piece], exact, record.scale, pairs[:found])
-                count_settled(some, samples, stage, rules, state_of_piece, room, pairs[:found], known)
+                S_m, S_b = (part[piece] / record.scale for part in (block.membrane, block.bending))
+                known = Exact(S_m, S_b, exact)
+                count_chunk_exactly(some, samples, stage, rules, state_of_piece, room, known, doubts[:found])
     return state.sides
 
 

@@ -8,7 +8,6 @@ from numba.extending import overload
 from numpy.typing import NDArray
 
 from fatigue.life.rainflow import compiled
-from fatigue.life.rainflow_doubt import Pairs, list_pairs, settle_pair
 from fatigue.life.rainflow_power import PowerLaw, add_powers, add_up, raise_to_slope
 from fatigue.life.rainflow_state import PAD, Room, Stage, State
 
@@ -32,7 +31,7 @@ def write_reversals(
 
     Returns how many reversals there are now, the direction behind them, and whether any step is as small as rounding.
     """
-    z, zm, step, at = room.numbers[0], room.numbers[1], room.marks[0], room.marks[1]
+    step = room.marks[0]
     small_steps = level_steps = np.int32(0)
     for i in range(samples):  # several loops, because compilers turn simple ones into vector instructions
         s = m[i] + side * b[i]
@@ -42,12 +41,32 @@ def write_reversals(
     for i in range(samples):
         ds = (m[i + 1] + side * b[i + 1]) - (m[i] + side * b[i])
         step[i] = np.int32(ds > 0) - np.int32(ds < 0)
-    before = np.int32(2 * up - 1)
     if level_steps != 0:
-        direction = before
-        for i in range(samples):
-            direction = step[i] if step[i] != 0 else direction
-            step[i] = direction
+        hold_level(room, samples, up)
+    n, up = list_reversals(m, b, side, samples, up, room, n)
+    return n, up, small_steps != 0
+
+
+@compiled()
+def hold_level(room: Room, steps: int, up: int) -> None:
+    """Let level steps go on in the direction before them, at the start ``up``."""
+    step = room.marks[0]
+    direction = np.int32(2 * up - 1)
+    for i in range(steps):
+        direction = step[i] if step[i] != 0 else direction
+        step[i] = direction
+
+
+@compiled()
+def list_reversals(
+    m: Numbers, b: Numbers, side: np.float32, samples: int, up: int, room: Room, n: int
+) -> tuple[int, int]:
+    """Append the reversals to n others, given the direction of every step, none of them level.
+
+    Returns how many there are now and the direction behind them; the second row of marks has the samples of the new.
+    """
+    z, zm, step, at = room.numbers[0], room.numbers[1], room.marks[0], room.marks[1]
+    before = np.int32(2 * up - 1)
     reversals = _NONE
     for i in range(samples):
         at[reversals] = i
@@ -60,7 +79,7 @@ def write_reversals(
         z[behind + k] = sign * (m[j] + side * b[j])
         zm[behind + k] = sign * m[j]
         sign = -sign
-    return n + int(np.intp(reversals)), int(before > 0), small_steps != 0
+    return n + int(np.intp(reversals)), int(before > 0)
 
 
 @compiled()
@@ -185,22 +204,26 @@ def add_cycles(room: Room, row: int, n: int, count: float, law: PowerLaw, total:
 
 
 @compiled()
-def begin_side(m: Numbers, b: Numbers, steps: int, at: tuple[int, int], recurs: bool, state: State) -> None:
-    """Look for the first step of the record; a single pass turns where it begins."""
-    known = state.sides[at]
-    side = np.float32(1 - 2 * at[1])
+def first_step(m: Numbers, b: Numbers, side: np.float32, steps: int) -> int:
+    """Find the first step that is not level; ``steps`` if there is none."""
     i = 0
     while i < steps and m[i] + side * b[i] == m[i + 1] + side * b[i + 1]:
         i += 1
-    if i < steps:
-        known.up = known.first_up = int(m[i + 1] + side * b[i + 1] > m[i] + side * b[i])
-        known.plateau_m = m[i]
-        if not recurs:
-            sign = np.float32(1 - 2 * known.first_up)
-            first_m, first_b = state.ends[at[0], 0, 0], state.ends[at[0], 0, 1]
-            state.waiting[at[0], at[1], 0, 0] = sign * (first_m + side * first_b)
-            state.waiting[at[0], at[1], 1, 0] = sign * first_m
-            known.waiting = 1
+    return i
+
+
+@compiled()
+def begin_side(up: bool, plateau_m: float, at: tuple[int, int], recurs: bool, state: State) -> None:
+    """Begin with the direction of the first step and the membrane stress before it; a single pass turns there."""
+    known = state.sides[at]
+    known.up = known.first_up = int(up)
+    known.plateau_m = plateau_m
+    if not recurs:
+        side, sign = np.float32(1 - 2 * at[1]), np.float32(1 - 2 * known.first_up)
+        first_m, first_b = state.ends[at[0], 0, 0], state.ends[at[0], 0, 1]
+        state.waiting[at[0], at[1], 0, 0] = sign * (first_m + side * first_b)
+        state.waiting[at[0], at[1], 1, 0] = sign * first_m
+        known.waiting = 1
 
 
 @compiled()
@@ -239,14 +262,16 @@ def append_last(m: Numbers, b: Numbers, i: int, side: np.float32, recurs: bool, 
 
 
 @compiled()
-def close_all(room: Room, n: int, flat: np.float32, known: Any) -> tuple[int, int]:
-    """Close ranges as long as it is worth a pass; returns how many reversals are left and how many cycles there are."""
-    cycles, before = 0, 2 * n
-    while n > FEW and before - n > before // 8:
+def close_all(room: Room, n: int, flat: np.float32) -> tuple[int, int, bool]:
+    """Close ranges as long as it is worth a pass.
+
+    Returns how many reversals are left, how many cycles there are, and whether rounding may have decided.
+    """
+    cycles, before, doubtful = 0, 2 * n, False
+    while n > FEW and before - n > before // 8 and not doubtful:
         before = n
-        n, cycles, close_call = close_ranges(room, n, cycles, flat)
-        known.doubtful |= close_call
-    return n, cycles
+        n, cycles, doubtful = close_ranges(room, n, cycles, flat)
+    return n, cycles, doubtful
 
 
 @compiled()
@@ -268,24 +293,26 @@ def count_side(
 ) -> bool:
     """Count one surface of one point over the steps of a chunk.
 
-    Returns whether it has done so: not if rounding may have decided where it turns, then nothing is changed.
+    Returns whether it has done so: not if rounding may have decided something, then nothing is changed.
     """
     known = state.sides[at]
     side = np.float32(1 - 2 * at[1])
     up_before, waiting_before = known.up, known.waiting
     if up_before < 0:
-        begin_side(m, b, steps, at, stage.recurs, state)
-        if known.up < 0:  # level so far
+        i = first_step(m, b, side, steps)
+        if i == steps:  # level so far
             return True
+        begin_side(m[i + 1] + side * b[i + 1] > m[i] + side * b[i], m[i], at, stage.recurs, state)
     n = resume(state, at, room)
-    n, up, small_steps = find_reversals(m, b, side, stage.flat, steps, known.up, room, n)
-    if small_steps:
+    n, known.up, doubtful = find_reversals(m, b, side, stage.flat, steps, known.up, room, n)
+    cycles = 0
+    if not doubtful:
+        if stage.ends:
+            n = append_last(m, b, steps, side, stage.recurs, known, room, n)
+        n, cycles, doubtful = close_all(room, n, stage.flat)
+    if doubtful:
         known.up, known.waiting = up_before, waiting_before
         return False
-    known.up = up
-    if stage.ends:
-        n = append_last(m, b, steps, side, stage.recurs, known, room, n)
-    n, cycles = close_all(room, n, stage.flat, known)
     if stage.ends:
         cycles = finish(known, n, cycles, stage, law, room)
     else:
@@ -296,12 +323,12 @@ def count_side(
 
 @compiled()
 def count_chunk(
-    stress: Numbers, samples: int, stage: Stage, law: PowerLaw, state: State, room: Room, pairs: Pairs
+    stress: Numbers, samples: int, stage: Stage, law: PowerLaw, state: State, room: Room, doubts: NDArray[np.int64]
 ) -> int:
     """Count the steps to the columns 1 to ``samples`` of a block, its membrane rows above its bending rows.
 
-    Surfaces on which rounding may have decided where they turn are left to `count_settled`, if they can be: returns how
-    many ``pairs`` there are, see `list_pairs`.
+    Surfaces on which rounding may have decided are left to `rainflow_doubt.count_chunk_exactly`: returns how many there
+    are in ``doubts`` (2 n, 2), row and face of each.
     """
     points = stress.shape[0] // 2
     found = 0
@@ -323,33 +350,6 @@ def count_chunk(
             at = (row, surface)
             known = state.sides[at]
             if known.wanted and not known.doubtful and not count_side(m, b, steps, at, stage, law, state, room):
-                more = list_pairs(m, b, steps, samples, at, stage.flat, pairs, found)
-                known.doubtful = more == found
-                found = more
+                doubts[found, 0], doubts[found, 1] = at
+                found += 1
     return found
-
-
-@compiled()
-def count_settled(
-    stress: Numbers,
-    samples: int,
-    stage: Stage,
-    law: PowerLaw,
-    state: State,
-    room: Room,
-    pairs: Pairs,
-    directions: NDArray[np.int64],
-) -> None:
-    """Count the surfaces that `count_chunk` has left out, given the directions of the steps between the pairs."""
-    points = stress.shape[0] // 2
-    steps = samples + int(stage.ends and stage.recurs)
-    k = 0
-    while k < len(pairs):
-        at = (pairs[k, 0], pairs[k, 1])
-        m, b = stress[at[0]].copy(), stress[points + at[0]].copy()
-        settled = True
-        while k < len(pairs) and (pairs[k, 0], pairs[k, 1]) == at:
-            settled &= settle_pair(m, b, np.float32(1 - 2 * at[1]), pairs[k, 2], directions[k])
-            k += 1
-        if not settled or not count_side(m, b, steps, at, stage, law, state, room):
-            state.sides[at].doubtful = True

@@ -1,11 +1,13 @@
 """Modal coordinates on disk: sliced like an array, and in memory only as far as a slice reaches.
 
 The file holds chunk after chunk of time, in each of them mode after mode, so that some samples of all modes and all
-samples of one mode are both read in few pieces. It is read by plain reads: pages of a memory map would count as memory
-of the program.
+samples of one mode are both read in few pieces. Only what a slice needs is mapped into memory, and no longer than the
+slice lives: pages of a file that is mapped as a whole would count as memory of the program.
 """
 
 import errno
+import mmap
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -35,7 +37,7 @@ class Spool:
     skipped: int = 0
 
     def __getitem__(self, part: tuple[slice, slice]) -> NDArray[np.floating]:
-        """Read the part between two modes and two samples."""
+        """Give the part between two modes and two samples; it is not to be written to."""
         first_mode, end_mode, _ = part[0].indices(self.shape[0])
         first, end, _ = part[1].indices(self.shape[1])
         found = np.empty((max(0, end_mode - first_mode), max(0, end - first)), dtype=self.dtype)
@@ -43,12 +45,10 @@ class Spool:
             return found
         with self.path.open("rb", buffering=0) as file:
             for columns, start, width, inside in self._chunks(first, end):
-                if len(found) == 1 or columns.stop - columns.start == width == found.shape[1]:  # in one piece
-                    self._read_at(file, start + first_mode * width + inside.start, found[:, columns])
-                else:
-                    rows = np.empty((len(found), width), dtype=self.dtype)
-                    self._read_at(file, start + first_mode * width, rows)
-                    found[:, columns] = rows[:, inside]
+                rows = self._mapped(file, start + first_mode * width, (len(found), width))[:, inside]
+                if rows.shape == found.shape:  # no copy of what is in one chunk
+                    return rows
+                found[:, columns] = rows
         return found
 
     def __setitem__(self, part: tuple[slice, slice], values: NDArray[np.floating]) -> None:
@@ -79,10 +79,15 @@ class Spool:
             a, b = max(first, begin), min(end, begin + width)
             yield slice(a - first, b - first), begin * self.shape[0], width, slice(a - begin, b - begin)
 
-    def _read_at(self, file: BinaryIO, position: int, into: NDArray[np.floating]) -> None:
-        file.seek(position * self.dtype.itemsize)
-        if file.readinto(into.view(np.uint8)) != into.nbytes:  # type: ignore[attr-defined]
+    def _mapped(self, file: BinaryIO, position: int, shape: tuple[int, int]) -> NDArray[np.floating]:
+        """Map a part of the file: its pages count as memory of the program for as long as the array lives."""
+        begin = position * self.dtype.itemsize
+        size = shape[0] * shape[1] * self.dtype.itemsize
+        if os.fstat(file.fileno()).st_size < begin + size:
             raise DataError(Problem("cut_short", str(self.path), "the scratch file is cut short", "Run it again"))
+        ahead = begin % mmap.ALLOCATIONGRANULARITY
+        pages = mmap.mmap(file.fileno(), ahead + size, access=mmap.ACCESS_COPY, offset=begin - ahead)
+        return np.frombuffer(pages, self.dtype, shape[0] * shape[1], ahead).reshape(shape)
 
 
 Samples = NDArray[np.floating] | Spool  # modal coordinates (m, t): use slices of time, np.asarray for all of it
