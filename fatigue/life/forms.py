@@ -18,6 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.rainflow import compiled
+
 Floats = NDArray[np.float64]
 
 AT_ONCE = 64  # stations whose products stay in the first-level cache
@@ -71,9 +73,23 @@ def form_pair(A: Floats, B: Floats) -> FormPair:
 def face_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
     """Evaluate both forms of top stress S_m + S_b and bottom stress S_m - S_b, shapes (n, m): (2, n, 2)."""
     forms = np.empty((2, len(S_m), 2))
+    weights = np.ascontiguousarray(pair.weights.T)
     for first in range(0, len(S_m), AT_ONCE):
         some = slice(first, first + AT_ONCE)
-        p_m, p_b = S_m[some] @ pair.directions, S_b[some] @ pair.directions
-        forms[:, some, 0] = ((p_m + p_b) ** 2 @ pair.weights).T
-        forms[:, some, 1] = ((p_m - p_b) ** 2 @ pair.weights).T
+        _sum_squares(S_m[some] @ pair.directions, S_b[some] @ pair.directions, weights, forms[:, some])
     return forms
+
+
+@compiled("reassoc", "contract")
+def _sum_squares(p_m: Floats, p_b: Floats, weights: Floats, forms: Floats) -> None:
+    """Sum the squares of p of both faces with both weights (2, r) into ``forms`` (2, n, 2)."""
+    for i in range(len(p_m)):
+        top_a = bottom_a = top_b = bottom_b = 0.0
+        for k in range(p_m.shape[1]):
+            a, b = weights[0, k], weights[1, k]
+            top, bottom = p_m[i, k] + p_b[i, k], p_m[i, k] - p_b[i, k]
+            top_a += a * (top * top)
+            bottom_a += a * (bottom * bottom)
+            top_b += b * (top * top)
+            bottom_b += b * (bottom * bottom)
+        forms[0, i, 0], forms[0, i, 1], forms[1, i, 0], forms[1, i, 1] = top_a, bottom_a, top_b, bottom_b

@@ -30,6 +30,7 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage, ratio_factor
 from fatigue.life.forms import FormPair, face_forms, form_pair
 from fatigue.life.history import Residue, cached_pieces, mean_and_covariance
+from fatigue.life.rainflow import compiled
 from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]
@@ -108,8 +109,8 @@ def extent_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats,
     |a - b|`` follows ``TV(s |s|) <= sqrt(4 sum s^2) sqrt(sum ds^2)``. Shapes S_m, S_b (n, m) as in `count_block_fast`.
     """
     deviations = np.sqrt(np.diagonal(extent.covariance))
-    limits = np.stack([extent.variations, extent.ranges, deviations, extent.products.size], axis=1)
-    variations, ranges, modal, size = np.moveaxis(_faces(S_m, S_b) @ limits, 2, 0)
+    limits = np.stack([extent.variations, extent.ranges, deviations, extent.products.size])
+    variations, ranges, modal, size = _of_modal_stresses(S_m, S_b, limits)
     variance, of_steps = _bounded_forms(S_m, S_b, size, extent.products)
     variation = np.minimum(np.sqrt(extent.steps * of_steps), variations)
     largest = np.minimum(np.minimum(2.0 * _peak(variance, modal, extent), ranges), variation)
@@ -119,8 +120,8 @@ def extent_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats,
 
 def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
     """Bound max |s| and sqrt(sum s^2) of top and bottom stress, s without its mean, each (n, 2)."""
-    limits = np.stack([np.sqrt(np.diagonal(extent.covariance)), extent.products.size], axis=1)
-    modal, size = np.moveaxis(_faces(S_m, S_b) @ limits, 2, 0)
+    limits = np.stack([np.sqrt(np.diagonal(extent.covariance)), extent.products.size])
+    modal, size = _of_modal_stresses(S_m, S_b, limits)
     variance, _ = _bounded_forms(S_m, S_b, size, extent.products)
     return _peak(variance, modal, extent), np.sqrt(extent.samples * variance)
 
@@ -159,12 +160,22 @@ def may_need_mean_stress(mean: Floats, stress_range: Floats, yield_MPa: float) -
     return np.asarray(2.0 * (mean + stress_range) * (1.0 + ROUNDING) >= yield_MPa)
 
 
-def _faces(S_m: Floats, S_b: Floats) -> Floats:
-    """Sizes of the modal stresses of top and bottom, (n, 2, m)."""
-    faces = np.empty((len(S_m), 2, S_m.shape[1]))
-    np.add(S_m, S_b, out=faces[:, 0])
-    np.subtract(S_m, S_b, out=faces[:, 1])
-    return np.abs(faces, out=faces)
+def _of_modal_stresses(S_m: Floats, S_b: Floats, limits: Floats) -> Floats:
+    """Sum the sizes of the modal stresses of top and bottom times each of the limits (l, m): (l, n, 2)."""
+    sums = np.empty((len(limits), len(S_m), 2))
+    _sum_sizes(S_m, S_b, limits, sums)
+    return sums
+
+
+@compiled("reassoc", "contract")
+def _sum_sizes(S_m: Floats, S_b: Floats, limits: Floats, sums: Floats) -> None:
+    for i in range(len(S_m)):
+        for row in range(len(limits)):
+            top = bottom = 0.0
+            for k in range(S_m.shape[1]):
+                top += limits[row, k] * abs(S_m[i, k] + S_b[i, k])
+                bottom += limits[row, k] * abs(S_m[i, k] - S_b[i, k])
+            sums[row, i, 0], sums[row, i, 1] = top, bottom
 
 
 def _peak(variance: Floats, modal: Floats, extent: ModalExtent) -> Floats:
