@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.screening import damage_bound, may_need_mean_stress
-from fatigue.pipeline.estimate import Estimate
 from fatigue.pipeline.shapes import Shapes
 
 
@@ -40,16 +39,17 @@ def event_bound(
     stress_range: NDArray[np.float64],
     power_sums: NDArray[np.float64],
     shapes: Shapes,
-    estimate: Estimate,
+    mean: NDArray[np.float64],
     yield_MPa: float | None,
 ) -> Bound:
     """Bound one pass from a bound of range (n, 2) and of sum n S^q, q = 1, 2 ... (q, n, 2) [MPa^q].
 
-    ``yield_MPa`` is given where damage contains the mean-stress factor: stations that may need it have no bound then.
+    ``mean`` (n, 2) is the time mean of the stress [MPa]; ``yield_MPa`` is given where damage contains the mean-stress
+    factor: stations that may need it have no bound then.
     """
     damage, largest = damage_bound(
         stress_range, power_sums, shapes.size[:, None], shapes.law, uses_bending_ratio=shapes.uses_bending_ratio
     )
     if yield_MPa is not None:
-        damage = np.where(may_need_mean_stress(estimate.mean, stress_range, yield_MPa), np.inf, damage)
+        damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)

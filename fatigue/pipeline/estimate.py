@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from fatigue.life.damage import ratio_factor
 from fatigue.life.forms import face_forms
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.shapes import Shapes, quadratic
+from fatigue.pipeline.shapes import Shapes
 from fatigue.quotient import quotient
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
+from fatigue.spectrum.moments import quadratic_forms
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,16 +52,21 @@ class Estimate:
         )
 
 
+def mean_stress(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
+    """Time mean of the stress at both faces of every station, (n, 2) [MPa]."""
+    mean_m, mean_b = (load.stress_factor * (S @ load.mean) for S in (shapes.membrane, shapes.bending))
+    return np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
+
+
 def estimate_event(shapes: Shapes, load: EventLoad) -> Estimate:
     """Estimate the damage of one pass of an event at every station of a block from its spectrum.
 
     Both the estimates and the rainflow damage they are compared with use one bending ratio per station.
     """
     S_m, S_b, f = shapes.membrane, shapes.bending, load.stress_factor
-    std_m, std_b = (f * np.sqrt(quadratic(S, load.covariance, S)) for S in (S_m, S_b))
+    std_m, std_b = (f * np.sqrt(_variance(S, load)) for S in (S_m, S_b))
     bending_ratio = np.repeat(quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
-    mean_m, mean_b = f * (S_m @ load.mean), f * (S_b @ load.mean)
-    mean = np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
+    mean = mean_stress(shapes, load)
     if load.moments is None:
         nothing = np.full(mean.shape, np.nan)
         return Estimate(bending_ratio, mean, np.full((4, *mean.shape), np.nan), *(nothing,) * 5)
@@ -80,3 +86,8 @@ def estimate_event(shapes: Shapes, load: EventLoad) -> Estimate:
         peaks_per_s=peaks_per_s,
         samples_per_peak=quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s),
     )
+
+
+def _variance(S: NDArray[np.float64], load: EventLoad) -> NDArray[np.float64]:
+    """Variance over the kept samples, (n,) [MPa^2]."""
+    return np.asarray(np.maximum(quadratic_forms(S, load.covariance[None])[0], 0.0))

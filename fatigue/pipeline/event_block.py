@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import NumericalError, Problem
-from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage, ratio_factor, shear_factor
 from fatigue.life.history import stress_history
 from fatigue.life.rainflow import BlockCount, count_block
@@ -18,7 +17,7 @@ from fatigue.life.spool import Spool
 from fatigue.pipeline.bounds import Bound
 from fatigue.pipeline.estimate import Estimate
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.shapes import RawEnds, Shapes, faces, quadratic
+from fatigue.pipeline.shapes import RawEnds, Shapes, faces
 from fatigue.quotient import quotient
 from fatigue.spectrum.diagnosis import VERDICTS, diagnose
 
@@ -65,14 +64,10 @@ def count_event(
 
     The equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5).
     """
-    f, C = load.stress_factor, load.covariance
-    S_m, S_b = f * shapes.membrane, f * shapes.bending
     counted, raw_end = _counted(shapes, load, estimate.one_ratio, yield_MPa, mean_stress)
-
-    stress, shear = faces(S_m, S_b), faces(f * shapes.in_plane_shear, f * shapes.twist_shear)
-    var, shear_var, covar = quadratic(stress, C, stress), quadratic(shear, C, shear), quadratic(stress, C, shear)
+    var, shear_var, covar, shear_bending_ratio = _variances(shapes, load)
     if shapes.uses_bending_ratio:
-        I_s, I_t = ratio_factor(estimate.one_ratio), ratio_factor(_shear_bending_ratio(shapes, C))
+        I_s, I_t = ratio_factor(estimate.one_ratio), ratio_factor(shear_bending_ratio)
     else:
         I_s = I_t = np.ones_like(var)
     with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** shapes.law.slopes[0]
@@ -96,7 +91,7 @@ def count_event(
         irregularity=estimate.irregularity,
         peaks_per_s=estimate.peaks_per_s,
         samples_per_peak=estimate.samples_per_peak,
-        verdict=_verdict(stress, estimate, counted, shapes.law, load),
+        verdict=_verdict(shapes, estimate, counted, load),
         histogram=counted.histogram,
     )
 
@@ -156,22 +151,25 @@ def no_overflow(event: str, welds: str) -> Iterator[None]:
 def _counted(
     shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64], yield_MPa: float | None, mean_stress: bool
 ) -> tuple[BlockCount, NDArray[np.float64]]:
-    """Count a block, and beside it the ends as they are without treatment: their damage is that of (n, 2)."""
+    """Count a block, and beside it the ends that matter as they are without treatment: their damage is that of (n, 2).
+
+    It is NaN at ends that do not matter without treatment, and that of the block where there is none.
+    """
     n, ends = len(shapes), shapes.raw_ends
-    if not ends.rows.size:
-        counted = _superpose_and_count(shapes, load, one_ratio, yield_MPa, mean_stress)
-        return counted, counted.damage
-    with_raw_ends = replace(
-        shapes,
-        membrane=np.concatenate([shapes.membrane, ends.membrane]),
-        bending=np.concatenate([shapes.bending, ends.bending]),
-        size=np.concatenate([shapes.size, shapes.size[ends.rows]]),
-    )
-    ratios = np.concatenate([one_ratio, one_ratio[ends.rows]])
-    everything = _superpose_and_count(with_raw_ends, load, ratios, yield_MPa, mean_stress)
+    rows = ends.rows[ends.matters]
+    if rows.size:
+        shapes = replace(
+            shapes,
+            membrane=np.concatenate([shapes.membrane, ends.membrane[ends.matters]]),
+            bending=np.concatenate([shapes.bending, ends.bending[ends.matters]]),
+            size=np.concatenate([shapes.size, shapes.size[rows]]),
+        )
+        one_ratio = np.concatenate([one_ratio, one_ratio[rows]])
+    everything = _superpose_and_count(shapes, load, one_ratio, yield_MPa, mean_stress)
     counted = BlockCount(*(getattr(everything, field.name)[:n] for field in fields(BlockCount)))
     raw_end = counted.damage.copy()
-    raw_end[ends.rows] = everything.damage[n:]
+    raw_end[ends.rows] = np.nan
+    raw_end[rows] = everything.damage[n:]
     return counted, raw_end
 
 
@@ -226,12 +224,11 @@ def _superpose_and_count(
     return BlockCount(*(np.concatenate([getattr(p, f.name) for p in pieces]) for f in fields(BlockCount)))
 
 
-def _verdict(
-    stress: NDArray[np.float64], estimate: Estimate, counted: BlockCount, law: DamageLaw, load: EventLoad
-) -> NDArray[np.int8]:
+def _verdict(shapes: Shapes, estimate: Estimate, counted: BlockCount, load: EventLoad) -> NDArray[np.int8]:
     """Judge whether the estimate may be trusted at each point, (n, 2)."""
     if load.diagnosis is None:
         return np.full(counted.damage.shape, VERDICTS.index("not_assessed"), dtype=np.int8)
+    law, stress = shapes.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
     same_ratio, damage = counted.damage_same_ratio.reshape(-1), counted.damage.reshape(-1)
     judged = diagnose(
         stress.reshape(-1, stress.shape[-1]),
@@ -248,8 +245,22 @@ def _verdict(
     return judged.verdict.reshape(counted.damage.shape)
 
 
-def _shear_bending_ratio(shapes: Shapes, C: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Compute the one bending ratio of the shear stress from its rms values, (n, 1)."""
-    std_m = np.sqrt(quadratic(shapes.in_plane_shear, C, shapes.in_plane_shear))
-    std_b = np.sqrt(quadratic(shapes.twist_shear, C, shapes.twist_shear))
-    return np.nan_to_num(quotient(std_b, std_m + std_b))[:, None]
+def _variances(shapes: Shapes, load: EventLoad) -> tuple[NDArray[np.float64], ...]:
+    """Variances of stress and shear and their covariance, (n, 2), and the one bending ratio of the shear, (n, 1)."""
+    f = load.stress_factor
+    S_m, S_b = f * shapes.membrane, f * shapes.bending
+    S_s, S_t = f * shapes.in_plane_shear, f * shapes.twist_shear
+    C_m, C_b, C_s, C_t = (S @ load.covariance for S in (S_m, S_b, S_s, S_t))
+    stress, shear = faces(S_m, S_b), faces(S_s, S_t)
+    stress_C, shear_C = faces(C_m, C_b), faces(C_s, C_t)
+    std_s, std_t = (np.sqrt(np.maximum(_along_modes(a, b), 0.0)) for a, b in ((C_s, S_s), (C_t, S_t)))
+    return (
+        np.maximum(_along_modes(stress_C, stress), 0.0),
+        np.maximum(_along_modes(shear_C, shear), 0.0),
+        _along_modes(stress_C, shear),
+        np.nan_to_num(quotient(std_t, std_s + std_t))[:, None],
+    )
+
+
+def _along_modes(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.einsum("...m,...m->...", a, b))

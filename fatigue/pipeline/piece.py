@@ -26,6 +26,11 @@ class Rules:
     mean_stress: bool
     welds: str
 
+    @property
+    def yield_of_damage(self) -> float | None:
+        """The yield stress [MPa] where damage contains f_M, which depends on it."""
+        return self.yield_MPa if self.mean_stress else None
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:

@@ -93,7 +93,8 @@ def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]
     worst = "" if work.screening.proves_worst else "; not so in welds that are below the share everywhere"
     return {
         "rule": "a point is not counted if a proven upper bound of its damage stays below this share of the limit and "
-        f"below the counted damage of the worst point of its weld{worst}",
+        f"below the counted damage of the worst point of its weld{worst}; damage without end treatment is not counted "
+        "if such a bound stays below this share",
         "share_of_limit": work.screening.share,
         "stations": dict(stations),
     }

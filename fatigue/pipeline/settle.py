@@ -6,10 +6,13 @@ another toe point of the weld. So the point that the spectrum says is worst is c
 in tiers, each sharper and dearer than the one before; a station leaves as soon as one of them settles it. Where it is
 enough to know the likely worst point of welds that stay below the share everywhere, the second condition is dropped for
 them: it takes most of the time.
+
+Ends without treatment are counted beside the points that are counted, unless the first of the bounds proves that they
+stay below the share as well.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +22,7 @@ from fatigue.life.rainflow_fast import Record
 from fatigue.life.screening import ModalExtent, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
 from fatigue.pipeline.bounds import Bound, event_bound
-from fatigue.pipeline.estimate import Estimate
+from fatigue.pipeline.estimate import Estimate, mean_stress
 from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at, estimated
@@ -65,12 +68,9 @@ def settle(
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    needs_yield = rules.yield_MPa if rules.mean_stress else None
     estimates = estimated(shapes, loads, rules)
-    bounds: tuple[Bound, ...] = ()
-    for load, extent, estimate in zip(loads, screening.extents, estimates, strict=True):
-        with no_overflow(load.counted.event, rules.welds):
-            bounds += (_modal_bound(shapes, estimate, load, extent, needs_yield),)
+    bounds = _modal_bounds(shapes, [estimate.mean for estimate in estimates], loads, screening, rules)
+    shapes = _without_small_raw_ends(shapes, loads, plan, screening, rules)
 
     tier = np.ones(len(shapes), dtype=np.int8)
     likely_worst = _likely_worst(weld, toe, estimates, bounds, plan)
@@ -94,7 +94,7 @@ def settle(
     rest = unsettled()
     if rest.size:
         tier[rest] = 2
-        bounds = _weld_bounds(shapes, weld, rest, bounds, estimates, loads, screening, needs_yield)
+        bounds = _weld_bounds(shapes, weld, rest, bounds, estimates, loads, screening, rules)
         rest = unsettled()
         tier[rest] = 0
         yield from counted_at(rest, shapes, loads, estimates, plan, rules)
@@ -110,12 +110,33 @@ def _utilisation(bounds: Sequence[Bound], plan: Plan) -> NDArray[np.float64]:
     return per_km * plan.target_km / plan.damage_limit
 
 
-def _modal_bound(
-    shapes: Shapes, estimate: Estimate, load: EventLoad, extent: ModalExtent, yield_MPa: float | None
-) -> Bound:
-    """Bound an event from how its modal coordinates move, without a loop over time."""
-    stress_range, sums = extent_bound(shapes.membrane, shapes.bending, extent)
-    return event_bound(*_scaled(stress_range, sums, load.stress_factor), shapes, estimate, yield_MPa)
+def _modal_bounds(
+    shapes: Shapes,
+    means: Sequence[NDArray[np.float64]],
+    loads: Sequence[EventLoad],
+    screening: Screening,
+    rules: Rules,
+) -> tuple[Bound, ...]:
+    """Bound every event from how its modal coordinates move, without a loop over time."""
+    bounds: tuple[Bound, ...] = ()
+    for load, extent, mean in zip(loads, screening.extents, means, strict=True):
+        with no_overflow(load.counted.event, rules.welds):
+            found = _scaled(*extent_bound(shapes.membrane, shapes.bending, extent), load.stress_factor)
+            bounds += (event_bound(*found, shapes, mean, rules.yield_of_damage),)
+    return bounds
+
+
+def _without_small_raw_ends(
+    shapes: Shapes, loads: Sequence[EventLoad], plan: Plan, screening: Screening, rules: Rules
+) -> Shapes:
+    """Let ends without treatment not matter where they stay below the share as well."""
+    ends = shapes.raw_ends
+    if not ends.rows.size:
+        return shapes
+    raw = replace(shapes.at(ends.rows), membrane=ends.membrane, bending=ends.bending)
+    bounds = _modal_bounds(raw, [mean_stress(raw, load) for load in loads], loads, screening, rules)
+    matters = np.asarray((_utilisation(bounds, plan) >= screening.share).any(axis=1))
+    return replace(shapes, raw_ends=replace(ends, matters=matters))
 
 
 def _scaled(
@@ -133,7 +154,7 @@ def _weld_bounds(
     estimates: Sequence[Estimate],
     loads: Sequence[EventLoad],
     screening: Screening,
-    yield_MPa: float | None,
+    rules: Rules,
 ) -> tuple[Bound, ...]:
     """Tighten the bounds of some stations by the range and the variation of their stress, weld by weld."""
     whole = np.flatnonzero(np.isin(weld, weld[rows]))
@@ -144,7 +165,7 @@ def _weld_bounds(
         loads, screening.extents, screening.records, bounds, estimates, strict=True
     ):
         found = _scaled(*reduced_bound(bases, of_bases, record, extent), load.stress_factor)
-        bounded = event_bound(*found, some, estimate.at(rows), yield_MPa)
+        bounded = event_bound(*found, some, estimate.mean[rows], rules.yield_of_damage)
         tighter.append(bound.tightened(bounded, rows))
     return tuple(tighter)
 

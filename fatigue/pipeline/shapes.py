@@ -8,27 +8,27 @@ from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 
-ROWS_AT_ONCE = 64  # whose products stay in the first-level cache
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RawEnds:
     """Stations of a block whose stress the end treatment changes, and their stress without it.
 
-    ``rows`` (e,) are ascending, ``membrane`` and ``bending`` (e, m) as in `Shapes`.
+    ``rows`` (e,) are ascending, ``membrane`` and ``bending`` (e, m) as in `Shapes`; ``matters`` (e,) is False where
+    the damage without treatment is proven to be too small to be worth counting.
     """
 
     rows: NDArray[np.intp]
     membrane: NDArray[np.float64]
     bending: NDArray[np.float64]
+    matters: NDArray[np.bool_]
 
     def at(self, rows: NDArray[np.intp]) -> Self:
         """Take those among some ascending rows of the block."""
         mine, theirs = np.flatnonzero(np.isin(self.rows, rows)), np.flatnonzero(np.isin(rows, self.rows))
-        return type(self)(theirs, self.membrane[mine], self.bending[mine])
+        return type(self)(theirs, self.membrane[mine], self.bending[mine], self.matters[mine])
 
 
-NO_ENDS = RawEnds(np.zeros(0, np.intp), np.zeros((0, 0)), np.zeros((0, 0)))
+NO_ENDS = RawEnds(np.zeros(0, np.intp), np.zeros((0, 0)), np.zeros((0, 0)), np.zeros(0, np.bool_))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,14 +70,3 @@ class Shapes:
 def faces(mean: NDArray[np.float64], gradient: NDArray[np.float64]) -> NDArray[np.float64]:
     """Shapes at both faces, (n, 2, m): top = mean + gradient part, bottom = mean - gradient part."""
     return np.stack([mean + gradient, mean - gradient], axis=1)
-
-
-def quadratic(a: NDArray[np.float64], C: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Evaluate ``a' C b`` along the last axis; a variance, so never below 0, where a is b."""
-    left, right = a.reshape(-1, a.shape[-1]), b.reshape(-1, b.shape[-1])
-    forms = np.empty(len(left))
-    for first in range(0, len(left), ROWS_AT_ONCE):
-        some = slice(first, first + ROWS_AT_ONCE)
-        np.einsum("nm,nm->n", left[some] @ C, right[some], out=forms[some])
-    form = forms.reshape(a.shape[:-1])
-    return np.maximum(form, 0.0) if a is b else form

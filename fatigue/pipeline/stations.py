@@ -97,5 +97,10 @@ def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve, thi
         size=size_factor(stations.thickness[part], rated.curve, thickness_rule),
         law=rated.law,
         uses_bending_ratio=rated.curve.applies == "dS",
-        raw_ends=RawEnds(np.flatnonzero(ends), stations.raw.membrane[mine], stations.raw.bending[mine]),
+        raw_ends=RawEnds(
+            rows=np.flatnonzero(ends),
+            membrane=stations.raw.membrane[mine],
+            bending=stations.raw.bending[mine],
+            matters=np.ones(np.count_nonzero(ends), dtype=np.bool_),
+        ),
     )

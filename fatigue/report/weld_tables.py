@@ -34,8 +34,13 @@ def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
         ("Life by Dirlik", km(point["life_km_dirlik"])),
         ("Dirlik / rainflow damage", number(point["dirlik_ratio"])),
         ("Trust in Dirlik", str(point["dirlik_verdict"]).replace("_", " ")),
-        ("Life, end not treated", km(point["life_km_raw_end"])),
+        ("Life, end not treated", _raw_life(point["life_km_raw_end"])),
     ]
+
+
+def _raw_life(life_km: float) -> str:
+    """Life without the end treatment, which screening leaves out where it is proven to be long."""
+    return "not counted, proven to be long enough" if np.isnan(life_km) else km(life_km)
 
 
 def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year: float) -> Table:

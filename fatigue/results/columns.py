@@ -79,7 +79,12 @@ NODES = (
     Column("damage_factor_if_shear", "float", "-", "damage with shear combined as in ASME VIII-2 5.5.5.3 / without"),
     Column("governing_event", "text", "-", "event with the largest share of the damage"),
     Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) in the governing event"),
-    Column("life_km_raw_end", "float", "km", "life without the end treatment"),
+    Column(
+        "life_km_raw_end",
+        "float",
+        "km",
+        "life without the end treatment; empty where it is proven to use up a small share of the limit (screening)",
+    ),
     Column("at_end", "flag", "-", "inside the treated zone of a weld end, or the end node itself"),
     Column("at_corner", "flag", "-", "at a kink of the weld line above 30 degrees"),
     Column(

@@ -55,9 +55,23 @@ def test_points_are_settled_in_every_way(results):
 
 
 def test_what_is_counted_is_what_it_is_without_screening(results):
-    """Every column of a counted point, to rounding."""
+    """Every column of a counted point, to rounding; the life without end treatment may be left out."""
     exact, screened, settled = nodes_of(results)
+    left_out = screened.life_km_raw_end.isna()
+    exact = exact.assign(life_km_raw_end=exact.life_km_raw_end.mask(left_out))
     pd.testing.assert_frame_equal(screened[~settled], exact[~settled], rtol=1e-9)
+
+
+def test_ends_without_treatment_are_left_out_where_they_do_not_matter(results):
+    """Only at treated ends, and only where they stay below the share without treatment, too; elsewhere it is given."""
+    exact, screened, settled = nodes_of(results)
+    left_out = (screened.life_km_raw_end.isna() & ~settled).to_numpy()
+    target_km = json.loads((results / "screened" / "provenance.json").read_text())["mission"]["target_km"]
+    assert left_out.any()
+    assert (exact.life_km_raw_end[left_out] > target_km / SHARE).all()
+    assert (exact.life_km_raw_end[left_out] != exact.life_km[left_out]).all()
+    changed = (exact.life_km_raw_end != exact.life_km).to_numpy() & ~settled
+    assert (changed & ~left_out).any()
 
 
 def test_what_is_not_counted_is_bounded(results):

@@ -94,6 +94,8 @@ def recount(
     choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, **limits)
     fastest, cycles_of = fastest_peaks(folder, inputs, events), with_cycles(stored, governing, record)
     all_counted = bool(is_counted(stored).all())
+    share = record["rules"]["screening"]["share_of_limit"]
+    raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
     found: list[ColumnCheck] = []
     mission: list[Event] = []
     weld_of_point = body.weld[choice.points // 2]
@@ -107,7 +109,7 @@ def recount(
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
             passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
             of_few = _values(inputs, few, passes, mission)
-            found += _compared(few, stored, of_few, passes, mission)
+            found += _compared(few, stored, of_few, passes, mission, raw_life_enough)
             values |= {body.key(point): of_few[point] for point in few}
         found += _compared_stress(
             modes, {number: stations[number] for number in np.unique(points // 2).tolist()}, stored
@@ -210,6 +212,7 @@ def _compared(
     values: Mapping[int, Values],
     passes: Mapping[int, Passes],
     events: Sequence[Event],
+    raw_life_enough: float,
 ) -> list[ColumnCheck]:
     """Set the recounted rows of some points beside the stored ones."""
     points, e = np.array(list(stations)), len(events)
@@ -219,7 +222,7 @@ def _compared(
     damage: list[Row] = []
     for i, (point, station) in enumerate(stations.items()):
         key, found = stored.body.key(point), of_nodes[i]
-        nodes.append(node_row(key, station, values[point], found))
+        nodes.append(node_row(key, station, values[point], found, raw_life_enough))
         for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
     cycles = [row for of in passes.values() for row in of.cycles]

@@ -41,8 +41,13 @@ class Station:
     at: int
 
 
-def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any]) -> Row:
-    """One row of the table of points."""
+def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any], raw_life_enough: float) -> Row:
+    """One row of the table of points.
+
+    ``raw_life_enough`` [km] is a life without end treatment from which on the row need not give it.
+    """
+    if pd.isna(found["life_km_raw_end"]) and values["life_km_raw_end"] >= raw_life_enough:
+        values = {name: value for name, value in values.items() if name != "life_km_raw_end"}
     solved, line, at = station.solved, station.solved.line, station.at
     x, y, z = (float(v) for v in line.xyz[at])
     size = float(np.abs(line.xyz).max() + np.ptp(line.xyz, axis=0).max())
