@@ -22,7 +22,8 @@ from fatigue.readers.forces import check_nodal_forces, read_element_forces, read
 from fatigue.readers.spare_memory import give_back
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.element_forces import ElementForces, balance, side_forces
-from fatigue.weld.line import LineStack, WeldLine, line_of_node, split_at_kinks, stacked
+from fatigue.weld.line import LineStack, WeldLine, line_of_node, stacked
+from fatigue.weld.line_geometry import split_at_kinks
 from fatigue.weld.line_load import line_load
 from fatigue.weld.structural_stress import StructuralStress, assess_line, line_stress
 

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.weld.line import LineStack, edge_nodes, length, lengths, line_of_node
+from fatigue.weld.line import LineStack, line_of_node
+from fatigue.weld.line_geometry import edge_nodes, length, lengths
 
 FOIL = 0.015  # [mm] below: household foil, or plates of up to 15 mm in m; sheet of 0.5 mm in inches, 0.02, is above
 THIN, EDGE_RATIO = 0.1, 100.0  # [mm], [-] plates of up to 100 mm in m, where also the edges are that many times as long

@@ -17,7 +17,7 @@ from fatigue.life.damage import size_factor
 from fatigue.life.mission import Plan
 from fatigue.pipeline.model import Model, SideForces, WeldGroups, solve_group
 from fatigue.results import read_codes, read_table
-from fatigue.weld.line import split_at_kinks
+from fatigue.weld.line_geometry import split_at_kinks
 
 Floats = NDArray[np.float64]
 
