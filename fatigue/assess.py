@@ -18,12 +18,13 @@ from fatigue.pipeline.checkpoint import Checkpoint, locked
 from fatigue.pipeline.cycles import CycleWriter, kept_point
 from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.folder import publish, refuse_foreign, result_log
-from fatigue.pipeline.model import check_forces, toe_faces, weld_groups
+from fatigue.pipeline.model import toe_faces
 from fatigue.pipeline.orders import Order
 from fatigue.pipeline.piece import TIERS
 from fatigue.pipeline.provenance import provenance_record
 from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, worst_points
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
+from fatigue.pipeline.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
 from fatigue.pipeline.workers import Group, by_orders, by_threads
 from fatigue.readers.spare_memory import give_back

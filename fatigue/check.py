@@ -17,7 +17,8 @@ from fatigue.life.rainflow import BlockCount, count_block
 from fatigue.life.rainflow_fast import count_block_fast, record_of
 from fatigue.pipeline.body import read_body
 from fatigue.pipeline.events import DOUBLE_PRECISION_SAMPLES, mission_plan
-from fatigue.pipeline.model import solve_group, weld_groups
+from fatigue.pipeline.model import solve_group
+from fatigue.pipeline.weld_groups import weld_groups
 
 _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 

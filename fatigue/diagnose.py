@@ -19,9 +19,8 @@ from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import locked
 from fatigue.pipeline.events import event_loads, mission_plan
 from fatigue.pipeline.folder import move, result_log
-from fatigue.pipeline.model import weld_groups
-from fatigue.results import read_provenance, read_rows, sha256, table_writer
-from fatigue.results.parts import row_count
+from fatigue.pipeline.weld_groups import weld_groups
+from fatigue.results import read_provenance, read_rows, row_count, sha256, table_writer
 from fatigue.spectrum.bands import third_octaves
 from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.findings import Diagnosis, findings

@@ -217,7 +217,7 @@ def test_groups_of_welds_do_not_change_a_number(tmp_path, monkeypatch, suffix):
     hot = case.nodal_forces.node.isin([103, 204])  # so that no rounding decides which point is worst
     case.nodal_forces.loc[hot, "fy_N"] *= 1.2
     assess(load_case(case.write(tmp_path / "whole", suffix)), tmp_path / "one group")
-    monkeypatch.setattr("fatigue.pipeline.model.SMALLEST_GROUP", 7)
+    monkeypatch.setattr("fatigue.pipeline.weld_groups.SMALLEST_GROUP", 7)
     case.nodal_forces = case.nodal_forces.sample(frac=1.0, random_state=1)
     assess(load_case(case.write(tmp_path / "case", suffix)), tmp_path / "result", threads=2)
     for name in TABLES:
@@ -239,7 +239,7 @@ def test_large_jobs_count_in_single_precision_and_say_so(tmp_path, small_result,
 
 def test_a_mistake_in_the_forces_of_the_last_group_is_refused_at_once(tmp_path, monkeypatch):
     """Nothing is counted and nothing is left when a later group is wrong; the row is that of the file."""
-    monkeypatch.setattr("fatigue.pipeline.model.SMALLEST_GROUP", 7)
+    monkeypatch.setattr("fatigue.pipeline.weld_groups.SMALLEST_GROUP", 7)
     case = small_case()
     row = int(np.flatnonzero(case.nodal_forces.weld == "B")[5])
     case.nodal_forces.loc[row, "mx_Nmm"] = np.inf

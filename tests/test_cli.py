@@ -118,6 +118,22 @@ def test_bad_data_is_3_with_one_line_each(tmp_path):
     assert not (tmp_path / "result").exists()
 
 
+@pytest.mark.parametrize("command", ["check", "assess"])
+def test_a_thickness_in_metres_is_3_with_one_line(tmp_path, command):
+    """One weld of two given in m: one line that tells where, what and the remedy, and no result folder."""
+    case = small_case()
+    case.weld_nodes.loc[case.weld_nodes.weld == "B", "thickness_mm"] /= 1000.0
+    path = case.write(tmp_path / "case")
+    done = fatigue(command, path, *(("-o", tmp_path / "result") if command == "assess" else ()))
+    assert done.returncode == 3
+    assert done.stdout == ""
+    assert done.stderr == (
+        "error: weld_nodes.csv: weld B, node 200 (order 1) and 6 more: thickness_mm is 0.008 on edges of 10 mm, no "
+        "plate is welded so thin. Give thickness_mm in mm; this looks like m.\n"
+    )
+    assert [entry.name for entry in tmp_path.iterdir()] == ["case"]
+
+
 def test_json_is_json_with_null_for_infinite_life(tmp_path):
     """Machines get JSON on stdout; infinite life is null; keys carry units."""
     case = sine_only()

@@ -251,7 +251,7 @@ def test_summary_names_event_modes_bands_lever_and_verdict(small):
 def test_too_many_points_leave_the_worst_and_those_above_a_share(tmp_path, monkeypatch):
     """Where all points would take long the table says of every point why it is there."""
     monkeypatch.setattr(fatigue.why.points, "MOST_SAMPLES", 0)
-    monkeypatch.setattr("fatigue.pipeline.model.SMALLEST_GROUP", 7)  # one weld at a time
+    monkeypatch.setattr("fatigue.pipeline.weld_groups.SMALLEST_GROUP", 7)  # one weld at a time
     found = run(small_case(seconds=6.0), tmp_path, share_of_limit=0.5)
     toe = found.nodes[found.nodes.toe].set_index(POINT)
     chosen = found.attribution.drop_duplicates(POINT).set_index(POINT)["chosen"]

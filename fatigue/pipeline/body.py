@@ -13,7 +13,7 @@ from fatigue.readers.line_file import LineFile, line_file
 from fatigue.readers.neutral_folder import RECORD, read_record
 from fatigue.readers.spare_memory import give_back
 from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
-from fatigue.weld.line import LineStack, length
+from fatigue.weld.line_units import unit_problems, unit_warnings
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,24 +75,8 @@ def read_body(case: Case, *, strict: bool) -> Body:
 def _lines_on_disk(case: Case, welds: Sequence[Weld], *, strict: bool) -> tuple[LineFile, list[Problem]]:
     """Read and check the lines of all welds; in memory they are together only here."""
     lines, doubts = read_weld_nodes(case.resolve(case.body.weld_nodes), welds, strict=strict)
-    refuse(DataError, _unit_problems(lines, case.body.weld_nodes))
-    return line_file(lines), doubts
-
-
-def _unit_problems(lines: LineStack, file: str) -> list[Problem]:
-    """Find coordinates that cannot be mm: every weld line shorter than its plate is thick."""
-    if any(length(line) >= line.thickness.min() for line in lines):
-        return []
-    longest = max(lines, key=length)
-    return [
-        Problem(
-            "unit",
-            f"{file}: x_mm, y_mm, z_mm",
-            f"no weld line is as long as its plate is thick; the longest, of weld {longest.weld}, has "
-            f"{length(longest):.3g} mm on a plate of {longest.thickness.min():g} mm",
-            "Give coordinates in mm; these look like m",
-        )
-    ]
+    refuse(DataError, unit_problems(lines, case.body.weld_nodes))
+    return line_file(lines), doubts + unit_warnings(lines, case.body.weld_nodes)
 
 
 def register_file(case: Case) -> Path | None:

@@ -14,8 +14,9 @@ from fatigue.life.history import ModalHistory, first_kept, kept
 from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.event_load import EventLoad, prepare_event
-from fatigue.pipeline.model import WeldGroups, solve_group
+from fatigue.pipeline.model import solve_group
 from fatigue.pipeline.side_by_side import in_order
+from fatigue.pipeline.weld_groups import WeldGroups
 from fatigue.readers.history import TimeGrid, check_history, read_history
 from fatigue.spectrum.moments import (
     Spectra,

@@ -15,7 +15,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.pipeline.body import read_body
 from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.group import arrays_of
-from fatigue.pipeline.model import weld_groups
+from fatigue.pipeline.weld_groups import weld_groups
 from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
 
 

@@ -14,7 +14,7 @@ from fatigue.pipeline.model import Model, toe_faces
 from fatigue.pipeline.rows import FACES
 from fatigue.readers.weld_register import RegisterRow
 from fatigue.results import WELDS
-from fatigue.weld.line import lengths
+from fatigue.weld.line_geometry import lengths
 
 
 @dataclass(frozen=True, slots=True)

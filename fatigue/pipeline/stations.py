@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from fatigue.life.damage import ThicknessRule, size_factor
 from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.pipeline.shapes import RawEnds, Shapes
-from fatigue.weld.line import LineStack, arc_length, line_of_node
+from fatigue.weld.line import LineStack, line_of_node
+from fatigue.weld.line_geometry import arc_length
 from fatigue.weld.structural_stress import LineStress, StructuralStress
 
 

@@ -13,9 +13,10 @@ from fatigue.pipeline.checkpoint import state_key
 from fatigue.pipeline.event_load import EventLoad, fast_record
 from fatigue.pipeline.events import event_loads
 from fatigue.pipeline.group import GroupResult, assess_group
-from fatigue.pipeline.model import GROUPS, LARGEST_GROUP, PORTION, SMALLEST_GROUP, Model, WeldGroups, solve_group
+from fatigue.pipeline.model import Model, solve_group
 from fatigue.pipeline.settle import Screening
 from fatigue.pipeline.side_by_side import in_order
+from fatigue.pipeline.weld_groups import GROUPS, LARGEST_GROUP, PORTION, SMALLEST_GROUP, WeldGroups
 from fatigue.results import input_register, software_versions
 
 log = logging.getLogger(__name__)

@@ -17,7 +17,7 @@ import numpy as np
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.body import SURFACES
 from fatigue.weld.cuts import WeldCut
-from fatigue.weld.line import length
+from fatigue.weld.line_geometry import length
 
 REGISTER = "welds_register.csv"
 STATUSES = ("assess", "candidate", "excluded")

@@ -15,7 +15,15 @@ from fatigue.results.columns import (
     WELDS,
     Column,
 )
-from fatigue.results.parts import read_codes, read_rows, row_groups, rows_of_welds, worst_toes
+from fatigue.results.parts import (
+    number_groups,
+    read_codes,
+    read_rows,
+    row_count,
+    row_groups,
+    rows_of_welds,
+    worst_toes,
+)
 from fatigue.results.store import (
     TableWriter,
     coded,
@@ -49,11 +57,13 @@ __all__ = [
     "coded",
     "input_register",
     "json_ready",
+    "number_groups",
     "read_codes",
     "read_provenance",
     "read_rows",
     "read_table",
     "result_tables",
+    "row_count",
     "row_groups",
     "rows_of_welds",
     "schema",

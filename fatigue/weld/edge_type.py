@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.weld.line import Lines, WeldLine, is_closed, neighbours, step_lengths
+from fatigue.weld.line import Lines, WeldLine, is_closed, neighbours
+from fatigue.weld.line_geometry import step_lengths
 from fatigue.weld.line_load import line_load
 
 ZIGZAG_SHARE = 0.5  # of the line load as linear edges; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.weld.line import WeldLine, edges
+from fatigue.weld.line import WeldLine
+from fatigue.weld.line_geometry import edges
 
 BALANCE_FLOOR = 1e-3  # of the mode's largest term: what hardly strains carries only the round-off of the others
 

@@ -11,18 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.weld.line import (
-    Lines,
-    WeldLine,
-    edge_nodes,
-    edge_points,
-    edge_tangents,
-    is_closed,
-    line_of_node,
-    neighbours,
-    tangents,
-    unit,
-)
+from fatigue.weld.line import Lines, WeldLine, is_closed, line_of_node, neighbours
+from fatigue.weld.line_geometry import edge_nodes, edge_points, edge_tangents, tangents, unit
 
 
 class _Finding(NamedTuple):

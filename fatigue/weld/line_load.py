@@ -14,18 +14,8 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 from scipy.sparse import csr_array, triu
 
-from fatigue.weld.line import (
-    GAUSS_POINT,
-    GAUSS_WEIGHT,
-    Lines,
-    arc_length,
-    edge_derivative,
-    edge_nodes,
-    edge_points,
-    end_lengths,
-    is_closed,
-    line_of_node,
-)
+from fatigue.weld.line import Lines, end_lengths, is_closed, line_of_node
+from fatigue.weld.line_geometry import GAUSS_POINT, GAUSS_WEIGHT, arc_length, edge_derivative, edge_nodes, edge_points
 
 
 def line_load_matrix(line: Lines) -> csr_array:

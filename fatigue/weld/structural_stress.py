@@ -10,7 +10,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.weld.line import Lines, corners, local_axes
+from fatigue.weld.line import Lines
+from fatigue.weld.line_geometry import corners, local_axes
 from fatigue.weld.line_load import line_load, treat_ends
 
 

@@ -27,3 +27,44 @@ def test_coordinates_in_metres_are_refused(tmp_path):
         "weld_nodes.csv: x_mm, y_mm, z_mm: no weld line is as long as its plate is thick; the longest, of weld A, has "
         "0.06 mm on a plate of 8 mm. Give coordinates in mm; these look like m."
     )
+
+
+@pytest.mark.parametrize(
+    ("factor", "message"),
+    [
+        (
+            1e-3,
+            (
+                "weld_nodes.csv: weld A, node 100 (order 1) and 13 more: thickness_mm is 0.008 on edges of 10 mm, no "
+                "plate is welded so thin. Give thickness_mm in mm; this looks like m."
+            ),
+        ),
+        (
+            1e3,
+            (
+                "weld_nodes.csv: weld A, node 100 (order 1) and 13 more: thickness_mm is 8000, no plate is welded so "
+                "thick. Give thickness_mm in mm; this looks like micrometres."
+            ),
+        ),
+    ],
+)
+def test_a_thickness_that_is_not_in_mm_is_refused(tmp_path, factor, message):
+    """The thickness is blamed, not the coordinates that are judged by it."""
+    case = small_case()
+    case.weld_nodes["thickness_mm"] *= factor
+    with pytest.raises(DataError) as error:
+        read_body(load_case(case.write(tmp_path)), strict=False)
+    assert str(error.value) == message
+
+
+def test_an_unusual_thickness_is_a_warning_of_the_body(tmp_path):
+    """Inches are possible mm: the case is read, and the doubt travels with it."""
+    case = small_case()
+    case.weld_nodes.loc[case.weld_nodes.weld == "B", "thickness_mm"] /= 25.4
+    body = read_body(load_case(case.write(tmp_path)), strict=False)
+    assert [str(warning) for warning in body.warnings if warning.code == "unusual_thickness"] == [
+        (
+            "weld_nodes.csv: weld B, node 200 (order 1) and 6 more: thickness_mm is 0.314961, welded plates have 0.5 "
+            "to 200 mm as a rule. Check that it is in mm, not in inches or m."
+        )
+    ]

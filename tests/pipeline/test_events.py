@@ -17,8 +17,8 @@ from fatigue.pipeline import events
 from fatigue.pipeline.body import read_body
 from fatigue.pipeline.event_block import EventBlock
 from fatigue.pipeline.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
-from fatigue.pipeline.model import weld_groups
 from fatigue.pipeline.shapes import Shapes
+from fatigue.pipeline.weld_groups import weld_groups
 from tests.one_event import assess_event_block
 from tests.small_case import small_case
 

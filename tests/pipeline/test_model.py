@@ -1,4 +1,4 @@
-"""Groups of welds: their forces are read once, and a number beyond all bounds names its weld."""
+"""Welds solved: portions like the whole, and a number beyond all bounds names its weld."""
 
 from dataclasses import fields
 
@@ -7,28 +7,10 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.errors import NumericalError
-from fatigue.pipeline import model
 from fatigue.pipeline.body import read_body
-from fatigue.pipeline.model import read_model, solve_group, weld_groups
+from fatigue.pipeline.model import read_model, solve_group
+from fatigue.pipeline.weld_groups import weld_groups
 from tests.small_case import small_case
-from tests.test_assess import element_form, write_element_form
-
-
-def test_element_forces_are_read_once_for_all_groups(tmp_path, monkeypatch):
-    """The file of all elements is read when the groups are opened; each group then has the stress of its welds."""
-    case = small_case(pairs=4)
-    path = write_element_form(case, tmp_path, *element_form(case))
-    whole = read_model(load_case(path), strict=False)
-    reads = []
-    read = model.read_element_forces
-    monkeypatch.setattr(model, "read_element_forces", lambda *given, **named: reads.append(1) or read(*given, **named))
-    groups = weld_groups(read_body(load_case(path), strict=False), tmp_path / "scratch")
-    assert len(groups) > 1
-    solved = [solve_group(groups, number) for number in range(len(groups))]
-    assert len(reads) == 1
-    np.testing.assert_allclose(
-        np.concatenate([m.stations.treated.membrane for m in solved]), whole.stations.treated.membrane, rtol=1e-12
-    )
 
 
 def test_a_number_beyond_all_bounds_names_its_weld(tmp_path):
@@ -36,7 +18,7 @@ def test_a_number_beyond_all_bounds_names_its_weld(tmp_path):
     case = small_case()
     huge = (case.nodal_forces.weld == "B") & (case.nodal_forces["mode"] == 1)
     case.nodal_forces["mx_Nmm"] = case.nodal_forces["mx_Nmm"].where(~huge, 1e308)
-    case.weld_nodes.loc[case.weld_nodes.weld == "B", "thickness_mm"] = 0.01
+    case.weld_nodes.loc[case.weld_nodes.weld == "B", "thickness_mm"] = 0.2
     with pytest.raises(NumericalError, match="weld B: the structural stress per unit modal coordinate exceeds"):
         read_model(load_case(case.write(tmp_path)), strict=False)
 
@@ -47,7 +29,7 @@ def test_portions_of_a_group_are_solved_like_the_whole(tmp_path, monkeypatch):
     case.nodal_forces["mx_Nmm"] *= 1.0 + 0.01 * case.nodal_forces["node"] % 7
     body = read_body(load_case(case.write(tmp_path)), strict=False)
     whole = solve_group(weld_groups(body, tmp_path / "a"), 0)
-    monkeypatch.setattr(model, "PORTION", 8)
+    monkeypatch.setattr("fatigue.pipeline.weld_groups.PORTION", 8)
     groups = weld_groups(body, tmp_path / "b")
     assert max(len(portions) for portions in groups.portions_of) > 1
     assert sum(len(portions) for portions in groups.portions_of) == len(groups.portions)

@@ -9,16 +9,17 @@ from hypothesis import strategies as st
 from fatigue.errors import DataError
 from fatigue.results import (
     TABLES,
+    number_groups,
     read_codes,
     read_rows,
     read_table,
+    row_count,
     row_groups,
     rows_of_welds,
     store,
     table_writer,
     worst_toes,
 )
-from fatigue.results.parts import number_groups, row_count
 
 ROWS, WELDS = 1000, ["W7", "a", "Z", "שלום"]
 

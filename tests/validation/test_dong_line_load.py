@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from fatigue.weld.line import arc_length, edge_nodes, edge_points, length
+from fatigue.weld.line_geometry import arc_length, edge_nodes, edge_points, length
 from fatigue.weld.line_load import line_load, line_load_matrix, treat_ends
 from tests.naive_weld import edge_functions, edge_list
 from tests.weld_lines import ring, straight

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.weld.cuts import trace
 from fatigue.weld.detection import WELDS, classify, stacked_elements, topology
-from fatigue.weld.line import corners, split_at_kinks
 from fatigue.weld.line_check import check_line
+from fatigue.weld.line_geometry import corners, split_at_kinks
 from fatigue.weld.mesh import ShellMesh
 from tests.shell_fe import grid, joined
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fatigue.weld.edge_type import edge_type_warnings
-from fatigue.weld.line import arc_length
+from fatigue.weld.line_geometry import arc_length
 from fatigue.weld.line_load import line_load, line_load_matrix
 from tests.weld_lines import ring, shifted, straight
 

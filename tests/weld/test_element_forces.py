@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fatigue.errors import DataError
 from fatigue.weld.element_forces import ElementForces, balance, side_forces
-from fatigue.weld.line import split_at_kinks
+from fatigue.weld.line_geometry import split_at_kinks
 from tests.shell_fe import ShellModel, grid
 from tests.weld_lines import straight, weld_line
 

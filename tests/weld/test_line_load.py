@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.weld.line import arc_length, edges, length
+from fatigue.weld.line_geometry import arc_length, edges, length
 from fatigue.weld.line_load import line_load, line_load_matrix, treat_ends
 from tests import naive_weld
 from tests.weld_lines import fields, lines, reversed_line, ring, shifted, straight, weld_line

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fatigue.errors import DataError
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
-from fatigue.weld.line import arc_length, edge_nodes, kink_angles, length, lengths, local_axes, stacked
+from fatigue.weld.line import stacked
 from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
 from fatigue.weld.line_load import line_load, line_load_matrix
 from fatigue.weld.structural_stress import assess_line, line_stress
@@ -18,18 +18,6 @@ from tests.weld_lines import fields, lines, ring, straight
 
 SMOOTH = straight([10.0] * 6)
 STACKS = st.lists(lines(), min_size=1, max_size=4)
-
-
-@given(STACKS)
-@settings(deadline=None, max_examples=20)
-def test_geometry_of_a_stack(some):
-    """Edges, arc lengths, axes and kinks are those of each line alone."""
-    stack = stacked(some)
-    edges = [edge_nodes(line) for line in some]
-    moved = [np.where(e < 0, e, e + first) for e, first in zip(edges, stack.begin, strict=False)]
-    np.testing.assert_array_equal(edge_nodes(stack), np.concatenate(moved))
-    for of, tolerance in ((arc_length, 1e-12), (local_axes, 1e-13), (kink_angles, 1e-10)):
-        np.testing.assert_allclose(of(stack), np.concatenate([of(line) for line in some]), atol=tolerance)
 
 
 @given(STACKS)
@@ -50,29 +38,6 @@ def test_stress_of_a_stack(some):
                 scale = np.abs(value).max()
                 together = getattr(getattr(found, kind), part.name)[a:b]
                 np.testing.assert_allclose(together, value, atol=1e-12 * scale)
-
-
-def assert_same_line(found, line):
-    """Compare all that a line says."""
-    for name in (part.name for part in fields_of(line) if part.init):
-        np.testing.assert_array_equal(getattr(found, name), getattr(line, name))
-
-
-@given(STACKS)
-@settings(deadline=None, max_examples=20)
-def test_lines_are_cut_out_as_they_were_put_in(some):
-    """One by one, and as a stack of neighbours that knows nothing of the others."""
-    some = [*some, replace(SMOOTH, corner_start=True), ring(9, end_length=0.0)]
-    stack = stacked(some)
-    arc_length(stack)  # what is kept of the whole does not pass to a part
-    for i, line in enumerate(stack):
-        assert_same_line(line, some[i])
-    end = stack.lines(slice(len(some) - 2, None))
-    assert len(end) == 2
-    for i, line in enumerate(end):
-        assert_same_line(line, some[i - 2])
-    np.testing.assert_allclose(arc_length(end), np.concatenate([arc_length(line) for line in some[-2:]]), atol=1e-12)
-    np.testing.assert_allclose(lengths(end), [length(line) for line in some[-2:]], rtol=1e-14)
 
 
 def spoilt(line, name, at, value):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.weld.line import arc_length
+from fatigue.weld.line_geometry import arc_length
 from fatigue.weld.line_load import line_load_matrix
 from fatigue.weld.structural_stress import StructuralStress, assess_line, structural_stress
 from tests.weld_lines import fields, lines, moved, reversed_line, ring, rotations, shifted, straight, weld_line

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.results import read_rows
-from fatigue.results.parts import number_groups
+from fatigue.results import number_groups, read_rows
 from fatigue.verify.recount.compare import ColumnCheck
 from fatigue.verify.recount.layout import Layout, station_finder
 

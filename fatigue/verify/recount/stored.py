@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.results import TABLES, read_codes, read_rows, read_table
-from fatigue.results.parts import number_groups
+from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
 from fatigue.verify.recount.compare import ColumnCheck, compare_keys
 from fatigue.verify.recount.inputs import Inputs, Modes
 from fatigue.verify.recount.keys import Rows, find_rows

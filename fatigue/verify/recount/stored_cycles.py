@@ -8,8 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.results import read_rows
-from fatigue.results.parts import number_groups
+from fatigue.results import number_groups, read_rows
 from fatigue.verify.recount.compare import ColumnCheck
 from fatigue.verify.recount.layout import FACES, Layout, station_finder
 

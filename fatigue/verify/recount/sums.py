@@ -11,8 +11,7 @@ import pandas as pd
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from fatigue.results import TABLES, read_rows
-from fatigue.results.parts import number_groups
+from fatigue.results import TABLES, number_groups, read_rows
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.compare import TOLERANCE, ColumnCheck, merged
 from fatigue.verify.recount.point import Event
