@@ -13,6 +13,7 @@ Rounding. With s_i^2 = A_ii / c_A + B_ii / c_B, where c_A and c_B make both of a
 more than ``c (4 (m + 4) eps + e) (sum s_i (|S_m| + |S_b|)_i)^2``, e what the directions miss of the matrix.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,22 +75,36 @@ def face_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
     """Evaluate both forms of top stress S_m + S_b and bottom stress S_m - S_b, shapes (n, m): (2, n, 2)."""
     forms = np.empty((2, len(S_m), 2))
     weights = np.ascontiguousarray(pair.weights.T)
-    for first in range(0, len(S_m), AT_ONCE):
-        some = slice(first, first + AT_ONCE)
-        _sum_squares(S_m[some] @ pair.directions, S_b[some] @ pair.directions, weights, forms[:, some])
+    for some, p_m, p_b in _products(S_m, S_b, pair):
+        _sum_squares(p_m + p_b, weights, forms[:, some, 0])
+        _sum_squares(p_m - p_b, weights, forms[:, some, 1])
     return forms
 
 
+def part_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
+    """Evaluate both forms of membrane, bending, top and bottom stress, shapes (n, m): (2, n, 4)."""
+    forms = np.empty((2, len(S_m), 4))
+    weights = np.ascontiguousarray(pair.weights.T)
+    for some, p_m, p_b in _products(S_m, S_b, pair):
+        for part, p in enumerate((p_m, p_b, p_m + p_b, p_m - p_b)):
+            _sum_squares(p, weights, forms[:, some, part])
+    return forms
+
+
+def _products(S_m: Floats, S_b: Floats, pair: FormPair) -> Iterator[tuple[slice, Floats, Floats]]:
+    """Give p of membrane and of bending some stations at a time."""
+    for first in range(0, len(S_m), AT_ONCE):
+        some = slice(first, first + AT_ONCE)
+        yield some, S_m[some] @ pair.directions, S_b[some] @ pair.directions
+
+
 @compiled("reassoc", "contract")
-def _sum_squares(p_m: Floats, p_b: Floats, weights: Floats, forms: Floats) -> None:
-    """Sum the squares of p of both faces with both weights (2, r) into ``forms`` (2, n, 2)."""
-    for i in range(len(p_m)):
-        top_a = bottom_a = top_b = bottom_b = 0.0
-        for k in range(p_m.shape[1]):
-            a, b = weights[0, k], weights[1, k]
-            top, bottom = p_m[i, k] + p_b[i, k], p_m[i, k] - p_b[i, k]
-            top_a += a * (top * top)
-            bottom_a += a * (bottom * bottom)
-            top_b += b * (top * top)
-            bottom_b += b * (bottom * bottom)
-        forms[0, i, 0], forms[0, i, 1], forms[1, i, 0], forms[1, i, 1] = top_a, bottom_a, top_b, bottom_b
+def _sum_squares(p: Floats, weights: Floats, forms: Floats) -> None:
+    """Sum the squares of p (n, r) with both weights (2, r) into ``forms`` (2, n)."""
+    for i in range(len(p)):
+        a = b = 0.0
+        for k in range(p.shape[1]):
+            square = p[i, k] * p[i, k]
+            a += weights[0, k] * square
+            b += weights[1, k] * square
+        forms[0, i], forms[1, i] = a, b

@@ -100,18 +100,20 @@ def modal_extent(q: Samples, residue: Residue) -> ModalExtent:
     )
 
 
-def extent_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
+def extent_bound(S_m: Floats, S_b: Floats, forms: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
     """Bound range (n, 2) and sum n S^q, q = 1 and 2, (2, n, 2) of top and bottom stress without a loop over time.
+
+    Shapes S_m, S_b (n, m) as in `count_block_fast`, ``forms`` (2, n, 2) their `face_forms` for ``extent.products``.
 
     With Cauchy-Schwarz twice, ``|w'q| <= sqrt(w'P w) sqrt(q'P^-1 q)`` for any P that is positive definite, and
     ``sum |w'dq| <= sqrt(steps) sqrt(sum (w'dq)^2)``; the sums over the coordinates, ``sum |w| range(q)`` and
     ``sum |w| TV(q)``, are taken where they are smaller. R <= TV in any history. From ``|a |a| - b |b|| <= (|a| + |b|)
-    |a - b|`` follows ``TV(s |s|) <= sqrt(4 sum s^2) sqrt(sum ds^2)``. Shapes S_m, S_b (n, m) as in `count_block_fast`.
+    |a - b|`` follows ``TV(s |s|) <= sqrt(4 sum s^2) sqrt(sum ds^2)``.
     """
     deviations = np.sqrt(np.diagonal(extent.covariance))
     limits = np.stack([extent.variations, extent.ranges, deviations, extent.products.size])
     variations, ranges, modal, size = _of_modal_stresses(S_m, S_b, limits)
-    variance, of_steps = _bounded_forms(S_m, S_b, size, extent.products)
+    variance, of_steps = _safe(forms, size, extent.products)
     variation = np.minimum(np.sqrt(extent.steps * of_steps), variations)
     largest = np.minimum(np.minimum(2.0 * _peak(variance, modal, extent), ranges), variation)
     squares = 2.0 * np.sqrt(extent.samples * variance * of_steps)
@@ -122,7 +124,7 @@ def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, F
     """Bound max |s| and sqrt(sum s^2) of top and bottom stress, s without its mean, each (n, 2)."""
     limits = np.stack([np.sqrt(np.diagonal(extent.covariance)), extent.products.size])
     modal, size = _of_modal_stresses(S_m, S_b, limits)
-    variance, _ = _bounded_forms(S_m, S_b, size, extent.products)
+    variance, _ = _safe(face_forms(S_m, S_b, extent.products), size, extent.products)
     return _peak(variance, modal, extent), np.sqrt(extent.samples * variance)
 
 
@@ -183,7 +185,7 @@ def _peak(variance: Floats, modal: Floats, extent: ModalExtent) -> Floats:
     return np.asarray(extent.reach * np.sqrt(variance + RIDGE * modal**2))
 
 
-def _bounded_forms(S_m: Floats, S_b: Floats, size: Floats, pair: FormPair) -> Floats:
-    """Evaluate both forms of a pair, (2, n, 2), with their largest rounding errors added; ``size`` is that of faces."""
+def _safe(forms: Floats, size: Floats, pair: FormPair) -> Floats:
+    """Add their largest rounding errors to both forms of a pair, (2, n, 2); ``size`` (n, 2) is that of the faces."""
     of_parts = size.sum(axis=1)  # not below that of |S_m| + |S_b|
-    return np.asarray(face_forms(S_m, S_b, pair) + pair.rounding[:, None, None] * of_parts[:, None] ** 2)
+    return np.asarray(forms + pair.rounding[:, None, None] * of_parts[:, None] ** 2)

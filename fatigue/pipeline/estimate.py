@@ -58,13 +58,20 @@ def mean_stress(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
     return np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
 
 
-def estimate_event(shapes: Shapes, load: EventLoad) -> Estimate:
+def member_variances(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
+    """Variances of membrane and of bending stress over the kept samples, (n, 2), stress factor left out [MPa^2]."""
+    C = load.covariance[None]
+    return np.stack([np.maximum(quadratic_forms(S, C)[0], 0.0) for S in (shapes.membrane, shapes.bending)], axis=1)
+
+
+def estimate_event(shapes: Shapes, load: EventLoad, variances: NDArray[np.float64]) -> Estimate:
     """Estimate the damage of one pass of an event at every station of a block from its spectrum.
 
+    ``variances`` (n, 2) are the `member_variances`.
     Both the estimates and the rainflow damage they are compared with use one bending ratio per station.
     """
     S_m, S_b, f = shapes.membrane, shapes.bending, load.stress_factor
-    std_m, std_b = (f * np.sqrt(_variance(S, load)) for S in (S_m, S_b))
+    std_m, std_b = f * np.sqrt(variances.T)
     bending_ratio = np.repeat(quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
     mean = mean_stress(shapes, load)
     if load.moments is None:
@@ -86,8 +93,3 @@ def estimate_event(shapes: Shapes, load: EventLoad) -> Estimate:
         peaks_per_s=peaks_per_s,
         samples_per_peak=quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s),
     )
-
-
-def _variance(S: NDArray[np.float64], load: EventLoad) -> NDArray[np.float64]:
-    """Variance over the kept samples, (n,) [MPa^2]."""
-    return np.asarray(np.maximum(quadratic_forms(S, load.covariance[None])[0], 0.0))

@@ -30,6 +30,7 @@ class EventLoad:
     mean : (m,) time mean of q over the kept samples
     covariance : (m, m) covariance of q over the kept samples
     moments, diagnosis : moment matrices of q and what the diagnosis needs, None for a record shorter than one segment
+    is_upsampled : whether mean and covariance are of other samples than those that are counted
     moment_pairs : those of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
     top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
     """
@@ -41,6 +42,7 @@ class EventLoad:
     duration: float
     mean: NDArray[np.float64]
     covariance: NDArray[np.float64]
+    is_upsampled: bool
     moments: MomentMatrices | None
     moment_pairs: tuple[FormPair, ...]
     diagnosis: DiagnosisMatrices | None
@@ -76,6 +78,7 @@ def prepare_event(
         duration=history.duration,
         mean=mean,
         covariance=covariance,
+        is_upsampled=counted is not history,
         moments=moments,
         moment_pairs=() if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])),
         diagnosis=diagnosis,

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.bounds import Bound
-from fatigue.pipeline.estimate import Estimate, estimate_event
+from fatigue.pipeline.estimate import Estimate, estimate_event, member_variances
 from fatigue.pipeline.event_block import EventBlock, bounded_event, count_event, no_overflow
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.mission_block import MissionBlock, mission_block
@@ -52,7 +52,7 @@ def estimated(shapes: Shapes, loads: Sequence[EventLoad], rules: Rules) -> tuple
     estimates: tuple[Estimate, ...] = ()
     for load in loads:
         with no_overflow(load.counted.event, rules.welds):
-            estimates += (estimate_event(shapes, load),)
+            estimates += (estimate_event(shapes, load, member_variances(shapes, load)),)
     return estimates
 
 

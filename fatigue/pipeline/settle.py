@@ -17,15 +17,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.forms import face_forms, part_forms
 from fatigue.life.mission import Plan, mission_sum
 from fatigue.life.rainflow_fast import Record
 from fatigue.life.screening import ModalExtent, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
 from fatigue.pipeline.bounds import Bound, event_bound
-from fatigue.pipeline.estimate import Estimate, mean_stress
+from fatigue.pipeline.estimate import Estimate, estimate_event, mean_stress, member_variances
 from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at, estimated
+from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at
 from fatigue.pipeline.shapes import Shapes
 
 
@@ -68,8 +69,7 @@ def settle(
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    estimates = estimated(shapes, loads, rules)
-    bounds = _modal_bounds(shapes, [estimate.mean for estimate in estimates], loads, screening, rules)
+    estimates, bounds = _estimates_and_modal_bounds(shapes, loads, screening, rules)
     shapes = _without_small_raw_ends(shapes, loads, plan, screening, rules)
 
     tier = np.ones(len(shapes), dtype=np.int8)
@@ -110,20 +110,35 @@ def _utilisation(bounds: Sequence[Bound], plan: Plan) -> NDArray[np.float64]:
     return per_km * plan.target_km / plan.damage_limit
 
 
-def _modal_bounds(
-    shapes: Shapes,
-    means: Sequence[NDArray[np.float64]],
-    loads: Sequence[EventLoad],
-    screening: Screening,
-    rules: Rules,
-) -> tuple[Bound, ...]:
-    """Bound every event from how its modal coordinates move, without a loop over time."""
+def _estimates_and_modal_bounds(
+    shapes: Shapes, loads: Sequence[EventLoad], screening: Screening, rules: Rules
+) -> tuple[tuple[Estimate, ...], tuple[Bound, ...]]:
+    """Estimate every event, and bound it from how its modal coordinates move: both without a loop over time.
+
+    Both need variances; they are worked out once for both unless they are of different samples.
+    """
+    estimates: tuple[Estimate, ...] = ()
     bounds: tuple[Bound, ...] = ()
-    for load, extent, mean in zip(loads, screening.extents, means, strict=True):
+    for load, extent in zip(loads, screening.extents, strict=True):
         with no_overflow(load.counted.event, rules.welds):
-            found = _scaled(*extent_bound(shapes.membrane, shapes.bending, extent), load.stress_factor)
-            bounds += (event_bound(*found, shapes, mean, rules.yield_of_damage),)
-    return bounds
+            forms = part_forms(shapes.membrane, shapes.bending, extent.products)
+            variances = member_variances(shapes, load) if load.is_upsampled else forms[0, :, :2]
+            estimates += (estimate_event(shapes, load, variances),)
+            bounds += (_modal_bound(shapes, estimates[-1].mean, forms[..., 2:], load, extent, rules),)
+    return estimates, bounds
+
+
+def _modal_bound(
+    shapes: Shapes,
+    mean: NDArray[np.float64],
+    forms: NDArray[np.float64],
+    load: EventLoad,
+    extent: ModalExtent,
+    rules: Rules,
+) -> Bound:
+    """Bound an event from mean stress (n, 2) and the forms (2, n, 2) that `extent_bound` wants."""
+    found = extent_bound(shapes.membrane, shapes.bending, forms, extent)
+    return event_bound(*_scaled(*found, load.stress_factor), shapes, mean, rules.yield_of_damage)
 
 
 def _without_small_raw_ends(
@@ -134,7 +149,11 @@ def _without_small_raw_ends(
     if not ends.rows.size:
         return shapes
     raw = replace(shapes.at(ends.rows), membrane=ends.membrane, bending=ends.bending)
-    bounds = _modal_bounds(raw, [mean_stress(raw, load) for load in loads], loads, screening, rules)
+    bounds = []
+    for load, extent in zip(loads, screening.extents, strict=True):
+        with no_overflow(load.counted.event, rules.welds):
+            forms = face_forms(raw.membrane, raw.bending, extent.products)
+            bounds.append(_modal_bound(raw, mean_stress(raw, load), forms, load, extent, rules))
     matters = np.asarray((_utilisation(bounds, plan) >= screening.share).any(axis=1))
     return replace(shapes, raw_ends=replace(ends, matters=matters))
 

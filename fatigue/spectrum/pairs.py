@@ -8,7 +8,7 @@ matrices together it is one matrix product: that of their weights with the produ
 import numpy as np
 from numpy.typing import NDArray
 
-BLOCK_POINTS = 128  # their products of pairs, of a hundred modes in single precision, stay near the processor
+BLOCK_POINTS = 32  # their products of pairs, of a hundred modes in single precision, stay in the second-level cache
 
 
 def pairs(modes: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

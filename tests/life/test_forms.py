@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from fatigue.life import forms
-from fatigue.life.forms import face_forms, form_pair
+from fatigue.life.forms import face_forms, form_pair, part_forms
 
 Floats = NDArray[np.float64]
 
@@ -49,6 +49,19 @@ def test_forms_of_usual_spectra_keep_their_digits() -> None:
     S_m, S_b = rng.normal(size=(2, 300, 60))
     for form, matrix in zip(face_forms(S_m, S_b, form_pair(A, B)), (A, B), strict=True):
         assert form == pytest.approx(plain(S_m, S_b, matrix), rel=1e-12)
+
+
+def test_forms_of_members_and_faces_come_from_the_same_product() -> None:
+    """Membrane and bending stress beside the faces."""
+    rng = np.random.default_rng(5)
+    A, B = (mix @ mix.T for mix in np.eye(9) + 0.3 * rng.normal(size=(2, 9, 9)))
+    S_m, S_b = rng.normal(size=(2, 150, 9))
+    pair = form_pair(A, B)
+    parts = part_forms(S_m, S_b, pair)
+    np.testing.assert_array_equal(parts[..., 2:], face_forms(S_m, S_b, pair))
+    for form, matrix in zip(parts, (A, B), strict=True):
+        members = plain(S_m + S_b, S_m - S_b, matrix) / 4.0  # the faces of the faces are twice the members
+        assert form[:, :2] == pytest.approx(members, rel=1e-12)
 
 
 def test_where_the_stations_are_cut_does_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
