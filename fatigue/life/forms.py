@@ -13,7 +13,6 @@ Rounding. With s_i^2 = A_ii / c_A + B_ii / c_B, where c_A and c_B make both of a
 more than ``c (4 (m + 4) eps + e) (sum s_i (|S_m| + |S_b|)_i)^2``, e what the directions miss of the matrix.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,38 +72,35 @@ def form_pair(A: Floats, B: Floats) -> FormPair:
 
 def face_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
     """Evaluate both forms of top stress S_m + S_b and bottom stress S_m - S_b, shapes (n, m): (2, n, 2)."""
-    forms = np.empty((2, len(S_m), 2))
-    weights = np.ascontiguousarray(pair.weights.T)
-    for some, p_m, p_b in _products(S_m, S_b, pair):
-        _sum_squares(p_m + p_b, weights, forms[:, some, 0])
-        _sum_squares(p_m - p_b, weights, forms[:, some, 1])
-    return forms
+    return part_forms(S_m, S_b, pair)[..., 2:]
 
 
 def part_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
     """Evaluate both forms of membrane, bending, top and bottom stress, shapes (n, m): (2, n, 4)."""
-    forms = np.empty((2, len(S_m), 4))
-    weights = np.ascontiguousarray(pair.weights.T)
-    for some, p_m, p_b in _products(S_m, S_b, pair):
-        for part, p in enumerate((p_m, p_b, p_m + p_b, p_m - p_b)):
-            _sum_squares(p, weights, forms[:, some, part])
+    forms = np.zeros((2, len(S_m), 4))
+    if pair.directions.size:
+        S_m, S_b, T, weights = (np.ascontiguousarray(a) for a in (S_m, S_b, pair.directions, pair.weights.T))
+        _sum_squares(S_m, S_b, T, weights, AT_ONCE, forms)
     return forms
 
 
-def _products(S_m: Floats, S_b: Floats, pair: FormPair) -> Iterator[tuple[slice, Floats, Floats]]:
-    """Give p of membrane and of bending some stations at a time."""
-    for first in range(0, len(S_m), AT_ONCE):
-        some = slice(first, first + AT_ONCE)
-        yield some, S_m[some] @ pair.directions, S_b[some] @ pair.directions
-
-
 @compiled("reassoc", "contract")
-def _sum_squares(p: Floats, weights: Floats, forms: Floats) -> None:
-    """Sum the squares of p (n, r) with both weights (2, r) into ``forms`` (2, n)."""
-    for i in range(len(p)):
-        a = b = 0.0
-        for k in range(p.shape[1]):
-            square = p[i, k] * p[i, k]
-            a += weights[0, k] * square
-            b += weights[1, k] * square
-        forms[0, i], forms[1, i] = a, b
+def _sum_squares(S_m: Floats, S_b: Floats, T: Floats, weights: Floats, at_once: int, forms: Floats) -> None:
+    """Sum the squares of p with both weights (2, r), some stations at a time; the products are those of BLAS."""
+    room = np.empty((2, at_once, T.shape[1]))
+    for first in range(0, len(S_m), at_once):
+        n = min(at_once, len(S_m) - first)
+        p_m, p_b = room[0, :n], room[1, :n]
+        np.dot(S_m[first : first + n], T, p_m)
+        np.dot(S_b[first : first + n], T, p_b)
+        for i in range(n):
+            for form in range(2):
+                m = b = top = bottom = 0.0
+                for k in range(T.shape[1]):
+                    weight, x, y = weights[form, k], p_m[i, k], p_b[i, k]
+                    m += weight * (x * x)
+                    b += weight * (y * y)
+                    top += weight * ((x + y) * (x + y))
+                    bottom += weight * ((x - y) * (x - y))
+                parts = forms[form, first + i]
+                parts[0], parts[1], parts[2], parts[3] = m, b, top, bottom

@@ -25,6 +25,7 @@ Numbers = NDArray[np.floating]
 Singles = NDArray[np.float32]
 
 TILE, PANEL = 12, 32  # rows and columns of the product that are worked out at a time
+CACHED = 16  # panels that stay near the processor while all tiles pass over them
 
 I1, I8, I32, I64 = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64)
 
@@ -347,6 +348,7 @@ def lay_out(q: Singles, panels: Singles) -> Singles:
 @compiled()
 def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
     """Write the product into the columns of ``stress`` from 1 on; rows and columns are as many as tiles and panels."""
-    for tile in range(len(tiles)):
-        for panel in range(len(panels)):
-            product_of_tile(tiles, tile, panels, panel, stress)
+    for first in range(0, len(panels), CACHED):
+        for tile in range(len(tiles)):
+            for panel in range(first, min(first + CACHED, len(panels))):
+                product_of_tile(tiles, tile, panels, panel, stress)

@@ -148,12 +148,14 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
 class _Reduced(NamedTuple):
     """Some stresses in terms of the histories of their welds, over their scale, and in single precision.
 
-    ``histories`` (h, m) turns the record into u; ``welds`` are the rows of u of a weld, its stations and their shapes
-    (2 r, b), top beside bottom; ``rounding`` (r, 2, 2) is the largest error of a sample and that of its rms.
+    ``histories`` (h, m) turns the record into u; ``shapes`` are the numbers of the matrices (2 r, b) of all welds, one
+    after the other, top beside bottom; ``begin`` (2, w + 1) is where histories and points of each weld begin;
+    ``rounding`` (r, 2, 2) is the largest error of a sample and that of its rms.
     """
 
     histories: Singles
-    welds: list[tuple[slice, slice, Singles]]
+    shapes: Singles
+    begin: Rows
     rounding: Floats
 
 
@@ -162,8 +164,7 @@ def _reduced(bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent
     modal = np.stack([extent.ranges, np.sqrt(np.diagonal(extent.covariance))], axis=1) / record.scale[:, None]
     rounding = np.empty((*scale.shape, 2))
     histories: list[Floats] = []
-    welds = []
-    at = 0
+    shapes: list[Floats] = []
     for run in _runs(bases.weld[rows]):
         weld = bases.weld[rows[run.start]]
         B = bases.basis[bases.begin[weld] : bases.begin[weld + 1]] * record.scale
@@ -175,9 +176,13 @@ def _reduced(bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent
         L = np.stack([L_m + L_b, L_m - L_b], axis=1) * unit / scale[run, :, None]
         rounding[run] = (m + h + 16) * SINGLE * (np.abs(L) @ (np.abs(B) @ modal))
         histories.append(B)
-        welds.append((slice(at, at + h), run, L.reshape(2 * len(L), h).astype(np.float32)))
-        at += h
-    return _Reduced(np.concatenate(histories).astype(np.float32), welds, rounding)
+        shapes.append(L.reshape(2 * len(L), h))
+    return _Reduced(
+        histories=np.concatenate(histories).astype(np.float32),
+        shapes=np.concatenate([L.ravel() for L in shapes]).astype(np.float32),
+        begin=np.cumsum([[0, *(len(B) for B in histories)], [0, *(len(L) for L in shapes)]], axis=1),
+        rounding=rounding,
+    )
 
 
 def _in_time(reduced: _Reduced, record: Record, extent: ModalExtent) -> Floats:
@@ -189,21 +194,17 @@ def _in_time(reduced: _Reduced, record: Record, extent: ModalExtent) -> Floats:
     space = space_for_samples(modes, width, np.float32)
     found = np.zeros((2 * len(reduced.rounding), 6))
     u = block_for(histories, 1 + width + STEP, np.float32)
+    u[:] = 0.0  # so that no sample behind the last one is a number that takes long
     before = samples - 1 if extent.steps == samples else 0  # what recurs steps from its last sample to its first one
     start = before - before % STEP
     multiply(B, samples_of(record.q, start, samples if before else 1, space), u)
     u[:, 0] = u[:, 1 + before - start]
-    room = np.empty(POINTS * (width + 1), np.float32)
+    room = np.empty((POINTS, u.shape[1]), np.float32)
     for start in range(0, samples, width):
         end = min(start + width, samples)
         columns = 1 + end - start
         multiply(B, samples_of(record.q, start, end, space), u)
-        for own, run, L in reduced.welds:
-            for first in range(0, len(L), POINTS):
-                some = L[first : first + POINTS]
-                stress = np.matmul(some, u[own, :columns], out=room[: len(some) * columns].reshape(len(some), columns))
-                point = 2 * run.start + first
-                add_sums(stress, found[point : point + len(some)])
+        add_sums(u, columns, reduced.shapes, reduced.begin, room, found)
         u[:, 0] = u[:, columns - 1]
     found /= 1.0 - (width + 2) * SINGLE  # sums of a chunk in single precision
     return found.reshape(-1, 2, 6)
@@ -227,12 +228,24 @@ def sums_of_steps(s: Singles) -> tuple[np.floating, ...]:
 
 
 @compiled()
-def add_sums(stress: Singles, found: Floats) -> None:
-    """Add what `sums_of_steps` finds in the samples of some points, in column 0 the last one before them."""
-    for row in range(stress.shape[0]):
-        sums = sums_of_steps(stress[row])
-        for k in range(len(sums)):
-            found[row, k] += sums[k]
+def add_sums(u: Singles, columns: int, shapes: Singles, begin: Rows, room: Singles, found: Floats) -> None:
+    """Add what `sums_of_steps` finds in some samples of all points, in column 0 of u (h, w) the last one before them.
+
+    ``shapes`` and ``begin`` are those of `_Reduced`; ``room`` (n, w) is for the stress of some points, by BLAS.
+    """
+    done = 0
+    for weld in range(begin.shape[1] - 1):
+        b = begin[0, weld + 1] - begin[0, weld]
+        of_weld = u[begin[0, weld] : begin[0, weld + 1]]
+        for first in range(begin[1, weld], begin[1, weld + 1], len(room)):
+            n = min(len(room), begin[1, weld + 1] - first)
+            stress = room[:n]
+            np.dot(shapes[done : done + n * b].reshape(n, b), of_weld, stress)
+            done += n * b
+            for row in range(n):
+                sums = sums_of_steps(stress[row, :columns])
+                for k in range(len(sums)):
+                    found[first + row, k] += sums[k]
 
 
 def _leading_directions(X: Floats) -> Floats:
