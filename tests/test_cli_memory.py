@@ -3,7 +3,7 @@
 import ctypes
 import os
 
-from fatigue.cli.memory import LARGE, hold_little
+from fatigue.cli.memory import LARGE, SPARE, hold_little
 
 
 def test_large_blocks_are_not_held(monkeypatch):
@@ -13,7 +13,7 @@ def test_large_blocks_are_not_held(monkeypatch):
     library = type("Library", (), {"mallopt": lambda _, name, value: told.append((name, value))})
     monkeypatch.setattr(ctypes, "CDLL", lambda _: library())
     hold_little()
-    assert told == [(-3, LARGE), (-1, LARGE)]
+    assert told == [(-3, LARGE), (-1, SPARE)]
     monkeypatch.setattr(ctypes, "CDLL", lambda _: object())
     hold_little()
 

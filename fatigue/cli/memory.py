@@ -8,11 +8,12 @@ import ctypes
 import os
 
 LARGE = 4 << 20  # bytes
+SPARE = 16 << 20  # free at the end of a heap: to give it back and take it again for every group of welds takes time
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
 
 def hold_little() -> None:
-    """Have Arrow use the allocator of C, and that give back blocks above ``LARGE`` as soon as they are freed.
+    """Have Arrow use the allocator of C, and that give back large blocks and spare ends of heaps once they are free.
 
     To be called before Arrow is imported. Whoever has chosen an allocator for Arrow keeps it.
     """
@@ -20,6 +21,6 @@ def hold_little() -> None:
     try:
         libc = ctypes.CDLL(None)
         libc.mallopt(M_MMAP_THRESHOLD, LARGE)
-        libc.mallopt(M_TRIM_THRESHOLD, LARGE)
+        libc.mallopt(M_TRIM_THRESHOLD, SPARE)
     except (AttributeError, OSError, TypeError):  # another C library, with habits of its own
         return
