@@ -29,6 +29,7 @@ from fatigue.life.rainflow_state import Room, Stage, State
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating]
 Places = NDArray[np.int64]
+Marks = NDArray[np.int32]
 
 
 class Exact(NamedTuple):
@@ -60,30 +61,27 @@ def write_steps(
 
     Samples 1 to t are those of the chunk, sample 0 the one before it and t + 1 the one behind the record.
     """
-    side = np.float32(1 - 2 * at[1])
+    side, step, last = np.float32(1 - 2 * at[1]), room.marks[0], exact.q.shape[1]
     known = True
     for i in range(steps):
         s = m[i] + side * b[i]
         ds = (m[i + 1] + side * b[i + 1]) - s
-        room.marks[0, i] = np.int32(ds > 0) - np.int32(ds < 0)
+        step[i] = np.int32(ds > 0) - np.int32(ds < 0)
         if abs(ds) <= flat + flat * abs(s) and m[i + 1] != m[i]:
-            if i == 0 or i + 1 > exact.q.shape[1]:
+            if i in (0, last):
                 known = False
             else:
-                step = rise(exact, at, i, i + 1)
-                room.marks[0, i] = np.int32(step > 0) - np.int32(step < 0)
+                exactly = rise(exact, at, i, i + 1)
+                step[i] = np.int32(exactly > 0) - np.int32(exactly < 0)
     return known
 
 
 @compiled()
-def reaches(room: Room, i: int, sign: float, at: tuple[int, int], flat: np.float32, exact: Exact) -> int:
+def reaches(sample: Marks, i: int, sign: float, at: tuple[int, int], exact: Exact) -> int:
     """Whether reversal i is as large as the one before it on its side (1) or not (0); -1 if that is not known.
 
-    ``sign`` is that of both, 1 at peaks; the second row of marks says which sample of the chunk a reversal is.
+    ``sign`` is that of both, 1 at peaks; ``sample`` says which sample of the chunk a reversal is, 0 if none.
     """
-    z, zm, sample = room.numbers[0], room.numbers[1], room.marks[1]
-    if abs(z[i] - z[i - 2]) > flat + flat * abs(z[i - 2]) or zm[i] == zm[i - 2]:
-        return int(z[i] >= z[i - 2])
     if sample[i] == 0 or sample[i - 2] == 0:
         return -1
     return int(sign * rise(exact, at, sample[i - 2], sample[i]) >= 0.0)
@@ -105,16 +103,20 @@ def close_inner(
         top += 1
         z[top], zm[top], sample[top] = z[k], zm[k], sample[k]
         while top >= 3:
-            sign = first_sign * (1 - 2 * (top % 2))
-            last = reaches(room, top, sign, at, flat, exact)
-            last_but_one = reaches(room, top - 1, -sign, at, flat, exact)
+            a, b, c, d = top - 3, top - 2, top - 1, top
+            last, last_but_one = int(z[d] >= z[b]), int(z[c] >= z[a])
+            sign = first_sign * (1 - 2 * (d % 2))
+            if abs(z[d] - z[b]) <= flat + flat * abs(z[b]) and zm[d] != zm[b]:
+                last = reaches(sample, d, sign, at, exact)
+            if abs(z[c] - z[a]) <= flat + flat * abs(z[a]) and zm[c] != zm[a]:
+                last_but_one = reaches(sample, c, -sign, at, exact)
             known &= last >= 0 and last_but_one >= 0
             if last != 1 or last_but_one == 1:
                 break
-            S[cycles], dm[cycles] = z[top - 2] + z[top - 1], zm[top - 2] + zm[top - 1]
+            S[cycles], dm[cycles] = z[b] + z[c], zm[b] + zm[c]
             cycles += 1
-            z[top - 2], zm[top - 2], sample[top - 2] = z[top], zm[top], sample[top]
-            top -= 2
+            z[b], zm[b], sample[b] = z[d], zm[d], sample[d]
+            top = b
     return top + 1, cycles, known
 
 
