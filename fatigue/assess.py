@@ -35,8 +35,7 @@ from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
 
 log = logging.getLogger(__name__)
 
-STRESSES_AT_ONCE = 512  # stations
-LARGE_GROUP = 1024  # stations from which on it pays to give what was freed back to the system
+ROWS_AT_ONCE = 512  # stations whose rows are made at a time, as many for each as there are events or modes
 
 Progress = Callable[[str, int, int], None]
 
@@ -120,8 +119,7 @@ def assess(
                     kept = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
                     cycles.add([kept_point(group.model, point) for point in kept])
                     done.add(group, work, worst)
-                    if len(group.model.stations) >= LARGE_GROUP:
-                        give_back()
+                    del group, used_up  # not to be held until the next one is there
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
@@ -174,9 +172,10 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     stations, welds = model.stations, [weld.name for weld in model.welds]
     worst, screened = worst_points(model, result), np.repeat(result.tier[:, None], 2, axis=1)
     tables["nodes"].write(node_rows(stations, result.mission, toe_faces(model), screened, plan, welds))
-    tables["damage"].write(damage_rows(stations, result.events, plan, welds))
-    for first in range(0, len(stations), STRESSES_AT_ONCE):  # as many rows as modes each
-        some = slice(first, first + STRESSES_AT_ONCE)
+    events = result.events
+    for first in range(0, len(stations), ROWS_AT_ONCE):
+        some = slice(first, first + ROWS_AT_ONCE)
+        tables["damage"].write(damage_rows(stations, events, plan, welds, some))
         tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds, some))
     tables["welds"].write(weld_rows(model, plan, result.mission, worst))
     return worst

@@ -3,17 +3,17 @@
 import ctypes
 import os
 
-from fatigue.cli.memory import LARGE, SPARE, hold_little
+from fatigue.cli.memory import HEAPS, LARGE, SPARE, hold_little
 
 
 def test_large_blocks_are_not_held(monkeypatch):
-    """Both limits of the C library are set; one that has none is left alone."""
+    """All limits of the C library are set; one that has none is left alone."""
     monkeypatch.setenv("ARROW_DEFAULT_MEMORY_POOL", "mimalloc")
     told = []
     library = type("Library", (), {"mallopt": lambda _, name, value: told.append((name, value))})
     monkeypatch.setattr(ctypes, "CDLL", lambda _: library())
     hold_little()
-    assert told == [(-3, LARGE), (-1, SPARE)]
+    assert told == [(-8, HEAPS), (-3, LARGE), (-1, SPARE)]
     monkeypatch.setattr(ctypes, "CDLL", lambda _: object())
     hold_little()
 

@@ -11,12 +11,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, BinaryIO, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.pipeline.group import GroupResult, arrays_of, result_of
+from fatigue.pipeline.group import GroupResult, arrays_of
 
 _FOLDER = ".fatigue-state"
 
@@ -56,17 +57,26 @@ class Checkpoint:
         """Read what an earlier run finished, its checksums tested; None where there is none or it is damaged."""
         try:
             with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-                return result_of(arrays)
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+                return GroupResult(**arrays)
+        except (OSError, ValueError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
             return None
 
     def save(self, part: str, result: GroupResult) -> None:
         """Write a finished part so that it survives a kill or a power cut at any moment."""
         with replacing(self._path(part)) as unfinished, unfinished.open("wb") as file:
-            np.savez(file, allow_pickle=False, **arrays_of(result))
+            _write_arrays(file, arrays_of(result))
 
     def _path(self, part: str) -> Path:
         return self.folder / f"{part}.npz"
+
+
+def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write contiguous arrays as `np.savez` does, which copies them first, all at a time."""
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
+                np.lib.format.write_array_header_1_0(entry, np.lib.format.header_data_from_array_1_0(array))
+                entry.write(array.data)
 
 
 @contextmanager

@@ -1,8 +1,8 @@
 """One group of welds under all events: everything its rows in the result tables need."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,26 +16,44 @@ from fatigue.pipeline.piece import Piece, Rules, counted_at, estimated
 from fatigue.pipeline.settle import Screening, settle
 from fatigue.pipeline.stations import shapes_of
 
-Arrays = TypeVar("Arrays", EventBlock, MissionBlock)
-
 _OF_EVENT = tuple(f.name for f in fields(EventBlock) if f.name not in ("verdict", "histogram"))
 _OF_MISSION = tuple(f.name for f in fields(MissionBlock) if f.name not in ("governing", "verdict"))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroupResult:
-    """Results of the stations of one group of welds, in the order of its stations.
+    """Results of the stations of one group of welds, in the order of its stations; few arrays, to be stored or sent.
 
     Attributes
     ----------
-    events : of every event, histograms left out
-    mission : of all events together
+    of_events : (e, f, n, 2) what an `EventBlock` says of every event: its fields but verdict and histogram, in order
+    verdicts : (e, n, 2) the verdict of every event
+    of_mission : (f, n, 2) the fields of the `MissionBlock` but the two that follow
+    governing, verdict : (n, 2) of the mission
     tier : (n,) index into `piece.TIERS`, 0 where cycles were counted
     """
 
-    events: tuple[EventBlock, ...]
-    mission: MissionBlock
+    of_events: NDArray[np.float64]
+    verdicts: NDArray[np.int8]
+    of_mission: NDArray[np.float64]
+    governing: NDArray[np.int64]
+    verdict: NDArray[np.int8]
     tier: NDArray[np.int8]
+
+    @property
+    def events(self) -> tuple[EventBlock, ...]:
+        """Every event, histograms left out: views of the arrays."""
+        nothing = np.zeros((len(self.tier), 2, 0, 2))
+        return tuple(
+            EventBlock(**dict(zip(_OF_EVENT, event, strict=True)), verdict=verdict, histogram=nothing)
+            for event, verdict in zip(self.of_events, self.verdicts, strict=True)
+        )
+
+    @property
+    def mission(self) -> MissionBlock:
+        """All events together: views of the arrays."""
+        numbers = dict(zip(_OF_MISSION, self.of_mission, strict=True))
+        return MissionBlock(**numbers, governing=self.governing, verdict=self.verdict)
 
 
 def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening: Screening | None) -> GroupResult:
@@ -48,7 +66,7 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     stations, toe = model.stations, toe_faces(model)
     curve_of = np.array(model.curve_of_weld)[stations.weld]
     curve = model.case.curve
-    found: list[tuple[NDArray[np.intp], Piece]] = []
+    result = _no_result(len(loads), len(stations))
     for name in dict.fromkeys(curve_of.tolist()):
         rows = np.flatnonzero(curve_of == name)
         shapes = shapes_of(stations, rows, model.curves[name], curve.thickness_rule)
@@ -57,52 +75,38 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
             pieces = counted_at(np.arange(len(rows)), shapes, loads, estimated(shapes, loads, rules), plan, rules)
         else:
             pieces = settle(shapes, stations.weld[rows], toe[rows], loads, plan, screening, rules)
-        found += [(rows[piece.rows], piece) for piece in pieces]
-    events = tuple(_joined([(rows, p.events[e]) for rows, p in found], EventBlock) for e in range(len(loads)))
-    mission = _joined([(rows, p.mission) for rows, p in found], MissionBlock)
-    tier = np.empty(len(stations), dtype=np.int8)
-    for rows, piece in found:
-        tier[rows] = piece.tier
-    return GroupResult(events, mission, tier)
+        for piece in pieces:
+            _put(piece, rows[piece.rows], result)
+    return result
 
 
 def arrays_of(result: GroupResult) -> dict[str, NDArray[Any]]:
-    """Lay a result out as few plain arrays, to be stored or sent: reading many small ones takes longer."""
-    return {
-        "events": np.stack([np.stack([getattr(event, name) for name in _OF_EVENT]) for event in result.events]),
-        "verdicts": np.stack([event.verdict for event in result.events]),
-        "mission": np.stack([getattr(result.mission, name) for name in _OF_MISSION]),
-        "governing": result.mission.governing,
-        "verdict": result.mission.verdict,
-        "tier": result.tier,
-    }
+    """Give the arrays of a result by name; ``GroupResult(**arrays)`` makes it again."""
+    return {field.name: getattr(result, field.name) for field in fields(GroupResult)}
 
 
-def result_of(arrays: Mapping[str, NDArray[Any]]) -> GroupResult:
-    """Take a result from the arrays of `arrays_of`."""
-    numbers, verdicts, tier = arrays["events"], arrays["verdicts"], arrays["tier"]
-    nothing = np.zeros((len(tier), 2, 0, 2))
-    mission = dict(zip(_OF_MISSION, arrays["mission"], strict=True))
+def _no_result(events: int, stations: int) -> GroupResult:
+    """Make room for the result of so many stations."""
     return GroupResult(
-        events=tuple(
-            EventBlock(**dict(zip(_OF_EVENT, event, strict=True)), verdict=verdict, histogram=nothing)
-            for event, verdict in zip(numbers, verdicts, strict=True)
-        ),
-        mission=MissionBlock(**mission, governing=arrays["governing"], verdict=arrays["verdict"]),
-        tier=tier,
+        of_events=np.empty((events, len(_OF_EVENT), stations, 2)),
+        verdicts=np.empty((events, stations, 2), np.int8),
+        of_mission=np.empty((len(_OF_MISSION), stations, 2)),
+        governing=np.empty((stations, 2), np.int64),
+        verdict=np.empty((stations, 2), np.int8),
+        tier=np.empty(stations, np.int8),
     )
 
 
-def _joined(pieces: Sequence[tuple[NDArray[np.intp], Arrays]], kind: type[Arrays]) -> Arrays:
-    """Put the arrays of all pieces at the places of their rows."""
-    n = sum(len(rows) for rows, _ in pieces)
-    joined: dict[str, NDArray[Any]] = {}
-    for field in fields(kind):
-        first: NDArray[Any] = getattr(pieces[0][1], field.name)
-        joined[field.name] = np.empty((n, *first.shape[1:]), dtype=first.dtype)
-        for rows, block in pieces:
-            joined[field.name][rows] = getattr(block, field.name)
-    return kind(**joined)
+def _put(piece: Piece, rows: NDArray[np.intp], result: GroupResult) -> None:
+    """Write a piece to the rows of the group that it is about."""
+    for e, event in enumerate(piece.events):
+        for f, name in enumerate(_OF_EVENT):
+            result.of_events[e, f, rows] = getattr(event, name)
+        result.verdicts[e, rows] = event.verdict
+    for f, name in enumerate(_OF_MISSION):
+        result.of_mission[f, rows] = getattr(piece.mission, name)
+    result.governing[rows], result.verdict[rows] = piece.mission.governing, piece.mission.verdict
+    result.tier[rows] = piece.tier
 
 
 def _weld_names(model: Model, rows: NDArray[np.intp]) -> str:

@@ -17,14 +17,17 @@ from fatigue.spectrum.diagnosis import VERDICTS
 FACES = ("top", "bottom")
 
 
-def point_columns(stations: Stations, welds: Sequence[str], repeat: int = 1) -> dict[str, Any]:
-    """Key columns of the points of all stations, top before bottom, each ``repeat`` times."""
+def point_columns(
+    stations: Stations, welds: Sequence[str], repeat: int = 1, some: slice = slice(None)
+) -> dict[str, Any]:
+    """Key columns of the points of some stations, top before bottom, each ``repeat`` times."""
+    weld = stations.weld[some]
     return {
-        "weld": coded(np.repeat(stations.weld, 2 * repeat), welds),
-        "part": np.repeat(stations.part, 2 * repeat),
-        "node": np.repeat(stations.node, 2 * repeat),
-        "order": np.repeat(stations.order, 2 * repeat),
-        "surface": coded(np.tile(np.repeat(np.arange(2), repeat), len(stations)), FACES),
+        "weld": coded(np.repeat(weld, 2 * repeat), welds),
+        "part": np.repeat(stations.part[some], 2 * repeat),
+        "node": np.repeat(stations.node[some], 2 * repeat),
+        "order": np.repeat(stations.order[some], 2 * repeat),
+        "surface": coded(np.tile(np.repeat(np.arange(2), repeat), weld.size), FACES),
     }
 
 
@@ -72,18 +75,20 @@ def node_rows(
     }
 
 
-def damage_rows(stations: Stations, parts: Sequence[EventBlock], plan: Plan, welds: Sequence[str]) -> dict[str, Any]:
-    """Rows of ``damage.parquet``: every event of every point, unweighted."""
+def damage_rows(
+    stations: Stations, parts: Sequence[EventBlock], plan: Plan, welds: Sequence[str], some: slice
+) -> dict[str, Any]:
+    """Rows of ``damage.parquet`` of some stations: every event of every point, unweighted."""
     length = np.array([np.nan if p.length is None else p.length for p in plan.passes])
 
     def per_pass(name: str) -> NDArray[Any]:
-        return np.stack([getattr(p, name) for p in parts], axis=-1)
+        return np.stack([getattr(p, name)[some] for p in parts], axis=-1)
 
     damage, same_ratio = per_pass("damage"), per_pass("damage_same_ratio")
     dirlik, tb, cycles = per_pass("damage_dirlik"), per_pass("damage_tb"), per_pass("cycles")
     return {
-        **point_columns(stations, welds, repeat=len(parts)),
-        "event": coded(np.tile(np.arange(len(parts)), 2 * len(stations)), [p.event for p in plan.passes]),
+        **point_columns(stations, welds, repeat=len(parts), some=some),
+        "event": coded(np.tile(np.arange(len(parts)), damage.size // len(parts)), [p.event for p in plan.passes]),
         "damage_per_km": (damage / length).ravel(),
         "damage_per_pass": damage.ravel(),
         "damage_dirlik_per_km": (dirlik / length).ravel(),

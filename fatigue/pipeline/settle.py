@@ -29,6 +29,8 @@ from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at
 from fatigue.pipeline.shapes import Shapes
 
+BOUNDED_AT_ONCE = 1024  # stations whose bounds are laid out as events at a time: 4 kB each with 12 events
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Screening:
@@ -100,8 +102,9 @@ def settle(
         yield from counted_at(rest, shapes, loads, estimates, plan, rules)
     for number in range(1, len(TIERS)):
         rows = np.flatnonzero(tier == number)
-        if rows.size:
-            yield bounded_at(rows, shapes, estimates, bounds, plan, number)
+        for first in range(0, len(rows), BOUNDED_AT_ONCE):
+            some = rows[first : first + BOUNDED_AT_ONCE]
+            yield bounded_at(some, shapes, estimates, bounds, plan, number)
 
 
 def _utilisation(bounds: Sequence[Bound], plan: Plan) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from fatigue.pipeline.checkpoint import Checkpoint
-from fatigue.pipeline.group import GroupResult, result_of
+from fatigue.pipeline.group import GroupResult
 from fatigue.pipeline.model import Model, solve_group
 from fatigue.pipeline.orders import Order, fulfil
 from fatigue.pipeline.work import Work
@@ -68,7 +68,7 @@ def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -
         under_way.add(future)
 
         def fetch() -> Group:
-            result = result_of(future.result())
+            result = GroupResult(**future.result())
             under_way.discard(future)
             state.save(_part(number), result)
             return Group(solve_group(work.groups, number), result, reused=False)

@@ -8,7 +8,7 @@ import pyarrow as pa
 def give_back() -> None:
     """Give freed memory back to the system; nothing is lost by it, and it takes some milliseconds.
 
-    After a body of a million nodes has been read, and after every few groups of its welds, that is some 100 MB.
+    After a body of a million nodes has been read that is some 100 MB.
     """
     pa.default_memory_pool().release_unused()
     try:

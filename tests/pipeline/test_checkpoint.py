@@ -8,15 +8,23 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.pipeline.checkpoint import Checkpoint, locked, replacing, state_key
 from fatigue.pipeline.event_block import EventBlock
-from fatigue.pipeline.group import GroupResult
+from fatigue.pipeline.group import GroupResult, arrays_of
 from fatigue.pipeline.mission_block import MissionBlock
+
+EVENT_NUMBERS, MISSION_NUMBERS = len(fields(EventBlock)) - 2, len(fields(MissionBlock)) - 2
 
 
 def part(value=1.0):
     """A finished part: two stations under one event."""
-    event = EventBlock(**{f.name: np.full((2, 2), value) for f in fields(EventBlock)})
-    mission = MissionBlock(**{f.name: np.full((2, 2), value) for f in fields(MissionBlock)})
-    return GroupResult((event,), mission, np.zeros(2, dtype=np.int8))
+    whole = np.zeros((2, 2), np.int8)
+    return GroupResult(
+        of_events=np.full((1, EVENT_NUMBERS, 2, 2), value),
+        verdicts=whole[None],
+        of_mission=np.full((MISSION_NUMBERS, 2, 2), value),
+        governing=np.zeros((2, 2), np.int64),
+        verdict=whole,
+        tier=np.zeros(2, np.int8),
+    )
 
 
 def test_a_saved_part_is_read_back_bit_for_bit(tmp_path):
@@ -30,7 +38,7 @@ def test_a_saved_part_is_read_back_bit_for_bit(tmp_path):
     assert np.array_equal(found.events[0].damage, saved.events[0].damage)
     assert np.array_equal(found.mission.governing, saved.mission.governing)
     assert np.array_equal(found.mission.life_km_raw_end, saved.mission.life_km_raw_end)
-    assert found.tier.tolist() == [0, 0]
+    assert all(np.array_equal(array, arrays_of(found)[name]) for name, array in arrays_of(saved).items())
 
 
 def test_the_state_goes_after_success_and_when_it_is_empty(tmp_path):
@@ -60,6 +68,24 @@ def test_a_part_cut_short_is_not_used(tmp_path, keep):
     state.save("a", part())
     path = state.folder / "a.npz"
     path.write_bytes(path.read_bytes()[:keep])
+    assert state.load("a") is None
+
+
+def test_a_part_of_which_a_byte_has_changed_is_not_used(tmp_path):
+    """Checksums of all arrays are tested."""
+    state = Checkpoint(tmp_path, "key").__enter__()
+    state.save("a", part(np.pi))
+    path = state.folder / "a.npz"
+    whole = path.read_bytes()
+    at = whole.index(np.float64(np.pi).tobytes())
+    path.write_bytes(whole[:at] + b"\0" + whole[at + 1 :])
+    assert state.load("a") is None
+
+
+def test_a_part_of_another_kind_is_not_used(tmp_path):
+    """What numpy writes can be read, but says nothing of these arrays."""
+    state = Checkpoint(tmp_path, "key").__enter__()
+    np.savez(state.folder / "a.npz", damage=np.zeros(3))
     assert state.load("a") is None
 
 

@@ -71,7 +71,7 @@ def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path)
     n = len(model.stations)
     verdict = {"verdict": np.zeros((n, 2), dtype=np.int8)}
     events = [numbered(EventBlock, n, first, **verdict) for first in (0.25, 5000.25)]
-    damage = written(tmp_path, "damage", damage_rows(model.stations, events, PLAN, WELDS))
+    damage = written(tmp_path, "damage", damage_rows(model.stations, events, PLAN, WELDS, slice(None)))
 
     assert list(damage["event"]) == ["run", "lift"] * (2 * n)
     assert list(damage["surface"][:4]) == ["top", "top", "bottom", "bottom"]
@@ -81,6 +81,9 @@ def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path)
         assert list(lift[per_pass]) == list(getattr(events[1], name).ravel())
     assert list(run["cycles_per_km"]) == list(events[0].cycles.ravel() / 2.0)
     assert lift["cycles_per_km"].isna().all()
+
+    part = written(tmp_path / "part", "damage", damage_rows(model.stations, events, PLAN, WELDS, slice(5, 9)))
+    pd.testing.assert_frame_equal(part, damage[4 * 5 : 4 * 9].reset_index(drop=True))
 
 
 def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path):
