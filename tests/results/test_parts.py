@@ -38,11 +38,11 @@ def folder(tmp_path_factory):
     rows = {c.name: value[c.type] for c in TABLES["nodes"]}
     rows["weld"] = np.repeat(WELDS, [130, 70, 500, 300])
     rows["screened"] = np.array(["", "modal bound", ""], dtype=object)[np.arange(ROWS) % 3]
-    with pytest.MonkeyPatch.context() as patch, table_writer(folder, "nodes") as writer:
-        patch.setattr(store, "_ROWS_PER_GROUP", 64)
-        for first in range(0, ROWS, 90):
-            writer.write({name: values[first : first + 90] for name, values in rows.items()})
-        writer.flush()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(store._ROWS_PER_GROUP, "nodes", 64)
+        with table_writer(folder, "nodes") as writer:
+            for first in range(0, ROWS, 90):
+                writer.write({name: values[first : first + 90] for name, values in rows.items()})
     return folder
 
 

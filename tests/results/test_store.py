@@ -18,6 +18,7 @@ from fatigue.results import (
     schema,
     sha256,
     software_versions,
+    store,
     table_writer,
     write_json,
 )
@@ -58,7 +59,7 @@ def test_tables_round_trip_with_null_for_nan_and_infinity_kept(tmp_path, table):
 @pytest.mark.parametrize("pieces", [(7, 7, 7), (1, 20), (21,)])
 def test_the_same_rows_in_other_pieces_give_the_same_row_groups(tmp_path, monkeypatch, pieces):
     """Row groups are cut by number of rows, not by how the rows arrive."""
-    monkeypatch.setattr("fatigue.results.store._ROWS_PER_GROUP", 8)
+    monkeypatch.setitem(store._ROWS_PER_GROUP, "nodes", 8)
     names = [f"weld {i // 2}" for i in range(21)]
     with table_writer(tmp_path, "nodes") as writer:
         first = 0
