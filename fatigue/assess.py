@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from fatigue.pipeline.piece import TIERS
 from fatigue.pipeline.provenance import provenance_record
 from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, worst_points
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
+from fatigue.pipeline.side_by_side import meanwhile
 from fatigue.pipeline.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
 from fatigue.pipeline.workers import Group, by_orders, by_threads
@@ -91,9 +93,10 @@ def assess(
     CaseError, DataError : the case or its files are wrong; nothing has been written then
     NumericalError : a computation lost its footing
     """
+    hashed = meanwhile(partial(inputs_of, case))
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body, threads)
-    inputs = inputs_of(case)
+    inputs = hashed()
     counted = Counted(share, proves_worst)
     key = key_of(inputs, counted)
 

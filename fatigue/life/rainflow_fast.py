@@ -22,6 +22,7 @@ Modal coordinates are only read in slices of some thousand samples, so they may 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
@@ -30,7 +31,7 @@ from numpy.typing import NDArray
 
 from fatigue.life import damage
 from fatigue.life.curves import DamageLaw
-from fatigue.life.history import Residue
+from fatigue.life.history import Residue, mean_and_covariance
 from fatigue.life.rainflow import BlockCount, not_finite
 from fatigue.life.rainflow_doubt import Exact, count_chunk_exactly
 from fatigue.life.rainflow_long import count_block_long
@@ -95,10 +96,11 @@ class _Block(NamedTuple):
     trusted: NDArray[np.bool_]
 
 
-def record_of(q: Samples, single: Spool | None = None) -> Record:
+def record_of(q: Samples, single: Spool | None = None, known: tuple[Floats, Floats] | None = None) -> Record:
     """Prepare modal coordinates (m, t) for `count_block_fast`, once for all points.
 
-    Their copy in single precision is written to ``single`` (m, t), by default to memory.
+    Their copy in single precision is written to ``single`` (m, t), by default to memory. ``known`` are their mean and
+    covariance, see `mean_and_covariance`, where somebody has computed them before.
 
     Raises
     ------
@@ -106,22 +108,17 @@ def record_of(q: Samples, single: Spool | None = None) -> Record:
     """
     modes, t = q.shape
     pieces = [slice(first, min(first + CHUNK, t)) for first in range(0, t, CHUNK)]
-    total = np.zeros(modes)
-    for piece in pieces:
-        finite = np.isfinite(q[:, piece])
-        if not finite.all():
-            mode, sample = np.argwhere(~finite)[0]
-            raise not_finite(f"sample {piece.start + sample} of modal coordinate {mode}")
-        total += q[:, piece].sum(axis=1, dtype=np.float64)
-    mean = total / t
-    covariance = np.zeros((modes, modes))
-    for piece in pieces:
-        centred = q[:, piece] - mean[:, None]
-        covariance += centred @ centred.T / t
-    scale = np.ldexp(1.0, np.frexp(np.sqrt(np.diagonal(covariance)))[1])
+    with np.errstate(invalid="ignore"):
+        mean, covariance = mean_and_covariance(q) if known is None else known
+    if not np.isfinite(np.diagonal(covariance)).all():
+        _refuse_not_finite(q, pieces)
+    exponent = np.frexp(np.sqrt(np.diagonal(covariance)))[1]
+    scale, over_scale = np.ldexp(1.0, exponent), np.ldexp(1.0, -exponent)
 
     def normalised(piece: slice) -> Singles:
-        return np.asarray((q[:, piece] - mean[:, None]) / scale[:, None], np.float32)
+        centred = q[:, piece] - mean[:, None]
+        centred *= over_scale[:, None]
+        return centred.astype(np.float32)
 
     if single is not None:
         for piece in pieces:
@@ -131,6 +128,15 @@ def record_of(q: Samples, single: Spool | None = None) -> Record:
     for piece in pieces:
         prepared_samples(normalised(piece), samples_between(laid_out, piece.start, piece.stop))
     return Record(q, laid_out, scale, mean, covariance)
+
+
+def _refuse_not_finite(q: Samples, pieces: Sequence[slice]) -> None:
+    """Name the first sample that is not finite."""
+    for piece in pieces:
+        finite = np.isfinite(q[:, piece])
+        if not finite.all():
+            mode, sample = np.argwhere(~finite)[0]
+            raise not_finite(f"sample {piece.start + sample} of modal coordinate {mode}")
 
 
 def is_fast(law: DamageLaw, record: Record) -> bool:

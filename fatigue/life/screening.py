@@ -63,10 +63,13 @@ class ModalExtent:
     steps: int
 
 
-def modal_extent(q: Samples, residue: Residue) -> ModalExtent:
-    """Prepare the bounds of all stresses of a record of modal coordinates (m, t), once per event."""
+def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | None = None) -> ModalExtent:
+    """Prepare the bounds of all stresses of a record of modal coordinates (m, t), once per event.
+
+    ``known`` are their mean and covariance, see `mean_and_covariance`, where somebody has computed them before.
+    """
     modes, samples = q.shape
-    mean, covariance = mean_and_covariance(q)
+    mean, covariance = mean_and_covariance(q) if known is None else known
     deviation = np.sqrt(np.diagonal(covariance))
     deviation = np.where(deviation > 0.0, deviation, 1.0)
     values, directions = np.linalg.eigh(covariance / np.outer(deviation, deviation))

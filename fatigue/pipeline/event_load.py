@@ -48,6 +48,11 @@ class EventLoad:
     diagnosis: DiagnosisMatrices | None
     top_mode_hz: float | None
 
+    @property
+    def known(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        """Mean and covariance of the samples that are counted; None where those known are of other samples."""
+        return None if self.is_upsampled else (self.mean, self.covariance)
+
 
 def prepare_event(
     history: ModalHistory,
@@ -72,7 +77,7 @@ def prepare_event(
     counted = upsampled(history, upsample, residue, scratch and scratch / "upsampled")
     return EventLoad(
         counted=counted,
-        single=fast_record(counted.q, scratch) if single else None,
+        single=fast_record(counted.q, scratch, (mean, covariance) if counted is history else None) if single else None,
         residue=residue,
         stress_factor=stress_factor,
         duration=history.duration,
@@ -86,17 +91,19 @@ def prepare_event(
     )
 
 
-def fast_record(q: Samples, scratch: Path | None) -> Record:
+def fast_record(
+    q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
+) -> Record:
     """Prepare modal coordinates for the kernel in single precision.
 
     Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
-    goes to the folder ``scratch``.
+    goes to the folder ``scratch``. ``known`` are their mean and covariance, None: to be computed.
 
     Raises
     ------
     NumericalError : a sample is not finite; DataError : the disk is full
     """
     if not isinstance(q, Spool) or scratch is None or 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
-        return record_of(q)
+        return record_of(q, known=known)
     path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
-    return record_of(q, create_spool(path, q.shape, np.dtype(np.float32)))
+    return record_of(q, create_spool(path, q.shape, np.dtype(np.float32)), known)

@@ -2,7 +2,8 @@
 
 import os
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
+from threading import Thread
 from typing import TypeVar
 
 Item = TypeVar("Item")
@@ -20,3 +21,20 @@ def in_order(do: Callable[[Item], Result], items: Iterable[Item], threads: int |
         return [future.result() for future in [executor.submit(do, item) for item in items]]
     finally:
         executor.shutdown(cancel_futures=True)
+
+
+def meanwhile(do: Callable[[], Result]) -> Callable[[], Result]:
+    """Begin a piece of work on a thread of its own; what is returned waits for it, and gives its result or its error.
+
+    Where nobody asks, nobody waits.
+    """
+    found: Future[Result] = Future()
+
+    def work() -> None:
+        try:
+            found.set_result(do())
+        except BaseException as error:  # whoever asks gets it
+            found.set_exception(error)
+
+    Thread(target=work, name="fatigue", daemon=True).start()
+    return found.result

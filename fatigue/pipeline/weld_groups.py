@@ -13,6 +13,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.side_by_side import in_order
 from fatigue.readers.body import Mesh, Modes
+from fatigue.readers.force_check import NotRegular
 from fatigue.readers.force_pieces import ForcePieces
 from fatigue.readers.forces import check_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
 from fatigue.readers.spare_memory import give_back
@@ -88,7 +89,8 @@ def check_forces(groups: WeldGroups, threads: int | None) -> None:
     ------
     DataError : the mistakes of the first portion of a group that has any
     """
-    in_order(partial(_check_portion, groups), range(len(groups.portions)), threads)
+    if not _are_regular(groups, threads):
+        in_order(partial(_check_portion, groups), range(len(groups.portions)), threads)
     give_back()
 
 
@@ -110,6 +112,20 @@ def forces_of_portion(groups: WeldGroups, number: int) -> tuple[LineStack, NDArr
     )
     of_file = {"unknown_column"} if number else set()  # told with the first portion
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
+
+
+def _are_regular(groups: WeldGroups, threads: int | None) -> bool:
+    """Whether one pass over nodal forces in their own order shows that there is nothing wrong with them."""
+    if isinstance(groups.forces, SideForces):
+        return False
+    body = groups.body
+    check = groups.forces.regular_check(body.lines, body.modes, body.case.body.ignore_modes, strict=body.strict)
+    if check is None:
+        return False
+    try:
+        return check.covers(in_order(check.runs, range(len(check.rows)), threads))
+    except NotRegular:
+        return False
 
 
 def _check_portion(groups: WeldGroups, number: int) -> None:

@@ -75,8 +75,10 @@ def _screening(
     return Screening(
         share=share,
         proves_worst=proves_worst,
-        extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue), loads, threads)),
-        records=tuple(in_order(lambda load: load.single or fast_record(load.counted.q, scratch), loads, threads)),
+        extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue, load.known), loads, threads)),
+        records=tuple(
+            in_order(lambda load: load.single or fast_record(load.counted.q, scratch, load.known), loads, threads)
+        ),
     )
 
 

@@ -16,7 +16,7 @@ from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, u
 Surface: TypeAlias = Literal["top", "bottom", "both"]
 KINDS = ("normal", "interface", "rigid")
 SURFACES = ("top", "bottom", "both")
-CHECKED_TOGETHER = 64  # weld lines
+CHECKED_TOGETHER = 256  # weld lines
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,6 +10,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -21,6 +22,9 @@ from fatigue.errors import DataError
 from fatigue.readers.files import DAMAGE, Columns, csv_batches, csv_names, damaged
 from fatigue.readers.forces import COMPONENTS, open_nodal_forces
 from fatigue.readers.tables import Table, codes_of, named
+
+Rows = TypeVar("Rows", pa.Table, pa.RecordBatch)
+Batches: TypeAlias = Callable[[int, int], Iterator[pa.RecordBatch]]
 
 CODE, ROW = "weld among all", "row of the file"  # columns of a piece; no names of the neutral format
 BATCH = 200_000  # rows in memory together while a file is parted
@@ -45,15 +49,19 @@ class WeldCodes:
 
     def of(self, welds: pa.ChunkedArray) -> NDArray[np.int32]:
         """Numbers of a column of names, (r,); -1 where there is no such weld."""
-        numbers = [known[place] for known, place in self._coded(welds)]
+        numbers = [known[place] for known, place in self.coded(welds)]
         return numbers[0] if len(numbers) == 1 else np.concatenate([np.zeros(0, dtype=np.int32), *numbers])
 
     def among(self, welds: pa.ChunkedArray) -> NDArray[np.int32]:
         """Distinct numbers in a column of names, ascending; -1 where there is a name that no weld has."""
-        present = [known[np.bincount(place, minlength=known.size) > 0] for known, place in self._coded(welds)]
+        present = [np.zeros(0, dtype=np.int32)]
+        for known, place in self.coded(welds):
+            used = np.zeros(known.size, dtype=np.bool_)
+            used[place] = True
+            present.append(known[used])
         return np.unique(np.concatenate(present))
 
-    def _coded(self, welds: pa.ChunkedArray) -> Iterator[tuple[NDArray[np.int32], NDArray[np.integer]]]:
+    def coded(self, welds: pa.ChunkedArray) -> Iterator[tuple[NDArray[np.int32], NDArray[np.integer]]]:
         """Numbers of the distinct names of each chunk, -1 last, and the place of each row's name among them."""
         if not pt.is_dictionary(welds.type):
             welds = welds.cast(pa.string()).dictionary_encode()
@@ -81,6 +89,8 @@ class Source:
     pieces : the pieces in which each group has rows
     read : decodes a piece: its columns by trimmed name, the weld as ``CODE``, and the row in the file as ``ROW``
     nothing : the same columns without rows
+    batches : decodes the columns of a piece as they are in the file, so many rows at a time, by several threads at
+        once; without it the rows are not in the order of the file
     """
 
     header: Table
@@ -88,6 +98,7 @@ class Source:
     pieces: tuple[tuple[int, ...], ...]
     read: Callable[[int], pa.Table]
     nothing: pa.Table
+    batches: Batches | None = None
 
 
 def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
@@ -110,7 +121,7 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
     for i in range(len(rows)):
         column = _decoded(path, partial(file.read_row_group, i, [weld])).column(0)
         present = welds.among(column)
-        if present[0] < 0:
+        if present.size and present[0] < 0:
             strays.look(column, welds.of(column), int(first[i]))
         for group in np.unique(welds.group[present[present >= 0]]):
             pieces[group].append(i)
@@ -120,8 +131,14 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
         table = _decoded(path, partial(file.read_row_group, piece, list(columns)))
         return _coded(_trimmed(table, columns), welds, int(first[piece]))
 
+    def batches(piece: int, at_once: int) -> Iterator[pa.RecordBatch]:
+        own = pq.ParquetFile(path, metadata=file.metadata, read_dictionary=[weld], pre_buffer=False)
+        for batch in own.iter_batches(at_once, [piece], list(columns), use_threads=False):
+            batch.validate(full=True)
+            yield _trimmed(batch, columns)
+
     nothing = _coded(_trimmed(file.schema_arrow.empty_table().select(list(columns)), columns), welds, 0)
-    return Source(header, rows, tuple(map(tuple, pieces)), read, nothing)
+    return Source(header, rows, tuple(map(tuple, pieces)), read, nothing, batches)
 
 
 def parted(path: Path, welds: WeldCodes, scratch: Path) -> Source:
@@ -231,8 +248,8 @@ def _parquet_batches(path: Path, columns: Mapping[str, str]) -> Iterator[pa.Tabl
         raise DataError(damaged(path, error)) from None
 
 
-def _trimmed(table: pa.Table, columns: Mapping[str, str]) -> pa.Table:
-    return table.rename_columns([columns[name] for name in table.column_names])
+def _trimmed(table: Rows, columns: Mapping[str, str]) -> Rows:
+    return table.rename_columns([columns[name] for name in table.schema.names])
 
 
 def _coded(rows: pa.Table, welds: WeldCodes, first: int) -> pa.Table:

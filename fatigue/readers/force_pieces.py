@@ -9,9 +9,12 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from fatigue.readers.body import Modes
 from fatigue.readers.files import Columns
+from fatigue.readers.force_check import RegularCheck, regular_check
 from fatigue.readers.force_order import CODE, ROW, Source, WeldCodes, in_place, parted, weld_codes
 from fatigue.readers.forces import open_nodal_forces
+from fatigue.readers.line_file import LineFile
 from fatigue.readers.tables import Table
 
 ROWS_KEPT = 2_500_000  # decoded, of 50 to 70 bytes each
@@ -71,6 +74,17 @@ class ForcePieces:
 
         columns = Columns(header.columns.names, header.columns.kinds, rows.num_rows, read, rows.column(ROW).to_numpy())
         return Table(self._path, columns, header.position)
+
+    def regular_check(
+        self, lines: LineFile, modes: Modes, ignore_modes: Collection[int], *, strict: bool
+    ) -> RegularCheck | None:
+        """Check of the file in its own order, see `force_check`; None where it is not of that form.
+
+        ``lines`` are those of the welds of all groups.
+        """
+        if len(self._welds.groups) == 1:
+            return None
+        return regular_check(self._source, self._welds, lines, modes, ignore_modes, strict=strict)
 
     def _rows(self, group: int) -> pa.Table:
         """Rows of a group with their ``CODE`` and ``ROW``.

@@ -179,7 +179,7 @@ def _grid(keys: _Keys, lines: LineStack, modes: Modes, ignore_modes: Collection[
         axis = (slice(None), np.newaxis) if at.step else (np.newaxis, slice(None))
         if np.any(values.reshape(shape) != values[at][axis]):
             return None
-    station = _stations(names, weld[of_node], node[of_node], lines)
+    station = stations_of(names, weld[of_node], node[of_node], lines)
     column = _positions(modes.mode, mode[of_mode])
     ignored = column < 0
     if not np.isin(mode[of_mode][ignored], list(ignore_modes)).all():
@@ -217,7 +217,7 @@ def _slots(
     table.known("weld", names, code, set(lines.weld), "the welds")
     column = _mode_columns(table, mode, modes, ignore_modes)
     table.refuse()
-    station = _stations(names, code, node, lines)
+    station = stations_of(names, code, node, lines)
     if (stray := station < 0).any():
         row = int(stray.argmax())
         what = f"node {node[row]} is not on the line of weld {names[code[row]]}; {np.count_nonzero(stray)} rows of "
@@ -250,7 +250,7 @@ def _mode_columns(
     return column
 
 
-def _stations(
+def stations_of(
     names: Sequence[str], code: NDArray[np.int32], node: NDArray[np.int64], lines: LineStack
 ) -> NDArray[np.int32]:
     """Position of each row's (weld, node) along all lines one after another (r,), -1 where the line lacks the node."""

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from fatigue.pipeline.side_by_side import in_order
+from fatigue.pipeline.side_by_side import in_order, meanwhile
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5, None])
@@ -55,3 +55,15 @@ def test_the_error_of_the_first_item_comes_out(threads, error):
     with pytest.raises(error, match="1"):
         in_order(fail, range(100), threads)
     assert len(begun) < 20
+
+
+def test_work_begun_meanwhile_gives_its_result_or_its_error_to_who_asks():
+    """It runs beside the caller; an error nobody asks for troubles nobody."""
+    begun = threading.Event()
+    answer = meanwhile(lambda: begun.wait(60) and 42)
+    begun.set()
+    assert answer() == 42
+    failed = meanwhile(lambda: 1 // 0)
+    with pytest.raises(ZeroDivisionError):
+        failed()
+    meanwhile(lambda: 1 // 0)
