@@ -7,7 +7,7 @@ is in doubt, or one of the few reversals that are left at the end of the record,
 from the beginning.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +37,7 @@ class Exact(NamedTuple):
 
     membrane: Floats
     bending: Floats
-    q: Numbers
+    q: Any  # an array in compiled code
 
 
 @compiled()

@@ -14,7 +14,8 @@ product. Three steps follow per point and surface:
 Where single precision cannot tell which of two neighbouring samples is the extreme, or which of two ranges is the
 larger one, double precision does in that chunk, see `rainflow_doubt`. The few surfaces of which that is not enough are
 counted again in the same way in double precision, all of a call together. Points in high mean tension, laws with knees,
-and short records go to `count_block_long`. The loops are in `rainflow_loops` and `rainflow_power`;
+and short records go to `count_block_long`. The loop over time is in `rainflow_run`, those over samples
+are in `rainflow_loops` and `rainflow_power`;
 `rainflow_simd` has steps 1 and 2 in vector instructions, and without that file the plain loops do the same, bit for
 bit.
 
@@ -33,26 +34,24 @@ from fatigue.life import damage
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue, mean_and_covariance
 from fatigue.life.rainflow import BlockCount, not_finite
-from fatigue.life.rainflow_doubt import Exact, count_chunk_exactly
+from fatigue.life.rainflow_doubt import Exact
 from fatigue.life.rainflow_long import count_block_long
-from fatigue.life.rainflow_loops import count_chunk
 from fatigue.life.rainflow_power import PowerLaw, power_law
 from fatigue.life.rainflow_product import (
     block_for,
-    multiply,
     prepared_samples,
     prepared_shapes,
     samples_between,
-    samples_of,
     space_for_samples,
 )
-from fatigue.life.rainflow_state import PAD, Stage, State, fresh_state, room_for
+from fatigue.life.rainflow_run import Run, count_in_memory, count_record
+from fatigue.life.rainflow_state import PAD, fresh_state, room_for
 from fatigue.life.spool import Samples, Spool
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-POINTS = 48  # counted at a time: the stress of more would not stay in the cache
+POINTS = 48  # counted at a time, twice as many fill whole tiles; the stress of more would not stay in the cache
 CHUNK = 4096  # samples recovered at a time, a multiple of `rainflow_product.STEP`
 RESIDUE = 512  # reversals of a point that may wait for the next chunk
 
@@ -255,34 +254,24 @@ def _count(
         state.sides["doubtful"] = ~block.trusted
     else:
         state.sides["mean"] = block.mean / block.scale
-    pieces = [slice(first, first + POINTS) for first in range(0, len(wanted), POINTS)]
-    over = 1.0 if single else record.scale
-    both = (np.concatenate([block.membrane[p] / over, block.bending[p] / over]) for p in pieces)
-    shapes = [prepared_shapes(s.astype(precision)) for s in both]
-    states = [State._make(a[piece] for a in state) for piece in pieces]
+    exact = Exact(block.membrane / record.scale, block.bending / record.scale, record.exact)
+    shapes = (block.membrane, block.bending) if single else (exact.membrane, exact.bending)
+    pieces = (slice(first, first + POINTS) for first in range(0, len(wanted), POINTS))
+    in_pieces = np.concatenate([part[piece] for piece in pieces for part in shapes])
     rows, width = 2 * min(len(wanted), POINTS), 1 + min(t, CHUNK) + 1 + PAD
-    room = room_for(width, RESIDUE, precision)
-    stress = block_for(rows, width, precision)
-    space = space_for_samples(modes, min(t, CHUNK), precision)
-    doubts = np.empty((rows, 2), np.int64)
-    for first in range(0, t, CHUNK):
-        columns = slice(first, min(first + CHUNK, t))
-        samples = columns.stop - first
-        stage = Stage(first == 0, columns.stop == t, recurs, flat)
-        exact = None if single else record.exact[:, columns]
-        if exact is None:
-            q = samples_of(record.q, columns.start, columns.stop, space)
-        else:
-            q = prepared_samples(exact, space)
-        for piece, laid_out, state_of_piece in zip(pieces, shapes, states, strict=True):
-            multiply(laid_out, q, stress)
-            some = stress[: 2 * len(state_of_piece.sides)]
-            found = count_chunk(some, samples, stage, rules, state_of_piece, room, doubts)
-            if found:
-                exact = record.exact[:, columns] if exact is None else exact
-                S_m, S_b = (part[piece] / record.scale for part in (block.membrane, block.bending))
-                known = Exact(S_m, S_b, exact)
-                count_chunk_exactly(some, samples, stage, rules, state_of_piece, room, known, doubts[:found])
+    run = Run(
+        shapes=prepared_shapes(in_pieces.astype(precision)),
+        stress=block_for(rows, width, precision),
+        space=space_for_samples(modes, min(t, CHUNK), precision),
+        room=room_for(width, RESIDUE, precision),
+        recurs=recurs,
+        flat=flat,
+        sizes=(CHUNK, POINTS),
+    )
+    q = record.q if single else record.exact
+    compiled_loop = isinstance(q, np.ndarray) and q.ndim == 3 and isinstance(record.exact, np.ndarray)
+    count_all = count_in_memory if compiled_loop else count_record
+    count_all(q, exact, rules, state, run)
     return state.sides
 
 

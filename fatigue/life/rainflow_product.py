@@ -1,16 +1,18 @@
 """The stress of some points in some samples: the product of their shapes with the modal coordinates.
 
 Both are laid out for the product first, the shapes once for all samples and the samples once for all points. In single
-precision with AVX-512 the product is that of `rainflow_simd`, else that of BLAS; they differ by rounding at most.
+precision with AVX-512 the product is that of `rainflow_simd`, of tiles (n / 12, m, 12) and panels (t / 32, m, 32), else
+that of BLAS, of (n, m) and (m, t); they differ by rounding at most. Compiled code can call the former only.
 """
 
 import importlib.util
 from typing import Any
 
 import numpy as np
+from numba.extending import overload
 from numpy.typing import NDArray
 
-from fatigue.life.spool import Spool
+from fatigue.life.spool import Samples
 
 Numbers = NDArray[np.floating]
 
@@ -45,16 +47,21 @@ def prepared_samples(q: Numbers, into: Numbers) -> Numbers:
     return into
 
 
+def shapes_between(laid_out: Numbers, first: int, end: int) -> Numbers:
+    """Take some shapes of those that were laid out, from the first one of a tile on."""
+    return laid_out[first // simd.TILE : -(-end // simd.TILE)] if laid_out.ndim == 3 else laid_out[first:end]
+
+
 def samples_between(laid_out: Numbers, first: int, end: int) -> Numbers:
     """Take some samples of a record that was laid out, from a multiple of ``STEP`` on."""
-    return laid_out[first // STEP : -(-end // STEP)] if in_tiles(laid_out.dtype.type) else laid_out[:, first:end]
+    return laid_out[first // STEP : -(-end // STEP)] if laid_out.ndim == 3 else laid_out[:, first:end]
 
 
-def samples_of(record: Numbers | Spool, first: int, end: int, into: Numbers) -> Numbers:
-    """Give some samples of a record as `multiply` reads them: part of one laid out in memory, or read from disk."""
-    if isinstance(record, Spool):
-        return prepared_samples(record[:, first:end], into)
-    return samples_between(record, first, end)
+def samples_of(record: Samples, first: int, end: int, into: Numbers) -> Numbers:
+    """Give some samples of a record as `multiply` reads them: part of one laid out, or laid out now in another type."""
+    if isinstance(record, np.ndarray) and record.dtype == into.dtype:
+        return samples_between(record, first, end)
+    return prepared_samples(record[:, first:end], into)
 
 
 def block_for(shapes: int, width: int, precision: type[np.floating]) -> Numbers:
@@ -65,7 +72,24 @@ def block_for(shapes: int, width: int, precision: type[np.floating]) -> Numbers:
 
 def multiply(shapes: Numbers, q: Numbers, stress: Numbers) -> None:
     """Write the product of what was laid out into the columns 1 to t of a block; the next 31 may get anything."""
-    if in_tiles(stress.dtype.type):
+    if shapes.ndim == 3:
         simd.multiply(shapes, q, stress)
     else:
         np.matmul(shapes, q, out=stress[: len(shapes), 1 : q.shape[1] + 1])
+
+
+@overload(shapes_between, strict=False)
+def _shapes_between(laid_out: Any, first: Any, end: Any) -> Any:
+    tile = simd.TILE
+    return lambda laid_out, first, end: laid_out[first // tile : -(-end // tile)]
+
+
+@overload(samples_of, strict=False)
+def _samples_of(record: Any, first: Any, end: Any, into: Any) -> Any:
+    return lambda record, first, end, into: record[first // STEP : -(-end // STEP)]
+
+
+@overload(multiply, strict=False)
+def _multiply(shapes: Any, q: Any, stress: Any) -> Any:
+    product = simd.multiply
+    return lambda shapes, q, stress: product(shapes, q, stress)  # noqa: PLW0108

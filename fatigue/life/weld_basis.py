@@ -34,6 +34,7 @@ from fatigue.life.rainflow_product import (
     space_for_samples,
 )
 from fatigue.life.screening import ROUNDING, ModalExtent, size_bound
+from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -200,14 +201,34 @@ def _in_time(reduced: _Reduced, record: Record, extent: ModalExtent) -> Floats:
     multiply(B, samples_of(record.q, start, samples if before else 1, space), u)
     u[:, 0] = u[:, 1 + before - start]
     room = np.empty((POINTS, u.shape[1]), np.float32)
+    add_all = add_in_memory if isinstance(record.q, np.ndarray) and record.q.ndim == 3 else add_record
+    add_all(record.q, B, reduced.shapes, reduced.begin, (samples, width), u, space, room, found)
+    found /= 1.0 - (width + 2) * SINGLE  # sums of a chunk in single precision
+    return found.reshape(-1, 2, 6)
+
+
+def add_record(
+    q: Samples,
+    histories: Singles,
+    shapes: Singles,
+    begin: Rows,
+    sizes: tuple[int, int],
+    u: Singles,
+    space: Singles,
+    room: Singles,
+    found: Floats,
+) -> None:
+    """Add what `add_sums` finds in a record, ``sizes`` samples long, so many of them at a time.
+
+    As in `rainflow_run` the loop is compiled where the record and the product allow that: `add_in_memory`.
+    """
+    samples, width = sizes
     for start in range(0, samples, width):
         end = min(start + width, samples)
         columns = 1 + end - start
-        multiply(B, samples_of(record.q, start, end, space), u)
-        add_sums(u, columns, reduced.shapes, reduced.begin, room, found)
+        multiply(histories, samples_of(q, start, end, space), u)
+        add_sums(u, columns, shapes, begin, room, found)
         u[:, 0] = u[:, columns - 1]
-    found /= 1.0 - (width + 2) * SINGLE  # sums of a chunk in single precision
-    return found.reshape(-1, 2, 6)
 
 
 @compiled("reassoc", "nsz", "nnan", "contract")
@@ -246,6 +267,9 @@ def add_sums(u: Singles, columns: int, shapes: Singles, begin: Rows, room: Singl
                 sums = sums_of_steps(stress[row, :columns])
                 for k in range(len(sums)):
                     found[first + row, k] += sums[k]
+
+
+add_in_memory = compiled()(add_record)
 
 
 def _leading_directions(X: Floats) -> Floats:

@@ -14,7 +14,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, NumericalError
-from fatigue.life import rainflow_fast, rainflow_loops, rainflow_state
+from fatigue.life import rainflow_fast, rainflow_loops, rainflow_run, rainflow_state
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.rainflow import BlockCount, count_block
 from fatigue.life.rainflow_fast import count_block_fast, record_of
@@ -203,13 +203,30 @@ def test_modal_coordinates_need_not_be_in_memory(yield_MPa: float | None, tmp_pa
         np.testing.assert_array_equal(getattr(array, name), getattr(slices, name))
 
 
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("points", [3, 150])
+def test_compiled_and_interpreted_loop_count_the_same_bytes(
+    points: int, residue: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Over several chunks and pieces, the last ones shorter, and with what is in doubt."""
+    S_m, S_b, q = modal_block(9, points=max(points, 7), t=9000)
+    S_m, S_b = S_m[-points:], S_b[-points:]
+    size, ratio, record = np.ones(points), np.full((points, 2), 0.3), record_of(q.astype(np.float32))
+    choices = {"uses_bending_ratio": True, "residue": residue, "yield_MPa": None, "mean_stress": False}
+    compiled = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    monkeypatch.setattr(rainflow_fast, "count_in_memory", rainflow_run.count_record)
+    interpreted = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    for name in BlockCount.__slots__:
+        np.testing.assert_array_equal(getattr(compiled, name), getattr(interpreted, name))
+
+
 def test_few_surfaces_are_counted_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nearly all of what rounding may have decided is settled within its chunk."""
     S_m, S_b, q = modal_block(7, points=500, t=20_000)
     size, ratio, record = np.ones(500), np.full((500, 2), 0.3), record_of(q.astype(np.float32))
     choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
     again, in_doubt = [], []
-    count, exactly = rainflow_fast._count, rainflow_fast.count_chunk_exactly
+    count, exactly = rainflow_fast._count, rainflow_run.count_chunk_exactly
 
     def counting(block: object, wanted: NDArray[np.bool_], *rest: object) -> NDArray[np.void]:
         again.append(int(wanted.sum()))
@@ -220,7 +237,8 @@ def test_few_surfaces_are_counted_again(monkeypatch: pytest.MonkeyPatch) -> None
         exactly(*args)
 
     monkeypatch.setattr(rainflow_fast, "_count", counting)
-    monkeypatch.setattr(rainflow_fast, "count_chunk_exactly", settling)
+    monkeypatch.setattr(rainflow_run, "count_chunk_exactly", settling)
+    monkeypatch.setattr(rainflow_fast, "count_in_memory", rainflow_run.count_record)
     count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
     assert sum(in_doubt) > 5
     assert again[1:] == [4]  # the faces that nearly cancel, with which single precision is not trusted
@@ -233,7 +251,7 @@ def test_a_chunk_in_doubt_counts_as_in_double_precision(
 ) -> None:
     """Chunks of some points taken for doubtful at random, so that both ways follow each other; with mean stresses."""
     monkeypatch.setattr(rainflow_fast, "CHUNK", chunk)
-    count, rng = rainflow_fast.count_chunk, np.random.default_rng(3)
+    count, rng = rainflow_run.count_chunk, np.random.default_rng(3)
 
     def doubting(stress: Any, samples: Any, stage: Any, law: Any, state: Any, room: Any, doubts: Any) -> int:
         sides, waiting = state.sides.copy(), state.waiting.copy()
@@ -249,7 +267,8 @@ def test_a_chunk_in_doubt_counts_as_in_double_precision(
         doubts[: len(chosen)] = chosen
         return len(chosen)
 
-    monkeypatch.setattr(rainflow_fast, "count_chunk", doubting)
+    monkeypatch.setattr(rainflow_run, "count_chunk", doubting)
+    monkeypatch.setattr(rainflow_fast, "count_in_memory", rainflow_run.count_record)
     for seed in range(3):
         S_m, S_b, q = modal_block(seed, t=900)
         assert_same(*both_counts(S_m, S_b, (q + 5.0).astype(np.float32), residue=residue))

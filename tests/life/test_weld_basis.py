@@ -123,6 +123,18 @@ def test_chunks_and_blocks_leave_no_seam(monkeypatch: pytest.MonkeyPatch) -> Non
         assert one == pytest.approx(other, rel=1e-3)
 
 
+def test_compiled_and_interpreted_loop_find_the_same_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To the last bit, in several chunks and welds."""
+    q = resonances(12, 5000, 3)
+    S_m, S_b = smooth_weld(q, 20, 4)
+    extent, record, rows = modal_extent(q, "repeat"), record_of(q), np.arange(20)
+    bases = weld_bases(S_m, S_b, np.repeat([0, 1, 2], [9, 4, 7]), [extent])
+    compiled = reduced_bound(bases, rows, record, extent)
+    monkeypatch.setattr(weld_basis, "add_in_memory", weld_basis.add_record)
+    for one, other in zip(compiled, reduced_bound(bases, rows, record, extent), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_every_station_has_its_own_bound() -> None:
     """Whatever other stations and welds are asked for with it."""
     q = resonances(12, 1000, 5)
