@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.rainflow import compiled
+from fatigue.compiled import compiled
 
 Floats = NDArray[np.float64]
 

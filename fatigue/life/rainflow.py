@@ -6,21 +6,18 @@ ranges. `count_block` is the seam for a faster kernel.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import NamedTuple, ParamSpec, TypeVar, cast
+from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.errors import CaseError, NumericalError, Problem
 from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import M_SS
 from fatigue.life.history import Residue
 
-P = ParamSpec("P")
-R = TypeVar("R")
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -237,15 +234,6 @@ def not_finite(where: str) -> NumericalError:
     return NumericalError(
         Problem("not_finite", where, "the stress is NaN or infinite", "Look for such values in the input")
     )
-
-
-def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Compile at the first call, keep the result on disk, run outside the GIL; ``fastmath``: flags of LLVM."""
-
-    def compile_lazily(function: Callable[P, R]) -> Callable[P, R]:
-        return cast(Callable[P, R], njit(cache=True, nogil=True, error_model="numpy", fastmath=set(fastmath))(function))
-
-    return compile_lazily
 
 
 @compiled()

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.rainflow import compiled
+from fatigue.compiled import compiled
 from fatigue.life.rainflow_loops import (
     add_cycles,
     append_last,

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue
 from fatigue.life.rainflow import (
@@ -29,7 +30,6 @@ from fatigue.life.rainflow import (
     block_count,
     buffers_for,
     close_cycles,
-    compiled,
     nothing_counted,
     plain,
     refuse_not_finite,

@@ -7,7 +7,7 @@ import numpy as np
 from numba.extending import overload
 from numpy.typing import NDArray
 
-from fatigue.life.rainflow import compiled
+from fatigue.compiled import compiled
 from fatigue.life.rainflow_power import PowerLaw, add_powers, add_up, raise_to_slope
 from fatigue.life.rainflow_state import PAD, Room, Stage, State
 

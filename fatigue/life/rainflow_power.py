@@ -15,8 +15,8 @@ from numba.extending import intrinsic
 from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.life import damage
-from fatigue.life.rainflow import compiled
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating]

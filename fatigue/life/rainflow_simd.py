@@ -19,7 +19,7 @@ from numba.core import cgutils, config
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from fatigue.life.rainflow import compiled
+from fatigue.compiled import compiled
 
 Numbers = NDArray[np.floating]
 Singles = NDArray[np.float32]

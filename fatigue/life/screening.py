@@ -26,11 +26,11 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage, ratio_factor
 from fatigue.life.forms import FormPair, face_forms, form_pair
 from fatigue.life.history import Residue, cached_pieces, mean_and_covariance
-from fatigue.life.rainflow import compiled
 from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]

@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.rainflow import compiled
+from fatigue.compiled import compiled
 from fatigue.life.rainflow_fast import Record
 from fatigue.life.rainflow_product import (
     STEP,

@@ -130,7 +130,8 @@ def _refuse_overflow(lines: LineStack, solved: StructuralStress, forces: NDArray
 
 
 def _is_finite(stress: StructuralStress, nodes: slice = slice(None)) -> bool:
-    return all(np.isfinite(getattr(stress, part.name)[nodes]).all() for part in fields(StructuralStress))
+    parts = [getattr(stress, part.name)[nodes] for part in fields(StructuralStress)]
+    return all(-np.inf < part.min(initial=0.0) and part.max(initial=0.0) < np.inf for part in parts)  # nor NaN
 
 
 def _end_warnings(unresolved: NDArray[np.int64], where: str) -> list[Problem]:

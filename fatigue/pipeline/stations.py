@@ -50,8 +50,9 @@ def stations_of(lines: LineStack, solved: LineStress, weld_names: Sequence[str])
     """Lay out the nodes of solved line parts, which follow each other as in the register of the welds."""
     place = {name: i for i, name in enumerate(weld_names)}
     line = line_of_node(lines)
-    parts = [(getattr(solved.raw, part.name), getattr(solved.treated, part.name)) for part in fields(StructuralStress)]
-    changed = np.flatnonzero(np.logical_or.reduce([(raw != treated).any(axis=1) for raw, treated in parts]))
+    names = [part.name for part in fields(StructuralStress)]
+    parts = [(getattr(solved.before, name), getattr(solved.treated, name)[solved.mended]) for name in names]
+    changed = np.flatnonzero(np.logical_or.reduce([(before != after).any(axis=1) for before, after in parts]))
     return Stations(
         weld=np.array([place[name] for name in lines.weld])[line],
         part=lines.part[line],
@@ -63,8 +64,8 @@ def stations_of(lines: LineStack, solved: LineStress, weld_names: Sequence[str])
         at_end=solved.at_end,
         at_corner=solved.at_corner,
         treated=solved.treated,
-        raw_rows=changed,
-        raw=StructuralStress(*(raw[changed] for raw, _ in parts)),
+        raw_rows=solved.mended[changed],
+        raw=StructuralStress(*(before[changed] for before, _ in parts)),
     )
 
 

@@ -8,6 +8,8 @@ matrices together it is one matrix product: that of their weights with the produ
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
+
 BLOCK_POINTS = 32  # their products of pairs, of a hundred modes in single precision, stay in the second-level cache
 
 
@@ -26,10 +28,20 @@ def weights_of_pairs(modes: int) -> NDArray[np.float64]:
 def pair_forms(shapes: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
     """Evaluate quadratic forms given by their weights (p, pairs) for all rows of ``shapes`` (n, m): (p, n)."""
     forms = np.empty((len(weights), len(shapes)), dtype=weights.dtype)
-    first, second = pairs(shapes.shape[1])
     for begin in range(0, len(shapes), BLOCK_POINTS):
         block = shapes[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
-        products = block.take(first, axis=0)
-        products *= block.take(second, axis=0)
+        products = np.empty((weights.shape[1], block.shape[1]), dtype=weights.dtype)
+        _multiply_pairs(block, products)
         forms[:, begin : begin + BLOCK_POINTS] = weights @ products
     return forms
+
+
+@compiled()
+def _multiply_pairs(block: NDArray[np.float32], products: NDArray[np.float32]) -> None:
+    """Write the products of all pairs of the modes of some points, (m, n), as (pairs, n), in the order of `pairs`."""
+    pair = 0
+    for first in range(len(block)):
+        for second in range(first, len(block)):
+            for point in range(block.shape[1]):
+                products[pair, point] = block[first, point] * block[second, point]
+            pair += 1

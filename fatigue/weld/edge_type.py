@@ -11,10 +11,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.errors import Problem
 from fatigue.weld.line import Lines, WeldLine, is_closed, neighbours
 from fatigue.weld.line_geometry import step_lengths
 from fatigue.weld.line_load import line_load
+
+Floats = NDArray[np.float64]
 
 ZIGZAG_SHARE = 0.5  # of the line load as linear edges; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing
 ZIGZAG_DROP = 0.3  # of it left as parabolic edges; white noise over six components keeps more than half
@@ -68,7 +71,8 @@ def _norms(line: Lines, load: NDArray[np.float64]) -> tuple[NDArray[np.float64],
     to_last = to_next[before]
     a = to_next / (to_next + to_last)  # weight of the value before
     b = 1 - a
-    square, with_next, across = _dots(load.reshape(len(load), -1), line.begin, before, after)
+    square, with_next, across = dots = np.empty((3, len(load)))
+    _dots(np.ascontiguousarray(load).reshape(len(load), -1), before, after, dots)
     jump = square + a**2 * square[before] + b**2 * square[after]
     jump -= 2 * (a * with_next[before] + b * with_next - a * b * across)
     is_open = ~is_closed(line)
@@ -77,17 +81,17 @@ def _norms(line: Lines, load: NDArray[np.float64]) -> tuple[NDArray[np.float64],
     return zigzag, norm
 
 
-def _dots(
-    load: NDArray[np.float64], begin: NDArray[np.int64], before: NDArray[np.int64], after: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Products of each node's values, (n, k), with themselves, of them and the next, of the last and the next, (n,)."""
-    products = "nk,nk->n"
-    square, with_next, across = np.zeros((3, len(load)))
-    np.einsum(products, load, load, out=square)
-    np.einsum(products, load[:-1], load[1:], out=with_next[:-1])
-    np.einsum(products, load[:-2], load[2:], out=across[1:-1])
-    first, last = begin[:-1], begin[1:] - 1
-    with_next[last] = np.einsum(products, load[last], load[first])
-    ends = np.concatenate([first, last])
-    across[ends] = np.einsum(products, load[before[ends]], load[after[ends]])
-    return square, with_next, across
+@compiled("reassoc", "contract")  # sums in vector lanes
+def _dots(load: Floats, before: NDArray[np.int64], after: NDArray[np.int64], dots: Floats) -> None:
+    """Write products of each node's values, (n, c), with themselves, of them and the next, of the last and the next.
+
+    ``dots`` is (3, n).
+    """
+    for i in range(len(load)):
+        mine, last, following = load[i], load[before[i]], load[after[i]]
+        square = with_next = across = 0.0
+        for c in range(load.shape[1]):
+            square += mine[c] * mine[c]
+            with_next += mine[c] * following[c]
+            across += last[c] * following[c]
+        dots[0, i], dots[1, i], dots[2, i] = square, with_next, across

@@ -68,6 +68,7 @@ def step_lengths(line: Lines) -> NDArray[np.float64]:
     return steps
 
 
+@once
 def arc_length(line: Lines) -> NDArray[np.float64]:
     """Arc length of each node from the first of its line, (n,) [mm]."""
     steps = step_lengths(line)

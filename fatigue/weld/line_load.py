@@ -6,14 +6,13 @@ The work-equivalent nodal forces of a line load f(s) interpolated like the edges
 first would lose a factor on curved lines.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solveh_banded
-from scipy.sparse import csr_array, triu
+from scipy.sparse import csr_array, vstack
 
+from fatigue.weld.banded import solve_banded
 from fatigue.weld.line import Lines, end_lengths, is_closed, line_of_node
 from fatigue.weld.line_geometry import GAUSS_POINT, GAUSS_WEIGHT, arc_length, edge_derivative, edge_nodes, edge_points
 
@@ -34,34 +33,12 @@ def line_load(line: Lines, nodal: NDArray[np.floating]) -> NDArray[np.float64]:
     """Solve ``A f = F`` for the line load, (n, ...) [N/mm or N], of nodal forces or moments, (n, ...) [N or N mm].
 
     A is symmetric, positive definite, banded and, scaled to a unit diagonal, has eigenvalues in [0.5, 1.5] for any
-    spacing: a plain banded Cholesky factorisation needs no regularisation. Lines of one band width are solved together.
+    spacing: a plain banded factorisation needs no regularisation. What is returned is contiguous.
     """
-    matrix, right_sides = line_load_matrix(line), nodal.reshape(line.node.size, -1)
-    order = _band_order(line)
-    width = _band_width(line, matrix, order)[line_of_node(line)]
-    if np.all(width == width[0]) and not is_closed(line).any():
-        return _solved(matrix, int(width[0]), right_sides).reshape(nodal.shape)
-    load: NDArray[np.float64] = np.empty(right_sides.shape, order="F")
-    for one in np.unique(width):
-        nodes = order[width[order] == one]
-        load[nodes] = _solved(matrix[nodes][:, nodes], int(one), right_sides[nodes])
+    order, right_sides = _band_order(line), np.ascontiguousarray(nodal).reshape(line.node.size, -1)
+    load = np.empty(right_sides.shape)
+    solve_banded(_band(line_load_matrix(line), order), order, line.begin, right_sides, load)
     return load.reshape(nodal.shape)
-
-
-def _solved(matrix: csr_array, width: int, right_sides: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Solve a system with so many bands above the diagonal, (n, k), Fortran order."""
-    upper = triu(matrix).tocoo()
-    band = np.zeros((width + 1, len(right_sides)))
-    band[width + upper.row - upper.col, upper.col] = upper.data
-    ordered = np.array(right_sides, dtype=np.float64, order="F")
-    solution: NDArray[np.float64] = solveh_banded(
-        band,
-        ordered,
-        overwrite_ab=True,
-        overwrite_b=True,
-        check_finite=False,  # readers refuse what is not
-    )
-    return solution
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,7 +81,7 @@ def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
     given = end_lengths(line)
     nodes, points = edge_nodes(line), edge_points(line)
     zones, at_end, unresolved = np.zeros((3, 2, line.node.size), dtype=bool)
-    means = []
+    of_means = []
     for side, end, is_corner in (
         (0, line.begin[:-1], np.atleast_1d(line.corner_start)),
         (1, line.begin[1:] - 1, np.atleast_1d(line.corner_end)),
@@ -122,11 +99,20 @@ def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
         unresolved[side, near[last_edge]] = True
         inside = distance[near] < of_edge
         weights = _integral_weights(nodes[inside, away], points[inside, away], (of_edge - distance[near])[inside])
-        means.append(_sums(line, nodes[inside, away], weights / of_edge[inside, np.newaxis], load))
+        of_means.append(_by_line(line, nodes[inside, away], weights / of_edge[inside, np.newaxis]))
     treated: NDArray[np.bool_] = np.logical_or(*zones)
-    share = zones[:, treated] / zones[:, treated].sum(axis=0)
-    mean = np.einsum("zt,zt...->t...", share, np.stack(means)[:, owner[treated]])
-    return EndTreatment(load, treated, mean, np.logical_or(*at_end), np.logical_or(*unresolved))
+    taken, node = np.nonzero(zones[:, treated])
+    share = 1.0 / zones[:, treated].sum(axis=0)[node]
+    number = taken * len(given) + owner[treated][node]  # of the mean: those of the first ends, then of the last ones
+    to_nodes = csr_array((share, (node, number)), (np.count_nonzero(treated), 2 * len(given)))
+    mean = to_nodes @ (vstack(of_means) @ load.reshape(line.node.size, -1))
+    return EndTreatment(
+        load=load,
+        treated=treated,
+        mean=np.asarray(mean).reshape(-1, *load.shape[1:]),
+        at_end=np.logical_or(*at_end),
+        unresolved=np.logical_or(*unresolved),
+    )
 
 
 def _band_order(line: Lines) -> NDArray[np.int64]:
@@ -139,13 +125,15 @@ def _band_order(line: Lines) -> NDArray[np.int64]:
     return order
 
 
-def _band_width(line: Lines, matrix: csr_array, order: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Count the bands above the diagonal of each line's part of A in that order, (k,)."""
-    place = np.argsort(order)
-    entries = matrix.tocoo()
-    width = np.zeros(line.begin.size - 1, dtype=np.int64)
-    np.maximum.at(width, line_of_node(line)[entries.row], np.abs(place[entries.row] - place[entries.col]))
-    return width
+def _band(matrix: csr_array, order: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Diagonals of A in that order as `solve_banded` takes them, (n, w + 1)."""
+    place, entries = np.argsort(order), matrix.tocoo()
+    row = place[entries.row]
+    below = row - place[entries.col]
+    lower = below >= 0
+    band = np.zeros((order.size, below.max() + 1))
+    band[row[lower], below[lower]] = entries.data[lower]
+    return band
 
 
 def _shape_functions(nodes: NDArray[np.int64], xi: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -171,14 +159,12 @@ def _integral_weights(
     return weights
 
 
-def _sums(
-    line: Lines, nodes: NDArray[np.int64], weights: NDArray[np.float64], load: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Weighted sums of the line load over the given nodes of each line, (k, ...)."""
-    at = _with_dummy_mid(nodes).ravel()
-    of_line = csr_array((weights.ravel(), (line_of_node(line)[at], np.arange(at.size))), (line.begin.size - 1, at.size))
-    sums: NDArray[np.float64] = of_line @ load[at].reshape(at.size, math.prod(load.shape[1:]))
-    return sums.reshape(-1, *load.shape[1:])
+def _by_line(line: Lines, nodes: NDArray[np.int64], weights: NDArray[np.float64]) -> csr_array:
+    """Weights of the nodes of some edges, ascending, (e, 3) each, in a sum over each line: (k, n)."""
+    at = _with_dummy_mid(nodes)
+    lines = line.begin.size - 1
+    end = 3 * np.cumsum(np.bincount(line_of_node(line)[at[:, 0]], minlength=lines))
+    return csr_array((weights.ravel(), at.ravel(), np.append(0, end)), (lines, line.node.size))
 
 
 def _local_coordinates(points: NDArray[np.float64], s: NDArray[np.float64]) -> NDArray[np.float64]:

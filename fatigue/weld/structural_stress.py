@@ -10,9 +10,12 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.weld.line import Lines
 from fatigue.weld.line_geometry import corners, local_axes
 from fatigue.weld.line_load import line_load, treat_ends
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,54 +33,72 @@ class StructuralStress:
     transverse_shear : mean shear stress through the plate
     """
 
-    membrane: NDArray[np.float64]
-    bending: NDArray[np.float64]
-    in_plane_shear: NDArray[np.float64]
-    twist_shear: NDArray[np.float64]
-    transverse_shear: NDArray[np.float64]
+    membrane: Floats
+    bending: Floats
+    in_plane_shear: Floats
+    twist_shear: Floats
+    transverse_shear: Floats
 
 
-def structural_stress(line: Lines, load: NDArray[np.float64]) -> StructuralStress:
+def structural_stress(line: Lines, load: Floats) -> StructuralStress:
     """Structural stress of a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
     return _of_section(local_axes(line), line.thickness, load)
 
 
-def _of_section(axes: NDArray[np.float64], t: NDArray[np.float64], load: NDArray[np.float64]) -> StructuralStress:
+def _of_section(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
     """Structural stress at nodes with the given local axes, (n, 3, 3), and thickness, (n,) [mm]."""
     x, y, z = np.moveaxis(axes, 1, 0) / t[:, np.newaxis]
-    force, moment = load[..., :3], load[..., 3:]
-    return StructuralStress(
-        membrane=_component(force, y),
-        bending=_component(moment, -6 * x / t[:, np.newaxis]),
-        in_plane_shear=_component(force, x),
-        twist_shear=_component(moment, 6 * y / t[:, np.newaxis]),
-        transverse_shear=_component(force, z),
-    )
+    along = np.stack([y, -6 * x / t[:, np.newaxis], x, 6 * y / t[:, np.newaxis], z], axis=1)
+    stress = np.empty((5, *load.shape[:2]))
+    _components(np.ascontiguousarray(load), along, stress)
+    return StructuralStress(*stress)
 
 
-def _component(vectors: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Product of each node's vectors, (n, m, 3), with a vector of its own, (n, 3), as (n, m)."""
-    return np.ascontiguousarray(np.einsum("nmc,nc->nm", vectors, along, order="F"))
+@compiled()
+def _components(load: Floats, along: Floats, stress: Floats) -> None:
+    """Write the products of the load, (n, m, 6), with the vectors of each node, (n, 5, 3), as (5, n, m).
+
+    The order is that of `StructuralStress`; bending and twist are those of the moment, its last three components.
+    """
+    for i in range(load.shape[0]):
+        across, bending, along_line, twist, through = along[i]
+        for j in range(load.shape[1]):
+            fx, fy, fz, mx, my, mz = load[i, j]
+            stress[0, i, j] = fx * across[0] + fy * across[1] + fz * across[2]
+            stress[1, i, j] = mx * bending[0] + my * bending[1] + mz * bending[2]
+            stress[2, i, j] = fx * along_line[0] + fy * along_line[1] + fz * along_line[2]
+            stress[3, i, j] = mx * twist[0] + my * twist[1] + mz * twist[2]
+            stress[4, i, j] = fx * through[0] + fy * through[1] + fz * through[2]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineStress:
-    """Structural stress along a line or a stack of lines, as solved (raw) and with the ends treated.
+    """Structural stress along a line or a stack of lines, with the ends treated and as it was solved (raw).
 
     Attributes
     ----------
     line : the weld line or lines, n nodes
-    raw, treated : structural stress before and after the treatment of weld ends
+    treated : structural stress after the treatment of weld ends
+    mended, before : (z,) nodes whose stress the treatment has replaced, ascending, and their stress before
     at_end, at_corner : (n,) near a weld end; at a kink of more than 30 degrees
     unresolved : (n,) end node whose edge is longer than the end zone
     """
 
     line: Lines
-    raw: StructuralStress
     treated: StructuralStress
+    mended: NDArray[np.intp]
+    before: StructuralStress
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
     unresolved: NDArray[np.bool_]
+
+    @property
+    def raw(self) -> StructuralStress:
+        """Structural stress of all nodes before the treatment of weld ends."""
+        raw = [part.copy() for part in _parts(self.treated)]
+        for part, before in zip(raw, _parts(self.before), strict=True):
+            part[self.mended] = before
+        return StructuralStress(*raw)
 
 
 def assess_line(line: Lines, nodal_force: NDArray[np.floating]) -> LineStress:
@@ -85,30 +106,27 @@ def assess_line(line: Lines, nodal_force: NDArray[np.floating]) -> LineStress:
     return line_stress(line, line_load(line, nodal_force))
 
 
-def line_stress(line: Lines, load: NDArray[np.float64]) -> LineStress:
+def line_stress(line: Lines, load: Floats) -> LineStress:
     """Structural stress of a line or lines under a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
     axes, ends, at_corner = local_axes(line), treat_ends(line, load), corners(line)
-    raw = _of_section(axes, line.thickness, load)
-    near = ends.treated
-    mended = _of_section(axes[near], line.thickness[near], ends.mean)
-    pairs = zip(_parts(raw), _parts(mended), strict=True)
     at_corner[line.begin[:-1]] |= line.corner_start
     at_corner[line.begin[1:] - 1] |= line.corner_end
+    mended = np.flatnonzero(ends.treated)
+    stress = _of_section(axes, line.thickness, load)
+    before = StructuralStress(*(part[mended] for part in _parts(stress)))
+    after = _of_section(axes[mended], line.thickness[mended], ends.mean)
+    for part, of_mean in zip(_parts(stress), _parts(after), strict=True):
+        part[mended] = of_mean
     return LineStress(
         line=line,
-        raw=raw,
-        treated=StructuralStress(*(_replaced(old, near, new) for old, new in pairs)),
+        treated=stress,
+        mended=mended,
+        before=before,
         at_end=ends.at_end,
         at_corner=at_corner,
         unresolved=ends.unresolved,
     )
 
 
-def _parts(stress: StructuralStress) -> list[NDArray[np.float64]]:
+def _parts(stress: StructuralStress) -> list[Floats]:
     return [getattr(stress, part.name) for part in fields(stress)]
-
-
-def _replaced(old: NDArray[np.float64], at: NDArray[np.bool_], new: NDArray[np.float64]) -> NDArray[np.float64]:
-    mended = old.copy()
-    mended[at] = new
-    return mended

@@ -1,6 +1,6 @@
 """Stations: order of the register, shapes of some of them, those that the end treatment changes."""
 
-from dataclasses import replace
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.pipeline.model import read_model
 from fatigue.pipeline.stations import shapes_of, stations_of
-from fatigue.weld.structural_stress import LineStress
+from fatigue.weld.structural_stress import LineStress, StructuralStress
 from tests.small_case import small_case
 
 
@@ -45,10 +45,13 @@ def with_raw(model, changed):
     membrane = stations.treated.membrane.copy()
     for row, factor in changed.items():
         membrane[row] = factor * membrane[row] + 1.0
+    mended = np.array(sorted([*changed, 3]))  # that of row 3 is mended, but comes out as it was
+    before = {part.name: getattr(stations.treated, part.name)[mended] for part in fields(StructuralStress)}
     solved = LineStress(
         line=model.lines,
-        raw=replace(stations.treated, membrane=membrane),
         treated=stations.treated,
+        mended=mended,
+        before=StructuralStress(**(before | {"membrane": membrane[mended]})),
         at_end=stations.at_end,
         at_corner=stations.at_corner,
         unresolved=np.zeros(len(stations), dtype=np.bool_),

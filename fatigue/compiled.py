@@ -1,0 +1,18 @@
+"""Loops in machine code: one decorator for all of them."""
+
+from collections.abc import Callable
+from typing import ParamSpec, TypeVar, cast
+
+from numba import njit
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Compile at the first call, keep the result on disk, run outside the GIL; ``fastmath``: flags of LLVM."""
+
+    def compile_lazily(function: Callable[P, R]) -> Callable[P, R]:
+        return cast(Callable[P, R], njit(cache=True, nogil=True, error_model="numpy", fastmath=set(fastmath))(function))
+
+    return compile_lazily
