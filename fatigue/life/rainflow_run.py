@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.rainflow import compiled
+from fatigue.compiled import compiled
 from fatigue.life.rainflow_doubt import Exact, count_chunk_exactly
 from fatigue.life.rainflow_loops import count_chunk
 from fatigue.life.rainflow_power import PowerLaw
