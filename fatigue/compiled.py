@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar, cast
 
+import scipy.linalg.cython_blas  # noqa: F401 - the BLAS of compiled products; limits of its threads need it loaded
 from numba import njit
 
 P = ParamSpec("P")

@@ -24,6 +24,7 @@ Indices = NDArray[np.intp]
 BINS_PER_DECADE = 64
 HISTOGRAM_EDGES: Floats = np.logspace(-3.0, 5.0, 8 * BINS_PER_DECADE + 1)
 HISTOGRAM_BINS = HISTOGRAM_EDGES.size - 1
+LANES, DEPTH = 8, 8  # sums side by side, and terms of each that are added up in one go
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -326,22 +327,49 @@ def find_cycles(s: Floats, recurs: bool, buffers: Buffers) -> int:
     return cycles
 
 
-@compiled("reassoc", "nsz", "contract")  # sums in vector lanes
+@compiled()
 def mean_and_kurtosis(s: Floats) -> tuple[float, float]:
     """Mean and Pearson's kurtosis; deviations from the first sample keep a constant signal exactly constant."""
     if s.size == 0:
         return math.nan, math.nan
-    offset = 0.0
-    for i in range(s.size):
-        offset += s[i] - s[0]
+    sums = np.empty((3, LANES))
+    offset, _, _ = sums_of_powers(s, s[0], sums)
     mean = s[0] + offset / s.size
-    m2 = 0.0
-    m4 = 0.0
-    for i in range(s.size):
-        square = (s[i] - mean) ** 2
-        m2 += square
-        m4 += square * square
+    _, m2, m4 = sums_of_powers(s, mean, sums)
     return mean, m4 * s.size / (m2 * m2) if m2 * m2 > 0.0 else math.nan
+
+
+@compiled()
+def sums_of_powers(s: Floats, origin: float, sums: Floats) -> tuple[float, float, float]:
+    """Sum x, x^2 and x^4 of x = s - origin; ``sums`` (3, LANES) is work space.
+
+    The order of the sums is written out, lane by lane: left to the compiler, it is another one in the process that
+    compiles than in those that read the compiled code from disk.
+    """
+    sums[:] = 0.0
+    whole = s.size - s.size % (LANES * DEPTH)
+    for first in range(0, whole, LANES * DEPTH):
+        for lane in range(LANES):
+            first_power = second_power = fourth_power = 0.0
+            for row in range(DEPTH):
+                x = s[first + LANES * row + lane] - origin
+                first_power += x
+                second_power += x * x
+                fourth_power += (x * x) * (x * x)
+            sums[0, lane] += first_power
+            sums[1, lane] += second_power
+            sums[2, lane] += fourth_power
+    for i in range(whole, s.size):
+        x = s[i] - origin
+        sums[0, 0] += x
+        sums[1, 0] += x * x
+        sums[2, 0] += (x * x) * (x * x)
+    first_power = second_power = fourth_power = 0.0
+    for lane in range(LANES):
+        first_power += sums[0, lane]
+        second_power += sums[1, lane]
+        fourth_power += sums[2, lane]
+    return first_power, second_power, fourth_power
 
 
 @compiled()

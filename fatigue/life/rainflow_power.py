@@ -142,23 +142,43 @@ def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, np.fl
     return power_sum, damage_sum, largest
 
 
-@compiled("reassoc", "nsz", "nnan", "contract")
+@compiled("contract")
 def add_powers(m: Numbers, b: Numbers, top_total: Any, bottom_total: Any) -> None:
-    """Add the second and the fourth powers of the stress of both surfaces, without its mean."""
+    """Add the second and the fourth powers of the stress of both surfaces, without its mean.
+
+    The order of the sums is written out, lane by lane: left to the compiler, it is another one in the process that
+    compiles than in those that read the compiled code from disk.
+    """
     widest_vectors()
     top_mean, bottom_mean = m.dtype.type(top_total.mean), m.dtype.type(bottom_total.mean)
-    for block in range((m.size + SUMMED - 1) // SUMMED):
-        first = SUMMED * block
-        top_2 = top_4 = bottom_2 = bottom_4 = _ZERO
-        for i in range(min(SUMMED, m.size - first)):
-            top, bottom = m[first + i] + b[first + i] - top_mean, m[first + i] - b[first + i] - bottom_mean
-            top *= top
-            bottom *= bottom
-            top_2 += top
-            bottom_2 += bottom
-            top_4 += top * top
-            bottom_4 += bottom * bottom
-        top_total.second += top_2
-        bottom_total.second += bottom_2
-        top_total.fourth += top_4
-        bottom_total.fourth += bottom_4
+    sums = np.zeros((4, LANES))
+    whole = m.size - m.size % SUMMED
+    for first in range(0, whole, SUMMED):
+        for lane in range(LANES):
+            top_2 = top_4 = bottom_2 = bottom_4 = _ZERO
+            for row in range(SUMMED // LANES):
+                i = first + LANES * row + lane
+                top, bottom = m[i] + b[i] - top_mean, m[i] - b[i] - bottom_mean
+                top *= top
+                bottom *= bottom
+                top_2 += top
+                bottom_2 += bottom
+                top_4 += top * top
+                bottom_4 += bottom * bottom
+            sums[0, lane] += top_2
+            sums[1, lane] += top_4
+            sums[2, lane] += bottom_2
+            sums[3, lane] += bottom_4
+    for i in range(whole, m.size):
+        top, bottom = m[i] + b[i] - top_mean, m[i] - b[i] - bottom_mean
+        top *= top
+        bottom *= bottom
+        sums[0, 0] += top
+        sums[1, 0] += top * top
+        sums[2, 0] += bottom
+        sums[3, 0] += bottom * bottom
+    for lane in range(LANES):
+        top_total.second += sums[0, lane]
+        top_total.fourth += sums[1, lane]
+        bottom_total.second += sums[2, lane]
+        bottom_total.fourth += sums[3, lane]
