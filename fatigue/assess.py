@@ -123,6 +123,7 @@ def assess(
                     cycles.add([kept_point(group.model, point) for point in kept])
                     done.add(group, work, worst)
                     del group, used_up  # not to be held until the next one is there
+                    give_back()
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)

@@ -22,7 +22,7 @@ from fatigue.weld.line import LineStack, WeldLine, stacked
 from fatigue.weld.line_geometry import split_at_kinks
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
-SMALLEST_GROUP, LARGEST_GROUP = 32, 3072  # of so many stations: memory is bounded, matrices stay efficient
+SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
 PORTION = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
 IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 

@@ -8,7 +8,8 @@ import pyarrow as pa
 def give_back() -> None:
     """Give freed memory back to the system; nothing is lost by it, and it takes some milliseconds.
 
-    After a body of a million nodes has been read that is some 100 MB.
+    After a body of a million nodes has been read that is some 100 MB; in an assessment of its welds, group after group,
+    what is free between what is held would grow to 300 MB.
     """
     pa.default_memory_pool().release_unused()
     try:
