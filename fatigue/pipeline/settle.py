@@ -29,6 +29,7 @@ from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at
 from fatigue.pipeline.shapes import Shapes
 
+WELD_BOUNDS_AT_ONCE = 1024  # stations, or those of one weld: 10 kB each with 100 modes
 BOUNDED_AT_ONCE = 1024  # stations whose bounds are laid out as events at a time: 4 kB each with 12 events
 
 
@@ -178,7 +179,25 @@ def _weld_bounds(
     screening: Screening,
     rules: Rules,
 ) -> tuple[Bound, ...]:
-    """Tighten the bounds of some stations by the range and the variation of their stress, weld by weld."""
+    """Tighten the bounds of some stations by the range and the variation of their stress, some welds at a time."""
+    tighter = tuple(bounds)
+    first_of_weld = np.searchsorted(weld[rows], weld[rows])
+    for some in np.split(rows, np.flatnonzero(np.diff(first_of_weld // WELD_BOUNDS_AT_ONCE)) + 1):
+        tighter = _tightened(shapes, weld, some, tighter, estimates, loads, screening, rules)
+    return tighter
+
+
+def _tightened(
+    shapes: Shapes,
+    weld: NDArray[np.int64],
+    rows: NDArray[np.intp],
+    bounds: Sequence[Bound],
+    estimates: Sequence[Estimate],
+    loads: Sequence[EventLoad],
+    screening: Screening,
+    rules: Rules,
+) -> tuple[Bound, ...]:
+    """Tighten the bounds of some stations, the histories of their welds found together."""
     whole = np.flatnonzero(np.isin(weld, weld[rows]))
     bases = weld_bases(shapes.membrane[whole], shapes.bending[whole], weld[whole], screening.extents)
     some, of_bases = shapes.at(rows), np.searchsorted(whole, rows)

@@ -144,6 +144,23 @@ def test_large_jobs_are_screened_unasked_and_keep_the_cycles_that_matter(results
         assert (pd.read_parquet(tmp_path / name / "nodes.parquet").screened != "").any() == screened
 
 
+def test_welds_may_be_bounded_in_parts(results, tmp_path, monkeypatch):
+    """One weld at a time: other histories, bounds as safe, and nothing that is counted changes."""
+    monkeypatch.setattr("fatigue.pipeline.settle.WELD_BOUNDS_AT_ONCE", 1)
+    assess(load_case(results / "case" / "case.toml"), tmp_path, share=SHARE, report=False)
+    exact, together, parted = (
+        pd.read_parquet(f / "nodes.parquet") for f in (results / "exact", results / "screened", tmp_path)
+    )
+    settled = (parted.screened != "").to_numpy()
+    assert (parted.damage_per_km >= exact.damage_per_km * (1.0 - 1e-9)).all()
+    pd.testing.assert_series_equal(parted.life_km[~settled], exact.life_km[~settled], rtol=1e-9)
+    by_weld = (together.screened == "weld bound").to_numpy() & (parted.screened == "weld bound").to_numpy()
+    assert by_weld.any()
+    assert parted.damage_per_km[by_weld].to_numpy() == pytest.approx(
+        together.damage_per_km[by_weld].to_numpy(), rel=0.1
+    )
+
+
 def test_the_record_says_what_was_settled_how(results):
     """Share, rule and numbers of stations are in the provenance."""
     _, screened, _ = nodes_of(results)
