@@ -39,6 +39,7 @@ from fatigue.life.rainflow_long import count_block_long
 from fatigue.life.rainflow_power import PowerLaw, power_law
 from fatigue.life.rainflow_product import (
     block_for,
+    is_in_panels,
     prepared_samples,
     prepared_shapes,
     samples_between,
@@ -269,8 +270,8 @@ def _count(
         sizes=(CHUNK, POINTS),
     )
     q = record.q if single else record.exact
-    compiled_loop = isinstance(q, np.ndarray) and q.ndim == 3 and isinstance(record.exact, np.ndarray)
-    count_all = count_in_memory if compiled_loop else count_record
+    in_memory = is_in_panels(q) and isinstance(record.exact, np.ndarray)
+    count_all = count_in_memory if in_memory else count_record
     count_all(q, exact, rules, state, run)
     return state.sides
 

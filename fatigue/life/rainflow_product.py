@@ -28,6 +28,11 @@ def in_tiles(precision: type[np.floating]) -> bool:
     return simd is not None and simd.WIDTH == 512 and precision is np.float32
 
 
+def is_in_panels(record: Samples) -> bool:
+    """Whether a record is in memory as compiled code multiplies it."""
+    return isinstance(record, np.ndarray) and record.ndim == 3
+
+
 def prepared_shapes(shapes: Numbers) -> Numbers:
     """Lay shapes (n, m) out for `multiply`."""
     return np.asarray(simd.tiles_of(shapes)) if in_tiles(shapes.dtype.type) else shapes

@@ -28,6 +28,7 @@ from fatigue.life.rainflow_fast import Record
 from fatigue.life.rainflow_product import (
     STEP,
     block_for,
+    is_in_panels,
     multiply,
     prepared_shapes,
     samples_of,
@@ -201,7 +202,7 @@ def _in_time(reduced: _Reduced, record: Record, extent: ModalExtent) -> Floats:
     multiply(B, samples_of(record.q, start, samples if before else 1, space), u)
     u[:, 0] = u[:, 1 + before - start]
     room = np.empty((POINTS, u.shape[1]), np.float32)
-    add_all = add_in_memory if isinstance(record.q, np.ndarray) and record.q.ndim == 3 else add_record
+    add_all = add_in_memory if is_in_panels(record.q) else add_record
     add_all(record.q, B, reduced.shapes, reduced.begin, (samples, width), u, space, room, found)
     found /= 1.0 - (width + 2) * SINGLE  # sums of a chunk in single precision
     return found.reshape(-1, 2, 6)

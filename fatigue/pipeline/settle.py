@@ -97,7 +97,8 @@ def settle(
     rest = unsettled()
     if rest.size:
         tier[rest] = 2
-        bounds = _weld_bounds(shapes, weld, rest, bounds, estimates, loads, screening, rules)
+        for part in _in_parts(weld, rest):
+            bounds = _weld_bounds(shapes, weld, part, bounds, estimates, loads, screening, rules)
         rest = unsettled()
         tier[rest] = 0
         yield from counted_at(rest, shapes, loads, estimates, plan, rules)
@@ -169,6 +170,12 @@ def _scaled(
     return f * stress_range, f ** np.arange(1, len(power_sums) + 1)[:, None, None] * power_sums
 
 
+def _in_parts(weld: NDArray[np.int64], rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+    """Cut some stations, ascending, between welds, into parts of about `WELD_BOUNDS_AT_ONCE`."""
+    first_of_weld = np.searchsorted(weld[rows], weld[rows])
+    return np.split(rows, np.flatnonzero(np.diff(first_of_weld // WELD_BOUNDS_AT_ONCE)) + 1)
+
+
 def _weld_bounds(
     shapes: Shapes,
     weld: NDArray[np.int64],
@@ -179,25 +186,7 @@ def _weld_bounds(
     screening: Screening,
     rules: Rules,
 ) -> tuple[Bound, ...]:
-    """Tighten the bounds of some stations by the range and the variation of their stress, some welds at a time."""
-    tighter = tuple(bounds)
-    first_of_weld = np.searchsorted(weld[rows], weld[rows])
-    for some in np.split(rows, np.flatnonzero(np.diff(first_of_weld // WELD_BOUNDS_AT_ONCE)) + 1):
-        tighter = _tightened(shapes, weld, some, tighter, estimates, loads, screening, rules)
-    return tighter
-
-
-def _tightened(
-    shapes: Shapes,
-    weld: NDArray[np.int64],
-    rows: NDArray[np.intp],
-    bounds: Sequence[Bound],
-    estimates: Sequence[Estimate],
-    loads: Sequence[EventLoad],
-    screening: Screening,
-    rules: Rules,
-) -> tuple[Bound, ...]:
-    """Tighten the bounds of some stations, the histories of their welds found together."""
+    """Tighten the bounds of some stations by the range and the variation of their stress, weld by weld."""
     whole = np.flatnonzero(np.isin(weld, weld[rows]))
     bases = weld_bases(shapes.membrane[whole], shapes.bending[whole], weld[whole], screening.extents)
     some, of_bases = shapes.at(rows), np.searchsorted(whole, rows)

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from fatigue.life import weld_basis
 from fatigue.life.history import Residue
 from fatigue.life.rainflow import count_block, rainflow
-from fatigue.life.rainflow_fast import record_of
-from fatigue.life.screening import damage_bound, modal_extent
+from fatigue.life.rainflow_fast import Record, record_of
+from fatigue.life.screening import ModalExtent, damage_bound, modal_extent
 from fatigue.life.spool import create_spool
-from fatigue.life.weld_basis import reduced_bound, weld_bases
+from fatigue.life.weld_basis import WeldBases, reduced_bound, weld_bases
 from tests.awkward_records import KINDS, LAWS, modal_coordinates
 
 Floats = NDArray[np.float64]
@@ -110,28 +110,31 @@ def test_a_smooth_weld_needs_few_histories_and_its_bounds_are_close(residue: Res
     assert (bound / damage).max() < 1.33
 
 
+def three_welds(samples: int) -> tuple[WeldBases, NDArray[np.intp], Record, ModalExtent]:
+    """What the bounds of all stations of three welds need."""
+    q = resonances(12, samples, 3)
+    S_m, S_b = smooth_weld(q, 20, 4)
+    extent = modal_extent(q, "repeat")
+    bases = weld_bases(S_m, S_b, np.repeat([0, 1, 2], [9, 4, 7]), [extent])
+    return bases, np.arange(20), record_of(q), extent
+
+
 def test_chunks_and_blocks_leave_no_seam(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sums and extremes do not depend on where a record, or the points of a weld, are cut."""
-    q = resonances(12, 3000, 3)
-    S_m, S_b = smooth_weld(q, 20, 4)
-    extent, record, rows = modal_extent(q, "repeat"), record_of(q), np.arange(20)
-    bases = weld_bases(S_m, S_b, np.repeat([0, 1, 2], [9, 4, 7]), [extent])
-    whole = reduced_bound(bases, rows, record, extent)
+    of_three_welds = three_welds(3000)
+    whole = reduced_bound(*of_three_welds)
     monkeypatch.setattr(weld_basis, "CHUNK", 96)
     monkeypatch.setattr(weld_basis, "POINTS", 3)
-    for one, other in zip(whole, reduced_bound(bases, rows, record, extent), strict=True):
+    for one, other in zip(whole, reduced_bound(*of_three_welds), strict=True):
         assert one == pytest.approx(other, rel=1e-3)
 
 
 def test_compiled_and_interpreted_loop_find_the_same_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
     """To the last bit, in several chunks and welds."""
-    q = resonances(12, 5000, 3)
-    S_m, S_b = smooth_weld(q, 20, 4)
-    extent, record, rows = modal_extent(q, "repeat"), record_of(q), np.arange(20)
-    bases = weld_bases(S_m, S_b, np.repeat([0, 1, 2], [9, 4, 7]), [extent])
-    compiled = reduced_bound(bases, rows, record, extent)
+    of_three_welds = three_welds(5000)
+    compiled = reduced_bound(*of_three_welds)
     monkeypatch.setattr(weld_basis, "add_in_memory", weld_basis.add_record)
-    for one, other in zip(compiled, reduced_bound(bases, rows, record, extent), strict=True):
+    for one, other in zip(compiled, reduced_bound(*of_three_welds), strict=True):
         np.testing.assert_array_equal(one, other)
 
 
