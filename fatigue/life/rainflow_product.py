@@ -12,11 +12,15 @@ import numpy as np
 from numba.extending import overload
 from numpy.typing import NDArray
 
+from fatigue.compiled import compiled
 from fatigue.life.spool import Samples
 
 Numbers = NDArray[np.floating]
+Singles = NDArray[np.float32]
 
 STEP = 32  # samples that are laid out side by side
+TILE = 12  # shapes that are multiplied side by side
+CACHE_LINE = 64  # bytes
 
 simd: Any = None
 if importlib.util.find_spec("fatigue.life.rainflow_simd"):
@@ -69,10 +73,33 @@ def samples_of(record: Samples, first: int, end: int, into: Numbers) -> Numbers:
     return prepared_samples(record[:, first:end], into)
 
 
+def rows_in_tiles(shapes: Singles) -> Singles:
+    """Lay shapes (n, h) out for `multiply_rows`, tile after tile, the last one filled up with zeros."""
+    if in_tiles(np.float32):
+        return np.asarray(simd.tiles_of(shapes)).ravel()
+    return np.pad(shapes, ((0, -len(shapes) % TILE), (0, 0))).ravel()
+
+
+@compiled()
+def rows_by_blas(shapes: Singles, samples: Singles, columns: int, stress: Singles) -> None:
+    """Do what `multiply_rows` does, in all columns."""
+    np.dot(shapes.reshape(TILE, len(samples)), samples, stress)
+
+
+# Compiled code calls it: the product of one tile with samples (h, w) that are not laid out, in their own columns.
+multiply_rows = simd.multiply_rows if in_tiles(np.float32) else rows_by_blas
+
+
 def block_for(shapes: int, width: int, precision: type[np.floating]) -> Numbers:
-    """Memory for the products of so many shapes."""
-    rows = -(-shapes // simd.TILE) * simd.TILE if in_tiles(precision) else shapes
-    return np.empty((rows, width), precision)
+    """Memory for the products of so many shapes, ``width`` numbers of each and some more.
+
+    Column 1 of every row begins a line of the cache, as products are written from there on.
+    """
+    in_line = CACHE_LINE // np.dtype(precision).itemsize
+    rows, width = -(-shapes // TILE) * TILE, -(-width // in_line) * in_line
+    numbers = np.empty(rows * width + 2 * in_line, precision)
+    first = (-numbers.ctypes.data % CACHE_LINE) // numbers.itemsize + in_line - 1
+    return numbers[first : first + rows * width].reshape(rows, width)
 
 
 def multiply(shapes: Numbers, q: Numbers, stress: Numbers) -> None:

@@ -243,7 +243,10 @@ def _cycles_of_lanes(
 
 
 def _product_of_tile(typing: Any, shapes: Any, tile: Any, samples: Any, panel: Any, stress: Any) -> Any:
-    """Multiply a tile of 12 rows with a panel of 32 samples: 24 sums stay in the 32 registers of AVX-512."""
+    """Multiply a tile of 12 rows with a panel of 32 samples: 24 sums stay in the 32 registers of AVX-512.
+
+    Samples are laid out in panels, or they are rows like those of the product, from column 1 on.
+    """
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         shapes_, tile_, samples_, panel_, stress_ = args
@@ -254,20 +257,24 @@ def _product_of_tile(typing: Any, shapes: Any, tile: Any, samples: Any, panel: A
             for kind, array in ((shapes, shapes_), (samples, samples_), (stress, stress_))
         )
         modes = cgutils.unpack_tuple(builder, left.shape)[1]
+        column = builder.add(builder.mul(panel_, ir.Constant(I64, PANEL)), ir.Constant(I64, 1))
         nothing = ir.Constant(vector.type, [0.0] * vector.size)
         sums = [[cgutils.alloca_once_value(builder, nothing) for _ in parts] for _ in range(TILE)]
         for total in itertools.chain(*sums):
             builder.store(nothing, total)
         with cgutils.for_range(builder, modes) as loop:
             weights = _element(builder, left.data, [tile_, modes, loop.index, TILE])
-            q = _element(builder, right.data, [panel_, modes, loop.index, PANEL])
+            if samples.ndim == 3:
+                q = _element(builder, right.data, [panel_, modes, loop.index, PANEL])
+            else:
+                length = cgutils.unpack_tuple(builder, right.shape)[1]
+                q = builder.gep(right.data, [builder.add(builder.mul(loop.index, length), column)])
             q_parts = [vector.at(builder.gep(q, [ir.Constant(I64, vector.size * k)])) for k in parts]
             for row in range(TILE):
                 weight = vector.everywhere(builder.load(builder.gep(weights, [ir.Constant(I64, row)])))
                 for total, part in zip(sums[row], q_parts, strict=True):
                     builder.store(vector.call("llvm.fma", weight, part, builder.load(total)), total)
         width = cgutils.unpack_tuple(builder, out.shape)[1]
-        column = builder.add(builder.mul(panel_, ir.Constant(I64, PANEL)), ir.Constant(I64, 1))
         for row in range(TILE):
             number = builder.add(builder.mul(tile_, ir.Constant(I64, TILE)), ir.Constant(I64, row))
             start = builder.gep(out.data, [builder.add(builder.mul(number, width), column)])
@@ -320,9 +327,9 @@ def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, i
 def tiles_of(shapes: Singles) -> Singles:
     """Lay shapes (n, m) out as `multiply` reads them: (n / 12, m, 12), filled up with zeros."""
     rows, modes = shapes.shape
-    tiles = np.zeros((-(-rows // TILE) * TILE, modes), np.float32)
-    tiles[:rows] = shapes
-    return np.ascontiguousarray(tiles.reshape(-1, TILE, modes).transpose(0, 2, 1))
+    tiles = np.zeros((-(-rows // TILE), TILE, modes), np.float32)
+    tiles.reshape(len(tiles) * TILE, modes)[:rows] = shapes
+    return np.ascontiguousarray(tiles.transpose(0, 2, 1))
 
 
 def panels_for(modes: int, samples: int) -> Singles:
@@ -352,3 +359,18 @@ def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
         for tile in range(len(tiles)):
             for panel in range(first, min(first + CACHED, len(panels))):
                 product_of_tile(tiles, tile, panels, panel, stress)
+
+
+@compiled("contract")
+def multiply_rows(shapes: Singles, samples: Singles, columns: int, stress: Singles) -> None:
+    """Write the product of a tile, (h 12,), with so many columns of samples (h, w), as they are, into the same columns.
+
+    Up to 31 more columns of both are touched: w is that much larger.
+    """
+    tile = shapes.reshape(1, len(samples), TILE)
+    for row in range(TILE):
+        stress[row, 0] = 0.0
+        for k in range(len(samples)):
+            stress[row, 0] += tile[0, k, row] * samples[k, 0]
+    for panel in range(-(-(columns - 1) // PANEL)):
+        product_of_tile(tile, 0, samples, panel, stress)

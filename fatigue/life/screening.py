@@ -20,6 +20,7 @@ event's stress factor. Range and sums come without a loop over time from `extent
 but without counting, from `weld_basis.reduced_bound`.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -34,6 +35,7 @@ from fatigue.life.history import Residue, cached_pieces, mean_and_covariance
 from fatigue.life.spool import Samples
 
 Floats = NDArray[np.float64]
+PowerSums = Mapping[int, Floats]  # bounds of sum n S^q [MPa^q] by q
 
 ROUNDING = 1e-9  # all bounds are raised by this much
 RIDGE = 1e-10  # added to the variance in every direction, over that of the coordinates
@@ -103,8 +105,8 @@ def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | No
     )
 
 
-def extent_bound(S_m: Floats, S_b: Floats, forms: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
-    """Bound range (n, 2) and sum n S^q, q = 1 and 2, (2, n, 2) of top and bottom stress without a loop over time.
+def extent_bound(S_m: Floats, S_b: Floats, forms: Floats, extent: ModalExtent) -> tuple[Floats, PowerSums]:
+    """Bound range (n, 2) and sum n S^q, q = 1 and 2, (n, 2) each, of top and bottom stress without a loop over time.
 
     Shapes S_m, S_b (n, m) as in `count_block_fast`, ``forms`` (2, n, 2) their `face_forms` for ``extent.products``.
 
@@ -120,36 +122,36 @@ def extent_bound(S_m: Floats, S_b: Floats, forms: Floats, extent: ModalExtent) -
     variation = np.minimum(np.sqrt(extent.steps * of_steps), variations)
     largest = np.minimum(np.minimum(2.0 * _peak(variance, modal, extent), ranges), variation)
     squares = 2.0 * np.sqrt(extent.samples * variance * of_steps)
-    return largest * (1.0 + ROUNDING), np.stack([0.5 * variation, squares]) * (1.0 + ROUNDING)
+    return largest * (1.0 + ROUNDING), {1: 0.5 * variation * (1.0 + ROUNDING), 2: squares * (1.0 + ROUNDING)}
 
 
-def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, Floats]:
-    """Bound max |s| and sqrt(sum s^2) of top and bottom stress, s without its mean, each (n, 2)."""
+def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, Floats, Floats]:
+    """Bound max |s|, sqrt(sum s^2) and sqrt(sum ds^2) of top and bottom stress, s without its mean, each (n, 2)."""
     limits = np.stack([np.sqrt(np.diagonal(extent.covariance)), extent.products.size])
     modal, size = _of_modal_stresses(S_m, S_b, limits)
-    variance, _ = _safe(face_forms(S_m, S_b, extent.products), size, extent.products)
-    return _peak(variance, modal, extent), np.sqrt(extent.samples * variance)
+    variance, of_steps = _safe(face_forms(S_m, S_b, extent.products), size, extent.products)
+    return _peak(variance, modal, extent), np.sqrt(extent.samples * variance), np.sqrt(of_steps)
 
 
 def damage_bound(
-    stress_range: Floats, power_sums: Floats, size: Floats, law: DamageLaw, *, uses_bending_ratio: bool
+    stress_range: Floats, power_sums: PowerSums, size: Floats, law: DamageLaw, *, uses_bending_ratio: bool
 ) -> tuple[Floats, Floats]:
     """Bound the damage of one pass and the largest equivalent range of some points, arrays of any one shape.
 
-    ``stress_range`` [MPa] and ``power_sums`` (p, ...) [MPa^q] bound range and sum n S^q, q = 1 ... p; ``size``, of a
-    shape that fits, is that of `rainflow.count_block`. The bound of the damage is infinite for a law with a slope below
-    1, for which there is none. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
+    ``stress_range`` [MPa] and ``power_sums`` bound range and sum n S^q; ``size``, of a shape that fits, is that of
+    `rainflow.count_block`. The bound of the damage is infinite for a law with a slope below every q: there is none
+    then. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
     """
     g = size / (ratio_factor(np.zeros(())) if uses_bending_ratio else 1.0)
     largest = g * stress_range
     # Raised a little, so that neither rounding nor the choice between two segments at a knee matters.
     worst = cycle_damage(largest * (1.0 + ROUNDING), law)
     damage = np.full_like(largest, np.inf)
-    for q, power_sum in enumerate(power_sums, start=1):
+    for q, power_sum in power_sums.items():
         if law.slopes.min() >= q:
             damage = np.minimum(damage, worst * power_sum / np.where(stress_range > 0.0, stress_range, 1.0) ** q)
     if (np.diff(law.slopes) >= 0.0).all():  # steeper for smaller ranges
-        for (q, smaller), (p, larger) in combinations(enumerate(power_sums, start=1), 2):
+        for (q, smaller), (p, larger) in combinations(sorted(power_sums.items()), 2):
             for k, log_constant in zip(law.slopes, law.log_constants, strict=True):
                 if q < k < p:
                     power_sum = smaller ** ((p - k) / (p - q)) * larger ** ((k - q) / (p - q))

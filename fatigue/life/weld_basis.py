@@ -1,15 +1,21 @@
 """Close bounds of the damage of all points of a weld from the few histories that their stresses are made of.
 
-The stresses of a weld have one source: some 5 combinations u = B q of 100 modal coordinates make all its points up to a
-thousandth. So s = L u + e, and the product of every point with every mode is replaced by that of every point with u.
-By `screening`, bounds follow from the range and from the total variation V_q of f(s) = s |s|^(q-1). Those of a = L u
-are found in a loop over time; what e adds is bounded. Every step is off by the errors at its two ends,
+The stresses of a weld have one source: some 10 combinations u = B q of 100 modal coordinates make all its points up to
+some thousandths. So s = L u + e, and the product of every point with every mode is replaced by that of every point with
+u. By `screening`, bounds follow from the range and from the total variation V_q of f(s) = s |s|^(q-1). Those of a = L u
+are found in a loop over time; what e adds is bounded. Let a and e go straight from each sample to the next one. Then
 
-    V_q(s) <= V_q(a) + 2 sum |f(s) - f(a)| <= V_q(a) + 2 q sum |e| x^(q-1) <= V_q(a) + 2 q ||e||_2 ||x||_(2q-2)^(q-1)
+    V_q(s) - V_q(a) <= sum int |f'(s)| |de| + |f'(s) - f'(a)| |da|
+                    <= q sum |De| int |s|^(q-1) + q (q-1) sum |Da| int |e| (|a| + |e|)^(q-2),
 
-with x the larger of |s| and |a|, the norms ||x||_r = (sum x^r)^(1/r) over the samples, and Cauchy-Schwarz. That with
-r = 6 is found in the loop; ||x||_4^4 <= ||x||_2 ||x||_6^3. Largest value and norm of e come from the covariance of q.
-For the range, max |a| <= ||a||_12 is enough: a quarter too high in 30 000 samples, and cheaper than the maximum.
+D the step and int the mean over it, as f' = q |s|^(q-1). By the convexity of |s|^(q-1) and Cauchy-Schwarz, the first
+sum is at most ``q ||De||_2 ||s||_(2q-2)^(q-1)`` with the norms ||x||_r = (sum x^r)^(1/r). In the second |e| is at most
+the larger one at the ends, whose norm is at most ``sqrt(2) ||e||_2``, and what stands beside it has the norms I_2 of
+``|Da| int a^2``, at most I_1 of ``|Da| int |a|``, and ``||Da||_2``, with max |e| for the other factors. As
+``|Da| int a^2 = |D(a^3)| / 3``, I_2 is found in the loop, and I_1^2 <= ||Da||_2 I_2. Also ||a||_6 is found in the loop;
+||s||_4^4 <= ||s||_2 ||s||_6^3 and ||e||_6^6 <= max |e|^4 ||e||_2^2. What remains, sizes of s and e and of their steps,
+comes from the covariances. For the range, max |a| <= ||a||_12 is enough: a quarter too high in 30 000 samples, and
+cheaper than the maximum.
 
 Single precision: a sample of the product over m modes and b histories, and of its powers, is off by at most
 ``(m + b + 16) 2^-24 |L| |B| |q|``, which is a part of e.
@@ -18,35 +24,19 @@ Single precision: a sample of the product over m modes and b histories, and of i
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.compiled import compiled
 from fatigue.life.rainflow_fast import Record
-from fatigue.life.rainflow_product import (
-    STEP,
-    block_for,
-    is_in_panels,
-    multiply,
-    prepared_shapes,
-    samples_of,
-    space_for_samples,
-)
-from fatigue.life.screening import ROUNDING, ModalExtent, size_bound
-from fatigue.life.spool import Samples
+from fatigue.life.rainflow_product import TILE
+from fatigue.life.screening import ROUNDING, ModalExtent, PowerSums, size_bound
+from fatigue.life.weld_sums import SINGLE, Combined, Sums, combined, sums_in_time
 
 Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
-TOLERANCE = 3e-3  # rms that the histories of a weld may miss, of the largest rms in the weld
-CHUNK = 2048  # samples at a time, a multiple of `rainflow_product.STEP`
-POINTS = 32  # stresses at a time: more would not stay in the cache
-HISTORIES = 4_000_000  # numbers of u at a time: 16 MB
-POWERS = (1, 2, 3, 4)  # of the bounded sums; the master curves have slopes between 3 and 4
-SINGLE = 2.0**-24  # relative rounding error
+TOLERANCE = 1e-2  # rms that the histories of a weld may miss, of the largest rms in the weld
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,8 +105,8 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
     )
 
 
-def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExtent) -> tuple[Floats, Floats]:
-    """Bound range (r, 2) and sum n S^q, q = 1 ... 4, (4, r, 2) of top and bottom stress at some stations.
+def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExtent) -> tuple[Floats, PowerSums]:
+    """Bound range (r, 2) and sum n S^q, q = 3 and 4, (r, 2) each, of top and bottom stress at some stations.
 
     Parameters
     ----------
@@ -125,44 +115,35 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
     record, extent : of one event, both of the same modal coordinates and the latter with the residue of the count
     """
     root_samples = np.sqrt(extent.samples)
-    _, s = size_bound(bases.membrane[rows], bases.bending[rows], extent)
-    peak, e = size_bound(bases.membrane_rest[rows], bases.bending_rest[rows], extent)
+    _, s, s_step = size_bound(bases.membrane[rows], bases.bending[rows], extent)
+    peak, e, e_step = size_bound(bases.membrane_rest[rows], bases.bending_rest[rows], extent)
     rms = (s + e) / root_samples  # not below that of a
     scale = np.where(rms > 0.0, rms, 1.0)  # of the loop, so that no power leaves single precision
-    s, peak, e = s / scale, peak / scale, e / scale
-    reduced = _reduced(bases, rows, scale, record, extent)
-    peak += reduced.rounding[..., 0]
-    e += reduced.rounding[..., 1] * root_samples
-    *variations, sixth, twelfth = np.moveaxis(_in_time(reduced, record, extent), 2, 0)
+    stresses, rounding = _combined(bases, rows, scale, record, extent)
+    rounding_norm = rounding[..., 1] * root_samples
+    s, s_step, peak = s / scale, s_step / scale, peak / scale + rounding[..., 0]
+    e, e_step = e / scale + rounding_norm, e_step / scale + 2.0 * rounding_norm
+    sums = sums_in_time(stresses, record.q, extent.samples, recurs=extent.steps == extent.samples)
+    of_a = Sums(*(of_stress[_places(bases.weld[rows])] for of_stress in sums))
 
-    norm_2 = s + e
-    # Twice the norm of e, ||e||_6^6 <= max |e|^4 ||e||_2^2, as the samples at a seam of the loop are computed twice.
-    norm_6 = sixth ** (1 / 6) + 2.0 * (peak**2 * e) ** (1 / 3)
-    norms = root_samples, norm_2, np.sqrt(norm_2 * norm_6**3), norm_6**3
-    sums = [
-        2.0 ** (q - 2) * scale**q * (variation + 2.0 * q * e * norm)
-        for q, variation, norm in zip(POWERS, variations, norms, strict=True)
-    ]
-    largest = 2.0 * scale * (twelfth ** (1 / 12) + peak)
-    return largest * (1.0 + ROUNDING), np.stack(sums) * (1.0 + ROUNDING)
+    e_ends, a_step = np.sqrt(2.0) * e, s_step + e_step
+    I_2 = (np.sqrt(of_a.steps) + 32.0 * SINGLE * np.sqrt(of_a.sixth)) / 3.0  # a of a^3 is not quite that of a^4
+    I_1 = np.sqrt(a_step * I_2)
+    s_6 = of_a.sixth ** (1 / 6) + (peak**2 * e) ** (1 / 3)
+    third = of_a.third + 3.0 * e_step * np.sqrt(s * s_6**3) + 6.0 * e_ends * (I_1 + peak * a_step)
+    fourth = of_a.fourth + 4.0 * e_step * s_6**3 + 12.0 * e_ends * (I_2 + 2.0 * peak * I_1 + peak**2 * a_step)
+    above = 1.0 + ROUNDING
+    largest = 2.0 * scale * (of_a.twelfth ** (1 / 12) + peak)
+    return largest * above, {3: 2.0 * scale**3 * third * above, 4: 4.0 * scale**4 * fourth * above}
 
 
-class _Reduced(NamedTuple):
-    """Some stresses in terms of the histories of their welds, over their scale, and in single precision.
+def _combined(
+    bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent: ModalExtent
+) -> tuple[Combined, Floats]:
+    """Prepare some stations, over their scale, for the loop over time: top beside bottom, weld by weld.
 
-    ``histories`` (h, m) turns the record into u; ``shapes`` are the numbers of the matrices (2 r, b) of all welds, one
-    after the other, top beside bottom; ``begin`` (2, w + 1) is where histories and points of each weld begin;
-    ``rounding`` (r, 2, 2) is the largest error of a sample and that of its rms.
+    Beside them the largest error of a sample in single precision and that of its rms, (r, 2, 2).
     """
-
-    histories: Singles
-    shapes: Singles
-    begin: Rows
-    rounding: Floats
-
-
-def _reduced(bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent: ModalExtent) -> _Reduced:
-    """Prepare some stations for the loop over time."""
     modal = np.stack([extent.ranges, np.sqrt(np.diagonal(extent.covariance))], axis=1) / record.scale[:, None]
     rounding = np.empty((*scale.shape, 2))
     histories: list[Floats] = []
@@ -179,98 +160,17 @@ def _reduced(bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent
         rounding[run] = (m + h + 16) * SINGLE * (np.abs(L) @ (np.abs(B) @ modal))
         histories.append(B)
         shapes.append(L.reshape(2 * len(L), h))
-    return _Reduced(
-        histories=np.concatenate(histories).astype(np.float32),
-        shapes=np.concatenate([L.ravel() for L in shapes]).astype(np.float32),
-        begin=np.cumsum([[0, *(len(B) for B in histories)], [0, *(len(L) for L in shapes)]], axis=1),
-        rounding=rounding,
-    )
+    return combined(histories, shapes), rounding
 
 
-def _in_time(reduced: _Reduced, record: Record, extent: ModalExtent) -> Floats:
-    """Find V_1 to V_4, sum a^6 and sum a^12 of the reduced stress of every point, (r, 2, 6)."""
-    modes, samples = record.exact.shape
-    B = prepared_shapes(reduced.histories)
-    histories = len(reduced.histories)
-    width = min(CHUNK, max(STEP, HISTORIES // max(1, histories) // STEP * STEP))
-    space = space_for_samples(modes, width, np.float32)
-    found = np.zeros((2 * len(reduced.rounding), 6))
-    u = block_for(histories, 1 + width + STEP, np.float32)
-    u[:] = 0.0  # so that no sample behind the last one is a number that takes long
-    before = samples - 1 if extent.steps == samples else 0  # what recurs steps from its last sample to its first one
-    start = before - before % STEP
-    multiply(B, samples_of(record.q, start, samples if before else 1, space), u)
-    u[:, 0] = u[:, 1 + before - start]
-    room = np.empty((POINTS, u.shape[1]), np.float32)
-    add_all = add_in_memory if is_in_panels(record.q) else add_record
-    add_all(record.q, B, reduced.shapes, reduced.begin, (samples, width), u, space, room, found)
-    found /= 1.0 - (width + 2) * SINGLE  # sums of a chunk in single precision
-    return found.reshape(-1, 2, 6)
-
-
-def add_record(
-    q: Samples,
-    histories: Singles,
-    shapes: Singles,
-    begin: Rows,
-    sizes: tuple[int, int],
-    u: Singles,
-    space: Singles,
-    room: Singles,
-    found: Floats,
-) -> None:
-    """Add what `add_sums` finds in a record, ``sizes`` samples long, so many of them at a time.
-
-    As in `rainflow_run` the loop is compiled where the record and the product allow that: `add_in_memory`.
-    """
-    samples, width = sizes
-    for start in range(0, samples, width):
-        end = min(start + width, samples)
-        columns = 1 + end - start
-        multiply(histories, samples_of(q, start, end, space), u)
-        add_sums(u, columns, shapes, begin, room, found)
-        u[:, 0] = u[:, columns - 1]
-
-
-@compiled("reassoc", "nsz", "nnan", "contract")
-def sums_of_steps(s: Singles) -> tuple[np.floating, ...]:
-    """Total variations of s, s |s|, s^3 and s^3 |s|, and the sums of s^6 and s^12 without the first sample."""
-    first = second = third = fourth = sixth = twelfth = np.float32(0.0)
-    for i in range(1, s.size):
-        before, x = s[i - 1], s[i]
-        square_before, square = before * abs(before), x * abs(x)
-        cube_before, cube = square_before * abs(before), square * abs(x)
-        first += abs(x - before)
-        second += abs(square - square_before)
-        third += abs(cube - cube_before)
-        fourth += abs(cube * abs(x) - cube_before * abs(before))
-        sixth += cube * cube
-        twelfth += (cube * cube) * (cube * cube)
-    return first, second, third, fourth, sixth, twelfth
-
-
-@compiled()
-def add_sums(u: Singles, columns: int, shapes: Singles, begin: Rows, room: Singles, found: Floats) -> None:
-    """Add what `sums_of_steps` finds in some samples of all points, in column 0 of u (h, w) the last one before them.
-
-    ``shapes`` and ``begin`` are those of `_Reduced`; ``room`` (n, w) is for the stress of some points, by BLAS.
-    """
-    done = 0
-    for weld in range(begin.shape[1] - 1):
-        b = begin[0, weld + 1] - begin[0, weld]
-        of_weld = u[begin[0, weld] : begin[0, weld + 1]]
-        for first in range(begin[1, weld], begin[1, weld + 1], len(room)):
-            n = min(len(room), begin[1, weld + 1] - first)
-            stress = room[:n]
-            np.dot(shapes[done : done + n * b].reshape(n, b), of_weld, stress)
-            done += n * b
-            for row in range(n):
-                sums = sums_of_steps(stress[row, :columns])
-                for k in range(len(sums)):
-                    found[first + row, k] += sums[k]
-
-
-add_in_memory = compiled()(add_record)
+def _places(weld: Rows) -> Rows:
+    """Where `sums_in_time` has the top and the bottom stress of stations of these welds, (r, 2): welds begin a tile."""
+    places, first = [], 0
+    for run in _runs(weld):
+        n = 2 * (run.stop - run.start)
+        places.append(np.arange(first, first + n))
+        first += -(-n // TILE) * TILE
+    return np.concatenate(places).reshape(-1, 2)
 
 
 def _leading_directions(X: Floats) -> Floats:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.screening import damage_bound, may_need_mean_stress
+from fatigue.life.screening import PowerSums, damage_bound, may_need_mean_stress
 from fatigue.pipeline.shapes import Shapes
 
 
@@ -37,12 +37,12 @@ class Bound:
 
 def event_bound(
     stress_range: NDArray[np.float64],
-    power_sums: NDArray[np.float64],
+    power_sums: PowerSums,
     shapes: Shapes,
     mean: NDArray[np.float64],
     yield_MPa: float | None,
 ) -> Bound:
-    """Bound one pass from a bound of range (n, 2) and of sum n S^q, q = 1, 2 ... (q, n, 2) [MPa^q].
+    """Bound one pass from a bound of range (n, 2) and of sum n S^q, (n, 2) each [MPa^q].
 
     ``mean`` (n, 2) is the time mean of the stress [MPa]; ``yield_MPa`` is given where damage contains the mean-stress
     factor: stations that may need it have no bound then.
