@@ -56,6 +56,10 @@ class EventBlock:
     verdict: NDArray[np.int8]
     histogram: NDArray[np.float64]
 
+    def at(self, rows: NDArray[np.bool_]) -> "EventBlock":
+        """Take some stations."""
+        return EventBlock(*(getattr(self, field.name)[rows] for field in fields(self)))
+
 
 def count_event(
     shapes: Shapes, load: EventLoad, estimate: Estimate, yield_MPa: float | None, mean_stress: bool

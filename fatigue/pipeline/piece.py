@@ -1,6 +1,6 @@
 """Stations of one curve that were all counted, or all settled by bounds of one kind: their events and their mission."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from fatigue.pipeline.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.shapes import Shapes
 
 TIERS = ("", "modal bound", "weld bound")  # of the column `screened`: counted, or the bound that settled the point
+ABOVE = 1.0 + 1e-6  # so that what was counted in single precision is a bound as well
 ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
 
 
@@ -71,11 +72,41 @@ def counted_at(
     NumericalError : stress or damage exceeds double precision
     """
     for part in _cut(rows, shapes):
-        some, events = shapes.at(part), []
-        for load, estimate in zip(loads, estimates, strict=True):
-            with no_overflow(load.counted.event, rules.welds):
-                events.append(count_event(some, load, estimate.at(part), rules.yield_MPa, rules.mean_stress))
+        events = [_counted(part, shapes, load, e, rules) for load, e in zip(loads, estimates, strict=True)]
         yield _piece(part, events, plan, shapes, 0)
+
+
+def counted_while(
+    unsettled: Callable[[], NDArray[np.intp]],
+    bounds: list[Bound],
+    shapes: Shapes,
+    loads: Sequence[EventLoad],
+    estimates: Sequence[Estimate],
+    plan: Plan,
+    rules: Rules,
+) -> Iterator[Piece]:
+    """Count the stations of a block that are unsettled, event by event, until what was counted has settled them.
+
+    The events with the largest share come first. What was counted goes into the ``bounds`` of the events, by which the
+    stations of a block are ``unsettled`` or not; those that remain so have had all of their events counted.
+
+    Raises
+    ------
+    NumericalError : stress or damage exceeds double precision
+    """
+    for part in _cut(unsettled(), shapes):
+        events: dict[int, EventBlock] = {}
+        for number in _by_share(bounds, part, plan):
+            event = _counted(part, shapes, loads[number], estimates[number], rules)
+            counted = Bound(*(ABOVE * a for a in (event.damage, event.max_range, event.max_equivalent_range)))
+            bounds[number] = bounds[number].tightened(counted, part)
+            left = np.isin(part, unsettled())
+            part = part[left]  # noqa: PLW2901 - the loop over parts has nothing to do with the loop over events
+            events = {n: e.at(left) for n, e in (events | {number: event}).items()}
+            if not part.size:
+                break
+        else:
+            yield _piece(part, [events[number] for number in range(len(loads))], plan, shapes, 0)
 
 
 def bounded_at(
@@ -90,6 +121,20 @@ def bounded_at(
     raw_ends = shapes.raw_ends.at(rows)
     events = [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in zip(estimates, bounds, strict=True)]
     return _piece(rows, events, plan, shapes, tier)
+
+
+def _counted(rows: NDArray[np.intp], shapes: Shapes, load: EventLoad, estimate: Estimate, rules: Rules) -> EventBlock:
+    with no_overflow(load.counted.event, rules.welds):
+        return count_event(shapes.at(rows), load, estimate.at(rows), rules.yield_MPa, rules.mean_stress)
+
+
+def _by_share(bounds: Sequence[Bound], rows: NDArray[np.intp], plan: Plan) -> list[int]:
+    """Numbers of the events, those first whose bounds make up most of the damage of some stations."""
+    weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
+    damage = weights * np.stack([bound.damage[rows] for bound in bounds])
+    with np.errstate(invalid="ignore"):  # no bound, or no damage at all
+        share = np.nan_to_num(damage / damage.sum(axis=0), nan=1.0)
+    return [int(number) for number in np.argsort(-share.sum(axis=(1, 2)), kind="stable")]
 
 
 def _cut(rows: NDArray[np.intp], shapes: Shapes) -> Iterator[NDArray[np.intp]]:

@@ -3,9 +3,10 @@
 A station may go without counting when no event, and no choice of bending ratios, can take its damage to a stated share
 of the limit, and when it cannot be the worst point of its weld: its bound is below the damage that was counted at
 another toe point of the weld. So the point that the spectrum says is worst is counted first, weld by weld. Bounds come
-in tiers, each sharper and dearer than the one before; a station leaves as soon as one of them settles it. Where it is
-enough to know the likely worst point of welds that stay below the share everywhere, the second condition is dropped for
-them: it takes most of the time.
+in tiers, each sharper and dearer than the one before; a station leaves as soon as one of them settles it, even while
+its events are counted, as soon as those that were counted and the bounds of the others do. Where it is enough to know
+the likely worst point of welds that stay below the share everywhere, the second condition is dropped for them: it takes
+most of the time.
 
 Ends without treatment are counted beside the points that are counted, unless the first of the bounds proves that they
 stay below the share as well.
@@ -20,13 +21,13 @@ from numpy.typing import NDArray
 from fatigue.life.forms import face_forms, part_forms
 from fatigue.life.mission import Plan, mission_sum
 from fatigue.life.rainflow_fast import Record
-from fatigue.life.screening import ModalExtent, extent_bound
+from fatigue.life.screening import ModalExtent, PowerSums, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
 from fatigue.pipeline.bounds import Bound, event_bound
 from fatigue.pipeline.estimate import Estimate, estimate_event, mean_stress, member_variances
 from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at
+from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at, counted_while
 from fatigue.pipeline.shapes import Shapes
 
 WELD_BOUNDS_AT_ONCE = 1024  # stations, or those of one weld: 10 kB each with 100 modes
@@ -72,7 +73,8 @@ def settle(
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    estimates, bounds = _estimates_and_modal_bounds(shapes, loads, screening, rules)
+    estimates, modal_bounds = _estimates_and_modal_bounds(shapes, loads, screening, rules)
+    bounds = list(modal_bounds)
     shapes = _without_small_raw_ends(shapes, loads, plan, screening, rules)
 
     tier = np.ones(len(shapes), dtype=np.int8)
@@ -95,13 +97,12 @@ def settle(
         return np.flatnonzero((matters | may_be_worst) & (tier > 0))
 
     rest = unsettled()
-    if rest.size:
-        tier[rest] = 2
-        for part in _in_parts(weld, rest):
-            bounds = _weld_bounds(shapes, weld, part, bounds, estimates, loads, screening, rules)
-        rest = unsettled()
-        tier[rest] = 0
-        yield from counted_at(rest, shapes, loads, estimates, plan, rules)
+    tier[rest] = 2
+    for part in _in_parts(weld, rest):
+        bounds[:] = _weld_bounds(shapes, weld, part, bounds, estimates, loads, screening, rules)
+    for piece in counted_while(unsettled, bounds, shapes, loads, estimates, plan, rules):
+        yield piece
+        tier[piece.rows] = 0
     for number in range(1, len(TIERS)):
         rows = np.flatnonzero(tier == number)
         for first in range(0, len(rows), BOUNDED_AT_ONCE):
@@ -164,14 +165,16 @@ def _without_small_raw_ends(
 
 
 def _scaled(
-    stress_range: NDArray[np.float64], power_sums: NDArray[np.float64], f: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Take range and sums n S^q, q = 1, 2 ..., of f times the stress."""
-    return f * stress_range, f ** np.arange(1, len(power_sums) + 1)[:, None, None] * power_sums
+    stress_range: NDArray[np.float64], power_sums: PowerSums, f: float
+) -> tuple[NDArray[np.float64], PowerSums]:
+    """Take range and sums n S^q of f times the stress."""
+    return f * stress_range, {q: f**q * power_sum for q, power_sum in power_sums.items()}
 
 
 def _in_parts(weld: NDArray[np.int64], rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     """Cut some stations, ascending, between welds, into parts of about `WELD_BOUNDS_AT_ONCE`."""
+    if not rows.size:
+        return []
     first_of_weld = np.searchsorted(weld[rows], weld[rows])
     return np.split(rows, np.flatnonzero(np.diff(first_of_weld // WELD_BOUNDS_AT_ONCE)) + 1)
 
