@@ -17,6 +17,7 @@ from fatigue.errors import Problem
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import Checkpoint, locked
 from fatigue.pipeline.cycles import CycleWriter, kept_point
+from fatigue.pipeline.doubts import Doubts
 from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.folder import publish, refuse_foreign, result_log
 from fatigue.pipeline.model import toe_faces
@@ -46,7 +47,9 @@ Progress = Callable[[str, int, int], None]
 class Assessment:
     """What a finished assessment says at a glance; the numbers are in the tables of ``folder``.
 
-    ``groups`` of welds were assessed, ``groups_reused`` of them by an earlier run that was interrupted.
+    ``groups`` of welds were assessed, ``groups_reused`` of them by an earlier run that was interrupted. Of
+    ``warnings`` of one code the first are there one by one; one more stands for the others, ``count`` of them, and
+    names their welds.
     """
 
     folder: Path
@@ -113,6 +116,7 @@ def assess(
             else:
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
+            done.doubts.add((*body.warnings, *record_warnings))
             unpublished = state.folder / "tables"
             with result_tables(unpublished) as tables, closing(assessed):
                 cycles = CycleWriter(tables["cycles"], work.loads, case.curve)
@@ -127,7 +131,8 @@ def assess(
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            warnings = (*body.warnings, *record_warnings, *done.warnings, *sampling_warnings(body, done))
+            done.doubts.add(sampling_warnings(body, done))
+            warnings = done.doubts.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", record)
             if report:
@@ -142,7 +147,8 @@ def assess(
 class Tally:
     """What adds up while groups of welds stream by.
 
-    ``stations`` are counted by the tier that settled them, ``samples_per_peak`` is the smallest of each event.
+    ``stations`` are counted by the tier that settled them, ``samples_per_peak`` is the smallest of each event,
+    ``doubts`` are the warnings, those about the welds in the order of their groups.
     """
 
     total: int
@@ -151,7 +157,7 @@ class Tally:
     reused: int = 0
     fulfilled: bool = True
     stations: dict[str, int] = field(default_factory=dict)
-    warnings: list[Problem] = field(default_factory=list)
+    doubts: Doubts = field(default_factory=Doubts)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
@@ -163,7 +169,7 @@ class Tally:
         for number, tier in enumerate(TIERS):
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
-        self.warnings += group.model.warnings
+        self.doubts.add(group.model.warnings)
         for passed, event in zip(work.plan.passes, result.events, strict=True):
             fewest = float(np.nanmin(event.samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))

@@ -16,6 +16,7 @@ from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rainflow import BlockCount, count_block
 from fatigue.life.rainflow_fast import count_block_fast, record_of
 from fatigue.pipeline.body import read_body
+from fatigue.pipeline.doubts import Doubts
 from fatigue.pipeline.events import DOUBLE_PRECISION_SAMPLES, mission_plan
 from fatigue.pipeline.model import solve_group
 from fatigue.pipeline.weld_groups import weld_groups
@@ -27,7 +28,8 @@ _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 class CheckedCase:
     """Sizes of a case that passed every check, and the doubts that remain.
 
-    ``samples`` are stress samples of one face: stations times kept samples, over all events.
+    ``samples`` are stress samples of one face: stations times kept samples, over all events. ``warnings`` are summed up
+    as those of an assessment are.
     """
 
     title: str
@@ -57,7 +59,7 @@ class CheckedCase:
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",
                 f"  estimated time   {_duration(self.estimated_s)} on one processor core, if every point is counted",
-                f"  warnings         {len(self.warnings)}",
+                f"  warnings         {sum(warning.count for warning in self.warnings)}",
             ]
         )
 
@@ -70,16 +72,17 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
     CaseError, DataError : what an assessment would refuse, this refuses with the same words
     """
     body = read_body(case, strict=strict)
-    plan, doubts = mission_plan(body)
+    plan, record_warnings = mission_plan(body)
+    doubts = Doubts()
+    doubts.add((*body.warnings, *record_warnings))
     parts = stations = 0
-    force_warnings: list[Problem] = []
     with TemporaryDirectory() as scratch:
         groups = weld_groups(body, Path(scratch))
         for number in range(len(groups)):
             model = solve_group(groups, number)
             parts += len(model.lines)
             stations += len(model.stations)
-            force_warnings += model.warnings
+            doubts.add(model.warnings)
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,
@@ -91,7 +94,7 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
         samples=samples,
         distance_km=sum(p.length or 0.0 for p in plan.passes),
         estimated_s=samples * _seconds_per_sample(len(body.modes.mode), 2 * samples > DOUBLE_PRECISION_SAMPLES),
-        warnings=(*body.warnings, *doubts, *force_warnings),
+        warnings=doubts.listed(),
     )
 
 

@@ -10,13 +10,15 @@ class Problem:
     """One mistake or one doubt, in words for the person who can mend it.
 
     ``where`` is the file and the place in it, ``what`` the finding with its value, ``remedy`` what to do
-    (an imperative without a full stop); ``code`` names the kind of problem for machines.
+    (an imperative without a full stop); ``code`` names the kind of problem for machines. One that sums up others has
+    their number as its ``count``.
     """
 
     code: str
     where: str
     what: str
     remedy: str
+    count: int = 1
 
     def __str__(self) -> str:
         """One line: place, finding and remedy."""

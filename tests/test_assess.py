@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import zipfile
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import pytest
 
 from fatigue.assess import assess as assess_and_report
 from fatigue.case import load_case
+from fatigue.check import check_case
 from fatigue.errors import DataError, NumericalError
 from fatigue.life.curves import catalogue
 from tests.small_case import BENDING, MEMBRANE, THICKNESS, sine_only, small_case
@@ -34,6 +36,16 @@ def run(case, folder, **options):
 def digests(folder):
     """SHA-256 of every result table."""
     return {name: hashlib.sha256((folder / f"{name}.parquet").read_bytes()).hexdigest() for name in TABLES}
+
+
+def warnings_of(folder):
+    """Warnings of a result."""
+    return json.loads((folder / "provenance.json").read_text())["warnings"]
+
+
+def case_welds(case):
+    """Names of the welds of a case, in its order."""
+    return pd.read_csv(case.resolve(case.body.welds))["weld"].tolist()
 
 
 def equivalent_range(stress_range, r, thickness=THICKNESS):
@@ -349,6 +361,18 @@ def test_an_interrupted_run_goes_on_and_ends_with_the_same_bytes(tmp_path, many_
     assert digests(tmp_path / "result") == digests(undisturbed)
     assert not (tmp_path / "result" / ".fatigue-state").exists()
     assert f"{done.groups_reused} of {done.groups} groups" in (tmp_path / "result" / "fatigue.log").read_text()
+    assert warnings_of(tmp_path / "result") == warnings_of(undisturbed)
+
+
+def test_warnings_of_many_welds_are_summed_up(many_welds):
+    """Twenty one by one, one for the other welds; the dry run says the same."""
+    case, folder = many_welds
+    found = warnings_of(folder)
+    *first, others = [warning for warning in found if warning["code"] == "end_unresolved"]
+    assert [warning["where"].rpartition(" ")[2] for warning in first] == case_welds(case)[:20]
+    assert others["count"] == 12
+    assert others["where"] == f"weld_nodes.csv: weld {', '.join(case_welds(case)[20:])}"
+    assert [asdict(warning) for warning in check_case(case, strict=False).warnings] == found
 
 
 def test_a_damaged_part_is_computed_again(tmp_path, many_welds):

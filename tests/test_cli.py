@@ -165,6 +165,13 @@ def test_check_prints_sizes_and_writes_nothing(tmp_path):
     assert record["samples"] == 14 * (2400 + 2200 + 2)
 
 
+def test_warnings_of_many_welds_are_one_line_with_their_number(tmp_path):
+    """Those that are summed up count one by one."""
+    done = fatigue("check", small_case(pairs=16).write(tmp_path / "case"))
+    assert "(and 31 more of this kind" in done.stderr
+    assert "  warnings         33\n" in done.stdout
+
+
 def test_strict_takes_unknown_columns_for_errors(tmp_path):
     """Unknown columns warn; with --strict they are refused with their name."""
     case = small_case()

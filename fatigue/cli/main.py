@@ -394,7 +394,8 @@ def _print_warnings(problems: tuple[Problem, ...]) -> None:
     for problem in problems:
         kinds.setdefault(problem.code, []).append(problem)
     for same in kinds.values():
-        more = f" (and {len(same) - 1} more of this kind, see provenance.json)" if len(same) > 1 else ""
+        others = sum(problem.count for problem in same) - 1
+        more = f" (and {others} more of this kind, see provenance.json)" if others else ""
         log.warning("%s%s", same[0], more)
 
 

@@ -15,6 +15,7 @@ from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.event_load import EventLoad, prepare_event
 from fatigue.pipeline.model import solve_group
+from fatigue.pipeline.record_units import step_problems, step_warnings
 from fatigue.pipeline.side_by_side import in_order
 from fatigue.pipeline.weld_groups import WeldGroups
 from fatigue.readers.history import TimeGrid, check_history, read_history
@@ -157,10 +158,10 @@ def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
 def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
     """Read and check the record of an event: its passes and the doubts about it, or what is wrong with it."""
     case = body.case
+    path = case.resolve(event.history)
     try:
-        grid, doubts = check_history(
-            case.resolve(event.history), body.modes.mode, case.body.ignore_modes, strict=body.strict
-        )
+        grid, doubts = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
+        refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
         samples = _kept_samples(case, event, grid)
     except FatigueError as error:
         return error
@@ -171,6 +172,7 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueEr
         share=event.share,
         per_1000_km=event.per_1000_km,
     )
+    doubts += step_warnings(grid, body.modes, path.name, event.name)
     return one, doubts + _record_warnings(body, event, samples, grid.step)
 
 

@@ -23,7 +23,8 @@ from fatigue.report.why import read_why
 
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only those of the worst welds are
-MOST_LISTED = 2000  # welds in the register of the page, and warnings of a kind
+MOST_LISTED = 2000  # welds in the register of the page
+LONGEST_PLACE = 20_000  # letters of the place of a warning: that of one for many welds names them all
 WORST_POINTS = 50
 
 
@@ -80,7 +81,6 @@ def report_page(folder: Path, case_path: Path | None = None, verification: Seque
         "undrawn": len(result.assessed) - len(result.drawn),
         "worst_points": tables.point_table(result.worst_points, links, WORST_POINTS, "worst-points", "Find a point"),
         "register": tables.register_table(_listed(result), links),
-        "most_listed": MOST_LISTED,
         "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
         "modes": tables.mode_table(record["modes"]),
@@ -161,9 +161,16 @@ def _listed(result: Result) -> pd.DataFrame:
     return result.welds[listed]
 
 
-def _warnings(record: Mapping[str, Any]) -> list[tuple[str, list[Mapping[str, str]]]]:
-    """Group the warnings by their kind, the kinds in the order in which they came."""
-    groups: dict[str, list[Mapping[str, str]]] = {}
+def _warnings(record: Mapping[str, Any]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
+    """Group the warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
+    groups: dict[str, list[Mapping[str, Any]]] = {}
     for warning in record["warnings"]:
-        groups.setdefault(warning["code"], []).append(warning)
-    return list(groups.items())
+        groups.setdefault(warning["code"], []).append({**warning, "where": _shortened(warning["where"])})
+    return [(code, sum(warning.get("count", 1) for warning in group), group) for code, group in groups.items()]
+
+
+def _shortened(place: str) -> str:
+    """Cut a long list of welds behind one of them."""
+    if len(place) <= LONGEST_PLACE:
+        return place
+    return f"{place[:LONGEST_PLACE].rpartition(', ')[0]} and others, see provenance.json"

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from fatigue.case import load_case
-from fatigue.errors import FatigueError
+from fatigue.errors import DataError, FatigueError
 from fatigue.life import spool
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.history import ModalHistory
@@ -74,6 +74,27 @@ def test_mistakes_of_several_records_are_told_together(tmp_path):
     with pytest.raises(FatigueError) as error:
         mission_plan(body_of(case, tmp_path))
     assert [p.where for p in error.value.problems] == ["sine.csv: column q_1, row 4", "noise.csv: column q_1, row 5"]
+
+
+def test_times_in_ms_are_refused_for_every_event(tmp_path):
+    """Before its length is compared with the record; a load case typed in by hand may have any times."""
+    case = small_case()
+    for name in ("sine", "noise"):
+        case.histories[name]["time_s"] *= 1000.0
+    case.histories["load"]["time_s"] *= 1000.0
+    case.events[0]["length_km"] = 0.6
+    with pytest.raises(DataError) as error:
+        mission_plan(body_of(case, tmp_path))
+    assert [p.where for p in error.value.problems] == ["sine.csv: column time_s", "noise.csv: column time_s"]
+    assert [p.code for p in error.value.problems] == ["long_step", "long_step"]
+
+
+def test_a_step_far_too_short_is_a_doubt(tmp_path):
+    """Times in hours."""
+    case = small_case()
+    case.histories["sine"]["time_s"] /= 3600.0
+    _, warnings = mission_plan(body_of(case, tmp_path))
+    assert [w.where for w in warnings if w.code == "short_step"] == ["sine.csv: column time_s"]
 
 
 def test_few_segments_and_no_spectrum_are_doubts(tmp_path):

@@ -31,6 +31,6 @@ def test_rules_are_told(small_result):
     assert found["rules"]["residue"]["load and unload"].startswith("a single pass")
     assert found["rules"]["residue"]["sine"].startswith("the record recurs")
     assert [e["event"] for e in found["mission"]["events"]] == ["sine", "noise", "load and unload"]
-    assert {"code", "where", "what", "remedy"} == set(found["warnings"][0])
+    assert {"code", "where", "what", "remedy", "count"} == set(found["warnings"][0])
     assert found["software"]["fatigue"]
     assert found["modes"]["used"] == [1, 2, 7]

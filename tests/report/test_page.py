@@ -234,7 +234,21 @@ def test_warnings_are_on_the_first_page_and_in_full_below(tmp_path):
     )
     words = made(tmp_path, warnings=warnings).words
     assert "and 2 more of this kind" in words
+    assert "End unresolved (3)" in words
     assert words.count("Refine") == 3
+
+
+def test_a_warning_that_sums_up_others_counts_for_them(tmp_path, monkeypatch):
+    """Their number is in all numbers of the kind, their welds are named as far as there is room."""
+    monkeypatch.setattr("fatigue.report.page.LONGEST_PLACE", 40)
+    one = {"code": "end_unresolved", "where": "n.csv: weld A", "what": "coarse", "remedy": "Refine", "count": 1}
+    some = one | {"where": "n.csv: weld B, C", "what": "2 more of this kind", "count": 2}
+    many = one | {"where": "n.csv: weld " + ", ".join(["D1"] * 10), "what": "10 more of this kind", "count": 10}
+    words = made(tmp_path, warnings=(one, some, many)).words
+    assert "and 12 more of this kind" in words
+    assert "End unresolved (13)" in words
+    assert "n.csv: weld B, C : 2 more" in words
+    assert "n.csv: weld D1, D1, D1, D1, D1, D1, D1 and others, see provenance.json : 10 more" in words
 
 
 def test_many_welds_have_their_rows_and_few_their_figures(tmp_path, monkeypatch):
@@ -247,17 +261,15 @@ def test_many_welds_have_their_rows_and_few_their_figures(tmp_path, monkeypatch)
 
 
 def test_of_very_many_welds_the_worst_are_drawn_and_listed(tmp_path, monkeypatch):
-    """Lines, register and warnings have a limit each; the page says what is left out and where it is."""
+    """Lines and register have a limit each; the page says what is left out and where it is."""
     for limit, value in (("MOST_DETAILED", 2), ("MOST_STATIONS", 9), ("MOST_LISTED", 5)):
         monkeypatch.setattr(f"fatigue.report.page.{limit}", value)
-    doubts = tuple({"code": "doubt", "where": f"weld {i}", "what": "w", "remedy": "r"} for i in range(7))
-    page = made(tmp_path, welds=tuple(f"W{i}" for i in range(8)), stations=3, warnings=doubts)
+    page = made(tmp_path, welds=tuple(f"W{i}" for i in range(8)), stations=3)
     assert "Weld lines, coloured by the shorter life of the toe faces, the 3 worst of 8 welds" in page.words
     assert len(values(page.figures["scene"]["data"][0]["x"])) == 3 * (3 + 1)
     assert [row[0] for row in page.tables["weld-register"][1:]] == [f"W{i}" for i in range(5)]
     assert "The 3 assessed welds with the longest lives are left out here; they are in welds.parquet" in page.words
     assert "the other 6 have all their numbers in the tables" in page.words
-    assert "and 2 more, see provenance.json" in page.words
     assert "48 toe points were assessed" in page.words
 
 
