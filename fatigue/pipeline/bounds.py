@@ -1,10 +1,12 @@
 """Proven bounds for one pass of an event at a block of stations, in place of counting."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.mission import Plan
 from fatigue.life.screening import PowerSums, damage_bound, may_need_mean_stress
 from fatigue.pipeline.shapes import Shapes
 
@@ -53,3 +55,12 @@ def event_bound(
     if yield_MPa is not None:
         damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)
+
+
+def by_share(bounds: Sequence[Bound], rows: NDArray[np.intp], plan: Plan) -> list[int]:
+    """Numbers of the events, those first whose bounds make up most of the damage of some stations."""
+    weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
+    damage = weights * np.stack([bound.damage[rows] for bound in bounds])
+    with np.errstate(invalid="ignore"):  # no bound, or no damage at all
+        share = np.nan_to_num(damage / damage.sum(axis=0), nan=1.0)
+    return [int(number) for number in np.argsort(-share.sum(axis=(1, 2)), kind="stable")]

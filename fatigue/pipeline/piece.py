@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.bounds import Bound
+from fatigue.pipeline.bounds import Bound, by_share
 from fatigue.pipeline.estimate import Estimate, estimate_event, member_variances
 from fatigue.pipeline.event_block import EventBlock, bounded_event, count_event, no_overflow
 from fatigue.pipeline.event_load import EventLoad
@@ -17,6 +17,8 @@ from fatigue.pipeline.shapes import Shapes
 TIERS = ("", "modal bound", "weld bound")  # of the column `screened`: counted, or the bound that settled the point
 ABOVE = 1.0 + 1e-6  # so that what was counted in single precision is a bound as well
 ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
+
+Unsettled = Callable[[NDArray[np.intp]], NDArray[np.intp]]  # those of some stations that are not settled
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +79,8 @@ def counted_at(
 
 
 def counted_while(
-    unsettled: Callable[[], NDArray[np.intp]],
+    unsettled: Unsettled,
+    rows: NDArray[np.intp],
     bounds: list[Bound],
     shapes: Shapes,
     loads: Sequence[EventLoad],
@@ -85,28 +88,27 @@ def counted_while(
     plan: Plan,
     rules: Rules,
 ) -> Iterator[Piece]:
-    """Count the stations of a block that are unsettled, event by event, until what was counted has settled them.
+    """Count some stations of a block event by event, as long as they are unsettled.
 
-    The events with the largest share come first. What was counted goes into the ``bounds`` of the events, by which the
-    stations of a block are ``unsettled`` or not; those that remain so have had all of their events counted.
+    The events with the largest share come first. What was counted goes into the ``bounds`` of the events, by which a
+    station is ``unsettled`` or not; those that remain so have had all of their events counted.
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    for part in _cut(unsettled(), shapes):
-        events: dict[int, EventBlock] = {}
-        for number in _by_share(bounds, part, plan):
-            event = _counted(part, shapes, loads[number], estimates[number], rules)
+    for part in _cut(rows, shapes):
+        left, events = part, dict[int, EventBlock]()
+        for number in by_share(bounds, part, plan):
+            event = _counted(left, shapes, loads[number], estimates[number], rules)
             counted = Bound(*(ABOVE * a for a in (event.damage, event.max_range, event.max_equivalent_range)))
-            bounds[number] = bounds[number].tightened(counted, part)
-            left = np.isin(part, unsettled())
-            part = part[left]  # noqa: PLW2901 - the loop over parts has nothing to do with the loop over events
-            events = {n: e.at(left) for n, e in (events | {number: event}).items()}
-            if not part.size:
+            bounds[number] = bounds[number].tightened(counted, left)
+            remain = np.isin(left, unsettled(left))
+            left, events = left[remain], {n: e.at(remain) for n, e in (events | {number: event}).items()}
+            if not left.size:
                 break
         else:
-            yield _piece(part, [events[number] for number in range(len(loads))], plan, shapes, 0)
+            yield _piece(left, [events[number] for number in range(len(loads))], plan, shapes, 0)
 
 
 def bounded_at(
@@ -126,15 +128,6 @@ def bounded_at(
 def _counted(rows: NDArray[np.intp], shapes: Shapes, load: EventLoad, estimate: Estimate, rules: Rules) -> EventBlock:
     with no_overflow(load.counted.event, rules.welds):
         return count_event(shapes.at(rows), load, estimate.at(rows), rules.yield_MPa, rules.mean_stress)
-
-
-def _by_share(bounds: Sequence[Bound], rows: NDArray[np.intp], plan: Plan) -> list[int]:
-    """Numbers of the events, those first whose bounds make up most of the damage of some stations."""
-    weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
-    damage = weights * np.stack([bound.damage[rows] for bound in bounds])
-    with np.errstate(invalid="ignore"):  # no bound, or no damage at all
-        share = np.nan_to_num(damage / damage.sum(axis=0), nan=1.0)
-    return [int(number) for number in np.argsort(-share.sum(axis=(1, 2)), kind="stable")]
 
 
 def _cut(rows: NDArray[np.intp], shapes: Shapes) -> Iterator[NDArray[np.intp]]:

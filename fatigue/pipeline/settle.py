@@ -23,11 +23,11 @@ from fatigue.life.mission import Plan, mission_sum
 from fatigue.life.rainflow_fast import Record
 from fatigue.life.screening import ModalExtent, PowerSums, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
-from fatigue.pipeline.bounds import Bound, event_bound
+from fatigue.pipeline.bounds import Bound, by_share, event_bound
 from fatigue.pipeline.estimate import Estimate, estimate_event, mean_stress, member_variances
 from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at, counted_while
+from fatigue.pipeline.piece import TIERS, Piece, Rules, Unsettled, bounded_at, counted_at, counted_while
 from fatigue.pipeline.shapes import Shapes
 
 WELD_BOUNDS_AT_ONCE = 1024  # stations, or those of one weld: 10 kB each with 100 modes
@@ -80,27 +80,27 @@ def settle(
     tier = np.ones(len(shapes), dtype=np.int8)
     likely_worst = _likely_worst(weld, toe, estimates, bounds, plan)
     tier[likely_worst] = 0
-    worst = np.zeros((len(shapes), 1))
+    worst, in_such_weld = np.zeros((len(shapes), 1)), np.zeros(len(shapes), dtype=np.bool_)
     for piece in counted_at(likely_worst, shapes, loads, estimates, plan, rules):
         yield piece
-        at_worst = np.where(toe[piece.rows], piece.mission.utilisation, 0.0).max(axis=1)
-        of_these = np.isin(weld, weld[piece.rows])
-        worst[of_these, 0] = at_worst[np.searchsorted(weld[piece.rows], weld[of_these])]
+        used, of_these = piece.mission.utilisation, np.isin(weld, weld[piece.rows])
+        its = np.searchsorted(weld[piece.rows], weld[of_these])
+        worst[of_these, 0] = np.where(toe[piece.rows], used, 0.0).max(axis=1)[its]
+        in_such_weld[of_these] = (used >= screening.share).any(axis=1)[its]
 
-    def unsettled() -> NDArray[np.intp]:
+    def unsettled(rows: NDArray[np.intp]) -> NDArray[np.intp]:
         """Stations whose bound neither stays below the share nor below the worst point of their weld."""
-        at_most = _utilisation(bounds, plan)
+        at_most = _utilisation([bound.at(rows) for bound in bounds], plan)
         matters = (at_most >= screening.share).any(axis=1)
-        may_be_worst = (toe & (at_most > worst)).any(axis=1)
+        may_be_worst = (toe[rows] & (at_most > worst[rows])).any(axis=1)
         if not screening.proves_worst:
-            may_be_worst &= np.isin(weld, weld[matters])
-        return np.flatnonzero((matters | may_be_worst) & (tier > 0))
+            may_be_worst &= in_such_weld[rows] | np.isin(weld[rows], weld[rows[np.flatnonzero(matters)]])
+        return rows[np.flatnonzero(matters | may_be_worst)]
 
-    rest = unsettled()
+    rest = unsettled(np.flatnonzero(tier))
     tier[rest] = 2
-    for part in _in_parts(weld, rest):
-        bounds[:] = _weld_bounds(shapes, weld, part, bounds, estimates, loads, screening, rules)
-    for piece in counted_while(unsettled, bounds, shapes, loads, estimates, plan, rules):
+    _bound_while(unsettled, rest, bounds, shapes, weld, loads, estimates, plan, screening, rules)
+    for piece in counted_while(unsettled, unsettled(rest), bounds, shapes, loads, estimates, plan, rules):
         yield piece
         tier[piece.rows] = 0
     for number in range(1, len(TIERS)):
@@ -171,36 +171,42 @@ def _scaled(
     return f * stress_range, {q: f**q * power_sum for q, power_sum in power_sums.items()}
 
 
+def _bound_while(
+    unsettled: Unsettled,
+    rows: NDArray[np.intp],
+    bounds: list[Bound],
+    shapes: Shapes,
+    weld: NDArray[np.int64],
+    loads: Sequence[EventLoad],
+    estimates: Sequence[Estimate],
+    plan: Plan,
+    screening: Screening,
+    rules: Rules,
+) -> None:
+    """Tighten the bounds of some stations by the range and the variation of their stress, as long as it is needed.
+
+    As in `counted_while`: event by event, those with the largest share first.
+    """
+    for part in _in_parts(weld, rows):
+        bases = weld_bases(shapes.membrane[part], shapes.bending[part], weld[part], screening.extents)
+        left = part
+        for number in by_share(bounds, part, plan):
+            record, extent = screening.records[number], screening.extents[number]
+            found = reduced_bound(bases, np.searchsorted(part, left), record, extent)
+            mean, yield_MPa = estimates[number].mean[left], rules.yield_of_damage
+            bounded = event_bound(*_scaled(*found, loads[number].stress_factor), shapes.at(left), mean, yield_MPa)
+            bounds[number] = bounds[number].tightened(bounded, left)
+            left = unsettled(left)
+            if not left.size:
+                break
+
+
 def _in_parts(weld: NDArray[np.int64], rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     """Cut some stations, ascending, between welds, into parts of about `WELD_BOUNDS_AT_ONCE`."""
     if not rows.size:
         return []
     first_of_weld = np.searchsorted(weld[rows], weld[rows])
     return np.split(rows, np.flatnonzero(np.diff(first_of_weld // WELD_BOUNDS_AT_ONCE)) + 1)
-
-
-def _weld_bounds(
-    shapes: Shapes,
-    weld: NDArray[np.int64],
-    rows: NDArray[np.intp],
-    bounds: Sequence[Bound],
-    estimates: Sequence[Estimate],
-    loads: Sequence[EventLoad],
-    screening: Screening,
-    rules: Rules,
-) -> tuple[Bound, ...]:
-    """Tighten the bounds of some stations by the range and the variation of their stress, weld by weld."""
-    whole = np.flatnonzero(np.isin(weld, weld[rows]))
-    bases = weld_bases(shapes.membrane[whole], shapes.bending[whole], weld[whole], screening.extents)
-    some, of_bases = shapes.at(rows), np.searchsorted(whole, rows)
-    tighter = []
-    for load, extent, record, bound, estimate in zip(
-        loads, screening.extents, screening.records, bounds, estimates, strict=True
-    ):
-        found = _scaled(*reduced_bound(bases, of_bases, record, extent), load.stress_factor)
-        bounded = event_bound(*found, some, estimate.mean[rows], rules.yield_of_damage)
-        tighter.append(bound.tightened(bounded, rows))
-    return tuple(tighter)
 
 
 def _likely_worst(
