@@ -9,6 +9,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.results import (
+    ASSESSED,
     TABLES,
     coded,
     input_register,
@@ -69,6 +70,13 @@ def test_the_same_rows_in_other_pieces_give_the_same_row_groups(tmp_path, monkey
     file = pq.ParquetFile(tmp_path / "nodes.parquet")
     assert [file.metadata.row_group(i).num_rows for i in range(file.num_row_groups)] == [8, 8, 5]
     assert file.read()["weld"].to_pylist() == names
+
+
+def test_rows_that_wait_take_little_memory():
+    """All tables of an assessment together, numbers and codes of eight bytes at most, before their groups are full."""
+    waiting = {table: 8 * store._ROWS_PER_GROUP[table] * len(TABLES[table]) for table in ASSESSED}
+    assert sum(waiting.values()) < 50e6
+    assert waiting["welds"] < 1e6  # its rows come a few at a time: each piece has arrays and texts of its own
 
 
 def columns(names):
