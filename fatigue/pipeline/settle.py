@@ -5,8 +5,8 @@ of the limit, and when it cannot be the worst point of its weld: its bound is be
 another toe point of the weld. So the point that the spectrum says is worst is counted first, weld by weld. Bounds come
 in tiers, each sharper and dearer than the one before; a station leaves as soon as one of them settles it, even while
 its events are counted, as soon as those that were counted and the bounds of the others do. Where it is enough to know
-the likely worst point of welds that stay below the share everywhere, the second condition is dropped for them: it takes
-most of the time.
+the likely worst point of welds that stay below the share everywhere, the second condition is dropped, as a point below
+the share is not the worst one of the other welds: it takes most of the time.
 
 Ends without treatment are counted beside the points that are counted, unless the first of the bounds proves that they
 stay below the share as well.
@@ -80,22 +80,20 @@ def settle(
     tier = np.ones(len(shapes), dtype=np.int8)
     likely_worst = _likely_worst(weld, toe, estimates, bounds, plan)
     tier[likely_worst] = 0
-    worst, in_such_weld = np.zeros((len(shapes), 1)), np.zeros(len(shapes), dtype=np.bool_)
+    worst = np.zeros((len(shapes), 1))
     for piece in counted_at(likely_worst, shapes, loads, estimates, plan, rules):
         yield piece
-        used, of_these = piece.mission.utilisation, np.isin(weld, weld[piece.rows])
-        its = np.searchsorted(weld[piece.rows], weld[of_these])
-        worst[of_these, 0] = np.where(toe[piece.rows], used, 0.0).max(axis=1)[its]
-        in_such_weld[of_these] = (used >= screening.share).any(axis=1)[its]
+        at_worst = np.where(toe[piece.rows], piece.mission.utilisation, 0.0).max(axis=1)
+        of_these = np.isin(weld, weld[piece.rows])
+        worst[of_these, 0] = at_worst[np.searchsorted(weld[piece.rows], weld[of_these])]
 
     def unsettled(rows: NDArray[np.intp]) -> NDArray[np.intp]:
         """Stations whose bound neither stays below the share nor below the worst point of their weld."""
         at_most = _utilisation([bound.at(rows) for bound in bounds], plan)
-        matters = (at_most >= screening.share).any(axis=1)
-        may_be_worst = (toe[rows] & (at_most > worst[rows])).any(axis=1)
-        if not screening.proves_worst:
-            may_be_worst &= in_such_weld[rows] | np.isin(weld[rows], weld[rows[np.flatnonzero(matters)]])
-        return rows[np.flatnonzero(matters | may_be_worst)]
+        remains = at_most >= screening.share
+        if screening.proves_worst:
+            remains |= toe[rows] & (at_most > worst[rows])
+        return rows[np.flatnonzero(remains.any(axis=1))]
 
     rest = unsettled(np.flatnonzero(tier))
     tier[rest] = 2
