@@ -16,6 +16,7 @@ from fatigue.readers.weld_register import RegisterRow
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
 
+EQUAL = 1.0 - 1e-12  # what is so close to the worst point is as bad: only the order of sums differs
 
 @dataclass(frozen=True, slots=True)
 class WorstPoint:
@@ -35,7 +36,8 @@ def worst_points(model: Model, result: GroupResult) -> tuple[WorstPoint, ...]:
     utilisation = np.where(counted & toe_faces(model), result.mission.utilisation, -1.0)
     worst = []
     for weld, (first, end) in enumerate(pairwise(_first_stations(model))):
-        at, face = divmod(int(utilisation[first:end].argmax()), 2)
+        of_weld = utilisation[first:end]
+        at, face = divmod(int((of_weld >= EQUAL * of_weld.max()).argmax()), 2)
         worst.append(WorstPoint(weld, first + at, face))
     return tuple(worst)
 
@@ -56,7 +58,7 @@ def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[W
     events = [*(p.event for p in plan.passes), None]
     of_toes = np.where(toe_faces(model), mission.utilisation, -1.0).max(axis=1)
     largest = np.maximum.reduceat(of_toes, first[:-1])  # or a bound of it
-    proven = [bool(largest[p.weld] <= mission.utilisation[p.station, p.face]) for p in worst]
+    proven = [bool(EQUAL * largest[p.weld] <= mission.utilisation[p.station, p.face]) for p in worst]
     curves = [model.curves[name] for name in model.curve_of_weld]
     return {
         "weld": [weld.name for weld in model.welds],
