@@ -1,13 +1,12 @@
 """One event at a block of stations in one call, as tests want it: estimated, then counted."""
 
 from fatigue.pipeline.estimate import estimate_event, member_variances
-from fatigue.pipeline.event_block import EventBlock, count_event
+from fatigue.pipeline.event_block import EventBlock, count_event, judged
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.shapes import Shapes
 
 
 def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> EventBlock:
     """Damage of one pass of an event at every station of a block, in the time and in the frequency domain."""
-    return count_event(
-        shapes, load, estimate_event(shapes, load, member_variances(shapes, load)), yield_MPa, mean_stress
-    )
+    estimate = estimate_event(shapes, load, member_variances(shapes, load))
+    return judged(count_event(shapes, load, estimate, yield_MPa, mean_stress), shapes, load, estimate)

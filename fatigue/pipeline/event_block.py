@@ -64,7 +64,7 @@ class EventBlock:
 def count_event(
     shapes: Shapes, load: EventLoad, estimate: Estimate, yield_MPa: float | None, mean_stress: bool
 ) -> EventBlock:
-    """Count one pass of an event at every station of a block, and judge the estimate by what was counted.
+    """Count one pass of an event at every station of a block; see `judged` for the verdict.
 
     The equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5).
     """
@@ -95,9 +95,30 @@ def count_event(
         irregularity=estimate.irregularity,
         peaks_per_s=estimate.peaks_per_s,
         samples_per_peak=estimate.samples_per_peak,
-        verdict=_verdict(shapes, estimate, counted, load),
+        verdict=np.full(var.shape, VERDICTS.index("not_assessed"), dtype=np.int8),
         histogram=counted.histogram,
     )
+
+
+def judged(event: EventBlock, shapes: Shapes, load: EventLoad, estimate: Estimate) -> EventBlock:
+    """Judge by what was counted whether the estimate may be trusted at each point of a block."""
+    if load.diagnosis is None:
+        return event
+    law, stress = shapes.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
+    same_ratio, damage = event.damage_same_ratio.reshape(-1), event.damage.reshape(-1)
+    found = diagnose(
+        stress.reshape(-1, stress.shape[-1]),
+        estimate.moments.reshape(len(estimate.moments), -1),
+        load.diagnosis,
+        slope=float(law.slopes[0]),
+        dirlik_ratio=quotient(estimate.dirlik.reshape(-1), same_ratio),
+        tb_ratio=quotient(estimate.tb.reshape(-1), same_ratio),
+        kurtosis=event.kurtosis.reshape(-1),
+        top_cycle_share=quotient(cycle_damage(event.max_equivalent_range.reshape(-1), law), damage),
+        samples_per_peak=estimate.samples_per_peak.reshape(-1),
+        top_mode_hz=load.top_mode_hz,
+    )
+    return replace(event, verdict=found.verdict.reshape(event.damage.shape))
 
 
 def bounded_event(estimate: Estimate, bound: Bound, raw_ends: RawEnds) -> EventBlock:
@@ -226,27 +247,6 @@ def _superpose_and_count(
         )
         pieces.append(piece)
     return BlockCount(*(np.concatenate([getattr(p, f.name) for p in pieces]) for f in fields(BlockCount)))
-
-
-def _verdict(shapes: Shapes, estimate: Estimate, counted: BlockCount, load: EventLoad) -> NDArray[np.int8]:
-    """Judge whether the estimate may be trusted at each point, (n, 2)."""
-    if load.diagnosis is None:
-        return np.full(counted.damage.shape, VERDICTS.index("not_assessed"), dtype=np.int8)
-    law, stress = shapes.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
-    same_ratio, damage = counted.damage_same_ratio.reshape(-1), counted.damage.reshape(-1)
-    judged = diagnose(
-        stress.reshape(-1, stress.shape[-1]),
-        estimate.moments.reshape(len(estimate.moments), -1),
-        load.diagnosis,
-        slope=float(law.slopes[0]),
-        dirlik_ratio=quotient(estimate.dirlik.reshape(-1), same_ratio),
-        tb_ratio=quotient(estimate.tb.reshape(-1), same_ratio),
-        kurtosis=counted.kurtosis.reshape(-1),
-        top_cycle_share=quotient(cycle_damage(counted.max_equivalent_range.reshape(-1), law), damage),
-        samples_per_peak=estimate.samples_per_peak.reshape(-1),
-        top_mode_hz=load.top_mode_hz,
-    )
-    return judged.verdict.reshape(counted.damage.shape)
 
 
 def _variances(shapes: Shapes, load: EventLoad) -> tuple[NDArray[np.float64], ...]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.pipeline.bounds import Bound, by_share
 from fatigue.pipeline.estimate import Estimate, estimate_event, member_variances
-from fatigue.pipeline.event_block import EventBlock, bounded_event, count_event, no_overflow
+from fatigue.pipeline.event_block import EventBlock, bounded_event, count_event, judged, no_overflow
 from fatigue.pipeline.event_load import EventLoad
 from fatigue.pipeline.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.shapes import Shapes
@@ -75,7 +75,7 @@ def counted_at(
     """
     for part in _cut(rows, shapes):
         events = [_counted(part, shapes, load, e, rules) for load, e in zip(loads, estimates, strict=True)]
-        yield _piece(part, events, plan, shapes, 0)
+        yield _piece(part, _judged(events, part, shapes, loads, estimates), plan, shapes, 0)
 
 
 def counted_while(
@@ -108,7 +108,8 @@ def counted_while(
             if not left.size:
                 break
         else:
-            yield _piece(left, [events[number] for number in range(len(loads))], plan, shapes, 0)
+            in_order = [events[number] for number in range(len(loads))]
+            yield _piece(left, _judged(in_order, left, shapes, loads, estimates), plan, shapes, 0)
 
 
 def bounded_at(
@@ -128,6 +129,18 @@ def bounded_at(
 def _counted(rows: NDArray[np.intp], shapes: Shapes, load: EventLoad, estimate: Estimate, rules: Rules) -> EventBlock:
     with no_overflow(load.counted.event, rules.welds):
         return count_event(shapes.at(rows), load, estimate.at(rows), rules.yield_MPa, rules.mean_stress)
+
+
+def _judged(
+    events: Sequence[EventBlock],
+    rows: NDArray[np.intp],
+    shapes: Shapes,
+    loads: Sequence[EventLoad],
+    estimates: Sequence[Estimate],
+) -> list[EventBlock]:
+    some = shapes.at(rows)
+    of_events = zip(events, loads, estimates, strict=True)
+    return [judged(event, some, load, estimate.at(rows)) for event, load, estimate in of_events]
 
 
 def _cut(rows: NDArray[np.intp], shapes: Shapes) -> Iterator[NDArray[np.intp]]:

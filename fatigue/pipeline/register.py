@@ -18,6 +18,7 @@ from fatigue.weld.line_geometry import lengths
 
 EQUAL = 1.0 - 1e-12  # what is so close to the worst point is as bad: only the order of sums differs
 
+
 @dataclass(frozen=True, slots=True)
 class WorstPoint:
     """The toe point of a weld with the shortest life: index of weld, station and face."""
