@@ -124,7 +124,8 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
     s, s_step, peak = s / scale, s_step / scale, peak / scale + rounding[..., 0]
     e, e_step = e / scale + rounding_norm, e_step / scale + 2.0 * rounding_norm
     sums = sums_in_time(stresses, record.q, extent.samples, recurs=extent.steps == extent.samples)
-    of_a = Sums(*(of_stress[_places(bases.weld[rows])] for of_stress in sums))
+    places = _places(bases.weld[rows])
+    of_a = Sums(*(of_stress[places] for of_stress in sums))
 
     e_ends, a_step = np.sqrt(2.0) * e, s_step + e_step
     I_2 = (np.sqrt(of_a.steps) + 32.0 * SINGLE * np.sqrt(of_a.sixth)) / 3.0  # a of a^3 is not quite that of a^4
@@ -145,20 +146,22 @@ def _combined(
     Beside them the largest error of a sample in single precision and that of its rms, (r, 2, 2).
     """
     modal = np.stack([extent.ranges, np.sqrt(np.diagonal(extent.covariance))], axis=1) / record.scale[:, None]
+    B = bases.basis * record.scale
+    unit = np.abs(B).max(axis=1)
+    unit = np.where(unit > 0.0, unit, 1.0)
+    B /= unit[:, None]
+    largest = np.abs(B) @ modal
     rounding = np.empty((*scale.shape, 2))
     histories: list[Floats] = []
     shapes: list[Floats] = []
     for run in _runs(bases.weld[rows]):
         weld = bases.weld[rows[run.start]]
-        B = bases.basis[bases.begin[weld] : bases.begin[weld + 1]] * record.scale
-        h, m = B.shape
-        unit = np.abs(B).max(axis=1)
-        unit = np.where(unit > 0.0, unit, 1.0)
-        B /= unit[:, None]
+        of_weld = slice(bases.begin[weld], bases.begin[weld + 1])
+        h, m = B[of_weld].shape
         L_m, L_b = bases.membrane_part[rows[run], :h], bases.bending_part[rows[run], :h]
-        L = np.stack([L_m + L_b, L_m - L_b], axis=1) * unit / scale[run, :, None]
-        rounding[run] = (m + h + 16) * SINGLE * (np.abs(L) @ (np.abs(B) @ modal))
-        histories.append(B)
+        L = np.stack([L_m + L_b, L_m - L_b], axis=1) * unit[of_weld] / scale[run, :, None]
+        rounding[run] = (m + h + 16) * SINGLE * (np.abs(L) @ largest[of_weld])
+        histories.append(B[of_weld])
         shapes.append(L.reshape(2 * len(L), h))
     return combined(histories, shapes), rounding
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import Plan
 from fatigue.life.screening import PowerSums, damage_bound, may_need_mean_stress
-from fatigue.pipeline.shapes import Shapes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,18 +40,19 @@ class Bound:
 def event_bound(
     stress_range: NDArray[np.float64],
     power_sums: PowerSums,
-    shapes: Shapes,
+    size: NDArray[np.float64],
     mean: NDArray[np.float64],
+    law: DamageLaw,
     yield_MPa: float | None,
+    *,
+    uses_bending_ratio: bool,
 ) -> Bound:
     """Bound one pass from a bound of range (n, 2) and of sum n S^q, (n, 2) each [MPa^q].
 
     ``mean`` (n, 2) is the time mean of the stress [MPa]; ``yield_MPa`` is given where damage contains the mean-stress
     factor: stations that may need it have no bound then.
     """
-    damage, largest = damage_bound(
-        stress_range, power_sums, shapes.size[:, None], shapes.law, uses_bending_ratio=shapes.uses_bending_ratio
-    )
+    damage, largest = damage_bound(stress_range, power_sums, size[:, None], law, uses_bending_ratio=uses_bending_ratio)
     if yield_MPa is not None:
         damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)

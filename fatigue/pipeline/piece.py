@@ -74,7 +74,8 @@ def counted_at(
     NumericalError : stress or damage exceeds double precision
     """
     for part in _cut(rows, shapes):
-        events = [_counted(part, shapes, load, e, rules) for load, e in zip(loads, estimates, strict=True)]
+        some = shapes.at(part)
+        events = [_counted(part, some, load, e, rules) for load, e in zip(loads, estimates, strict=True)]
         yield _piece(part, _judged(events, part, shapes, loads, estimates), plan, shapes, 0)
 
 
@@ -98,18 +99,18 @@ def counted_while(
     NumericalError : stress or damage exceeds double precision
     """
     for part in _cut(rows, shapes):
-        left, events = part, dict[int, EventBlock]()
+        left, events = part, dict[int, tuple[NDArray[np.intp], EventBlock]]()
         for number in by_share(bounds, part, plan):
-            event = _counted(left, shapes, loads[number], estimates[number], rules)
+            event = _counted(left, shapes.at(left), loads[number], estimates[number], rules)
             counted = Bound(*(ABOVE * a for a in (event.damage, event.max_range, event.max_equivalent_range)))
             bounds[number] = bounds[number].tightened(counted, left)
-            remain = np.isin(left, unsettled(left))
-            left, events = left[remain], {n: e.at(remain) for n, e in (events | {number: event}).items()}
+            events[number] = left, event
+            left = unsettled(left)
             if not left.size:
                 break
         else:
-            in_order = [events[number] for number in range(len(loads))]
-            yield _piece(left, _judged(in_order, left, shapes, loads, estimates), plan, shapes, 0)
+            of_left = [event.at(np.isin(rows, left)) for _, (rows, event) in sorted(events.items())]
+            yield _piece(left, _judged(of_left, left, shapes, loads, estimates), plan, shapes, 0)
 
 
 def bounded_at(
@@ -126,9 +127,9 @@ def bounded_at(
     return _piece(rows, events, plan, shapes, tier)
 
 
-def _counted(rows: NDArray[np.intp], shapes: Shapes, load: EventLoad, estimate: Estimate, rules: Rules) -> EventBlock:
+def _counted(rows: NDArray[np.intp], some: Shapes, load: EventLoad, estimate: Estimate, rules: Rules) -> EventBlock:
     with no_overflow(load.counted.event, rules.welds):
-        return count_event(shapes.at(rows), load, estimate.at(rows), rules.yield_MPa, rules.mean_stress)
+        return count_event(some, load, estimate.at(rows), rules.yield_MPa, rules.mean_stress)
 
 
 def _judged(

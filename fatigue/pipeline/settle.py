@@ -142,7 +142,7 @@ def _modal_bound(
 ) -> Bound:
     """Bound an event from mean stress (n, 2) and the forms (2, n, 2) that `extent_bound` wants."""
     found = extent_bound(shapes.membrane, shapes.bending, forms, extent)
-    return event_bound(*_scaled(*found, load.stress_factor), shapes, mean, rules.yield_of_damage)
+    return _event_bound(found, shapes, np.arange(len(shapes)), mean, load, rules)
 
 
 def _without_small_raw_ends(
@@ -162,11 +162,26 @@ def _without_small_raw_ends(
     return replace(shapes, raw_ends=replace(ends, matters=matters))
 
 
-def _scaled(
-    stress_range: NDArray[np.float64], power_sums: PowerSums, f: float
-) -> tuple[NDArray[np.float64], PowerSums]:
-    """Take range and sums n S^q of f times the stress."""
-    return f * stress_range, {q: f**q * power_sum for q, power_sum in power_sums.items()}
+def _event_bound(
+    found: tuple[NDArray[np.float64], PowerSums],
+    shapes: Shapes,
+    rows: NDArray[np.intp],
+    mean: NDArray[np.float64],
+    load: EventLoad,
+    rules: Rules,
+) -> Bound:
+    """Bound an event at some stations from range and sums n S^q of their stress, stress factor left out."""
+    stress_range, power_sums = found
+    f = load.stress_factor
+    return event_bound(
+        f * stress_range,
+        {q: f**q * power_sum for q, power_sum in power_sums.items()},
+        shapes.size[rows],
+        mean,
+        shapes.law,
+        rules.yield_of_damage,
+        uses_bending_ratio=shapes.uses_bending_ratio,
+    )
 
 
 def _bound_while(
@@ -191,8 +206,7 @@ def _bound_while(
         for number in by_share(bounds, part, plan):
             record, extent = screening.records[number], screening.extents[number]
             found = reduced_bound(bases, np.searchsorted(part, left), record, extent)
-            mean, yield_MPa = estimates[number].mean[left], rules.yield_of_damage
-            bounded = event_bound(*_scaled(*found, loads[number].stress_factor), shapes.at(left), mean, yield_MPa)
+            bounded = _event_bound(found, shapes, left, estimates[number].mean[left], loads[number], rules)
             bounds[number] = bounds[number].tightened(bounded, left)
             left = unsettled(left)
             if not left.size:

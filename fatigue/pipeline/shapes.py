@@ -24,7 +24,7 @@ class RawEnds:
 
     def at(self, rows: NDArray[np.intp]) -> Self:
         """Take those among some ascending rows of the block."""
-        mine, theirs = np.flatnonzero(np.isin(self.rows, rows)), np.flatnonzero(np.isin(rows, self.rows))
+        _, mine, theirs = np.intersect1d(self.rows, rows, assume_unique=True, return_indices=True)
         return type(self)(theirs, self.membrane[mine], self.bending[mine], self.matters[mine])
 
 
