@@ -31,12 +31,13 @@ from numpy.typing import NDArray
 from fatigue.life.rainflow_fast import Record
 from fatigue.life.rainflow_product import TILE
 from fatigue.life.screening import ROUNDING, ModalExtent, PowerSums, size_bound
-from fatigue.life.weld_sums import SINGLE, Combined, Sums, combined, sums_in_time
+from fatigue.life.weld_sums import SINGLE, Combined, Sums, combined, room_for_histories, sums_in_time
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
-TOLERANCE = 1e-2  # rms that the histories of a weld may miss, of the largest rms in the weld
+TOLERANCE = 1.5e-2  # rms that the histories of a weld may miss, of the largest rms in the weld
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,6 +52,7 @@ class WeldBases:
     begin : (w + 1,) row of ``basis`` at which those of a weld begin, and their number
     membrane_part, bending_part : (n, b) the stress shapes in terms of these rows, filled up with zeros
     membrane_rest, bending_rest : (n, m) what the histories miss
+    room : memory for the histories, which one thread may use at a time
     """
 
     membrane: Floats
@@ -62,6 +64,7 @@ class WeldBases:
     bending_part: Floats
     membrane_rest: Floats
     bending_rest: Floats
+    room: Singles
 
 
 def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Sequence[ModalExtent]) -> WeldBases:
@@ -102,6 +105,7 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
         bending_part=parts[1],
         membrane_rest=rests[0],
         bending_rest=rests[1],
+        room=room_for_histories(sum(len(B) for B in basis)),
     )
 
 
@@ -123,7 +127,7 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
     rounding_norm = rounding[..., 1] * root_samples
     s, s_step, peak = s / scale, s_step / scale, peak / scale + rounding[..., 0]
     e, e_step = e / scale + rounding_norm, e_step / scale + 2.0 * rounding_norm
-    sums = sums_in_time(stresses, record.q, extent.samples, recurs=extent.steps == extent.samples)
+    sums = sums_in_time(stresses, record.q, extent.samples, bases.room, recurs=extent.steps == extent.samples)
     places = _places(bases.weld[rows])
     of_a = Sums(*(of_stress[places] for of_stress in sums))
 

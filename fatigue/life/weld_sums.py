@@ -66,18 +66,23 @@ def combined(histories: list[Floats], shapes: list[Floats]) -> Combined:
     )
 
 
-def sums_in_time(stresses: Combined, record: Samples, samples: int, *, recurs: bool) -> Sums:
+def room_for_histories(histories: int) -> Singles:
+    """Memory for some samples of so many histories at a time, to be used for one record after the other."""
+    width = min(CHUNK, max(STEP, HISTORIES // max(1, histories) // STEP * STEP))
+    return block_for(histories, 1 + width + STEP, np.float32)
+
+
+def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, *, recurs: bool) -> Sums:
     """Sum up a record of modal coordinates, which may recur, for all stresses, tile by tile: those that fill up are 0.
 
-    ``record`` is in single precision, laid out for the product or on disk, ``samples`` long.
+    ``record`` is in single precision, laid out for the product or on disk, ``samples`` long; ``u`` is room for no fewer
+    histories.
     """
     modes = stresses.histories.shape[1]
     B = prepared_shapes(stresses.histories)
-    histories = len(stresses.histories)
-    width = min(CHUNK, max(STEP, HISTORIES // max(1, histories) // STEP * STEP))
+    width = (u.shape[1] - 1 - STEP) // STEP * STEP
     space = space_for_samples(modes, width, np.float32)
     found = np.zeros((TILE * stresses.begin[1, -1], len(Sums._fields)))
-    u = block_for(histories, 1 + width + STEP, np.float32)
     u[:] = 0.0  # so that no sample behind the last one is a number that takes long
     before = samples - 1 if recurs else 0  # what recurs steps from its last sample to its first one
     start = before - before % STEP

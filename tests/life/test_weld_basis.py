@@ -48,9 +48,9 @@ def test_no_point_is_damaged_more_than_its_bound(kind: str, residue: Residue, mo
         events = [modal_coordinates(rng, kind, modes), 1e-3 * modal_coordinates(rng, kind, modes)]
         S_m, S_b, weld = shapes(rng, modes)
         extents = [modal_extent(q, residue) for q in events]
+        monkeypatch.setattr(weld_sums, "CHUNK", 32 * int(rng.integers(1, 4)))
         bases = weld_bases(S_m, S_b, weld, extents)
         rows = np.flatnonzero(rng.random(len(weld)) < 0.8)
-        monkeypatch.setattr(weld_sums, "CHUNK", 32 * int(rng.integers(1, 4)))
         stress = np.stack([S_m + S_b, S_m - S_b], axis=1)[rows]
         for q, extent in zip(events, extents, strict=True):
             largest, sums = reduced_bound(bases, rows, record_of(q), extent)
@@ -121,10 +121,9 @@ def three_welds(samples: int) -> tuple[WeldBases, NDArray[np.intp], Record, Moda
 
 def test_chunks_leave_no_seam(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sums and extremes do not depend on where a record is cut."""
-    of_three_welds = three_welds(3000)
-    largest, sums = reduced_bound(*of_three_welds)
+    largest, sums = reduced_bound(*three_welds(3000))
     monkeypatch.setattr(weld_sums, "CHUNK", 96)
-    cut, of_cut = reduced_bound(*of_three_welds)
+    cut, of_cut = reduced_bound(*three_welds(3000))
     assert largest == pytest.approx(cut, rel=1e-3)
     for p, bound in sums.items():
         assert bound == pytest.approx(of_cut[p], rel=1e-3)
