@@ -88,7 +88,10 @@ NODES = (
     Column("at_end", "flag", "-", "inside the treated zone of a weld end, or the end node itself"),
     Column("at_corner", "flag", "-", "at a kink of the weld line above 30 degrees"),
     Column(
-        "screened", "text", "-", "empty: counted exactly; else the tier of the proven bound that stands for counting"
+        "screened",
+        "text",
+        "-",
+        "empty: counted exactly; else the tier of the proven bound that stands for counting, in some events at least",
     ),
 )
 
