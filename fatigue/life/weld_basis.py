@@ -1,7 +1,7 @@
 """Close bounds of the damage of all points of a weld from the few histories that their stresses are made of.
 
 The stresses of a weld have one source: some 10 combinations u = B q of 100 modal coordinates make all its points up to
-some thousandths. So s = L u + e, and the product of every point with every mode is replaced by that of every point with
+a hundredth. So s = L u + e, and the product of every point with every mode is replaced by that of every point with
 u. By `screening`, bounds follow from the range and from the total variation V_q of f(s) = s |s|^(q-1). Those of a = L u
 are found in a loop over time; what e adds is bounded. Let a and e go straight from each sample to the next one. Then
 
