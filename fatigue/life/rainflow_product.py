@@ -58,7 +58,7 @@ def prepared_samples(q: Numbers, into: Numbers) -> Numbers:
 
 def shapes_between(laid_out: Numbers, first: int, end: int) -> Numbers:
     """Take some shapes of those that were laid out, from the first one of a tile on."""
-    return laid_out[first // simd.TILE : -(-end // simd.TILE)] if laid_out.ndim == 3 else laid_out[first:end]
+    return laid_out[first // TILE : -(-end // TILE)] if laid_out.ndim == 3 else laid_out[first:end]
 
 
 def samples_between(laid_out: Numbers, first: int, end: int) -> Numbers:
@@ -112,8 +112,7 @@ def multiply(shapes: Numbers, q: Numbers, stress: Numbers) -> None:
 
 @overload(shapes_between, strict=False)
 def _shapes_between(laid_out: Any, first: Any, end: Any) -> Any:
-    tile = simd.TILE
-    return lambda laid_out, first, end: laid_out[first // tile : -(-end // tile)]
+    return lambda laid_out, first, end: laid_out[first // TILE : -(-end // TILE)]
 
 
 @overload(samples_of, strict=False)

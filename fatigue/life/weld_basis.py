@@ -29,7 +29,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.rainflow_fast import Record
-from fatigue.life.rainflow_product import TILE
 from fatigue.life.screening import ROUNDING, ModalExtent, PowerSums, size_bound
 from fatigue.life.weld_sums import SINGLE, Combined, Sums, combined, room_for_histories, sums_in_time
 
@@ -128,8 +127,7 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
     s, s_step, peak = s / scale, s_step / scale, peak / scale + rounding[..., 0]
     e, e_step = e / scale + rounding_norm, e_step / scale + 2.0 * rounding_norm
     sums = sums_in_time(stresses, record.q, extent.samples, bases.room, recurs=extent.steps == extent.samples)
-    places = _places(bases.weld[rows])
-    of_a = Sums(*(of_stress[places] for of_stress in sums))
+    of_a = Sums(*(of_stress[stresses.places].reshape(scale.shape) for of_stress in sums))
 
     e_ends, a_step = np.sqrt(2.0) * e, s_step + e_step
     I_2 = (np.sqrt(of_a.steps) + 32.0 * SINGLE * np.sqrt(of_a.sixth)) / 3.0  # a of a^3 is not quite that of a^4
@@ -168,16 +166,6 @@ def _combined(
         histories.append(B[of_weld])
         shapes.append(L.reshape(2 * len(L), h))
     return combined(histories, shapes), rounding
-
-
-def _places(weld: Rows) -> Rows:
-    """Where `sums_in_time` has the top and the bottom stress of stations of these welds, (r, 2): welds begin a tile."""
-    places, first = [], 0
-    for run in _runs(weld):
-        n = 2 * (run.stop - run.start)
-        places.append(np.arange(first, first + n))
-        first += -(-n // TILE) * TILE
-    return np.concatenate(places).reshape(-1, 2)
 
 
 def _leading_directions(X: Floats) -> Floats:

@@ -48,28 +48,34 @@ class Combined(NamedTuple):
     """Stresses a = L u of some welds and their histories u = B q.
 
     ``histories`` (h, m) are the rows B of all welds; ``shapes`` the matrices L of all welds, laid out one after the
-    other; ``begin`` (2, w + 1) says where the histories and the tiles of each weld begin.
+    other; ``begin`` (2, w + 1) says where the histories and the tiles of each weld begin; ``places`` (n,) are the rows
+    of the tiles that hold the stresses, those of a weld from the beginning of a tile on.
     """
 
     histories: Singles
     shapes: Singles
     begin: Rows
+    places: Rows
 
 
 def combined(histories: list[Floats], shapes: list[Floats]) -> Combined:
     """Lay out the histories (b, m) and the shapes (n, b) of each weld."""
     tiles = [-(-len(L) // TILE) for L in shapes]
+    begin = np.cumsum([[0, *(len(B) for B in histories)], [0, *tiles]], axis=1)
     return Combined(
         histories=np.concatenate(histories).astype(np.float32),
         shapes=np.concatenate([rows_in_tiles(L.astype(np.float32)) for L in shapes]),
-        begin=np.cumsum([[0, *(len(B) for B in histories)], [0, *tiles]], axis=1),
+        begin=begin,
+        places=np.concatenate([TILE * first + np.arange(len(L)) for first, L in zip(begin[1], shapes, strict=False)]),
     )
 
 
 def room_for_histories(histories: int) -> Singles:
     """Memory for some samples of so many histories at a time, to be used for one record after the other."""
     width = min(CHUNK, max(STEP, HISTORIES // max(1, histories) // STEP * STEP))
-    return block_for(histories, 1 + width + STEP, np.float32)
+    u = block_for(histories, 1 + width + STEP, np.float32)
+    u[:] = 0.0  # so that no sample behind the last one is a number that takes long
+    return u
 
 
 def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, *, recurs: bool) -> Sums:
@@ -83,7 +89,6 @@ def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, 
     width = (u.shape[1] - 1 - STEP) // STEP * STEP
     space = space_for_samples(modes, width, np.float32)
     found = np.zeros((TILE * stresses.begin[1, -1], len(Sums._fields)))
-    u[:] = 0.0  # so that no sample behind the last one is a number that takes long
     before = samples - 1 if recurs else 0  # what recurs steps from its last sample to its first one
     start = before - before % STEP
     multiply(B, samples_of(record, start, samples if before else 1, space), u)

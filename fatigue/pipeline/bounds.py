@@ -1,14 +1,16 @@
 """Proven bounds for one pass of an event at a block of stations, in place of counting."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import Plan
 from fatigue.life.screening import PowerSums, damage_bound, may_need_mean_stress
+from fatigue.pipeline.shapes import Shapes
+
+Unsettled = Callable[[NDArray[np.intp]], NDArray[np.intp]]  # those of some stations that are not settled
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,27 +40,45 @@ class Bound:
 
 
 def event_bound(
-    stress_range: NDArray[np.float64],
-    power_sums: PowerSums,
-    size: NDArray[np.float64],
+    found: tuple[NDArray[np.float64], PowerSums],
+    stress_factor: float,
+    shapes: Shapes,
+    rows: NDArray[np.intp] | slice,
     mean: NDArray[np.float64],
-    law: DamageLaw,
     yield_MPa: float | None,
-    *,
-    uses_bending_ratio: bool,
 ) -> Bound:
-    """Bound one pass from a bound of range (n, 2) and of sum n S^q, (n, 2) each [MPa^q].
+    """Bound one pass at some ``rows`` of a block from bounds of range and sum n S^q, (n, 2) each, of the record.
 
-    ``mean`` (n, 2) is the time mean of the stress [MPa]; ``yield_MPa`` is given where damage contains the mean-stress
-    factor: stations that may need it have no bound then.
+    They are those before the event's ``stress_factor``. ``mean`` (n, 2) is the time mean of the stress [MPa];
+    ``yield_MPa`` is given where damage contains the mean-stress factor: stations that may need it have no bound then.
     """
-    damage, largest = damage_bound(stress_range, power_sums, size[:, None], law, uses_bending_ratio=uses_bending_ratio)
+    stress_range = stress_factor * found[0]
+    power_sums = {q: stress_factor**q * power_sum for q, power_sum in found[1].items()}
+    size = shapes.size[rows, None]
+    damage, largest = damage_bound(
+        stress_range, power_sums, size, shapes.law, uses_bending_ratio=shapes.uses_bending_ratio
+    )
     if yield_MPa is not None:
         damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)
 
 
-def by_share(bounds: Sequence[Bound], rows: NDArray[np.intp], plan: Plan) -> list[int]:
+def event_by_event(
+    rows: NDArray[np.intp], bounds: Sequence[Bound], plan: Plan, unsettled: Unsettled
+) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Give the number of each event and those of some stations that are still unsettled when it is its turn.
+
+    The events whose bounds make up most of the damage come first; whoever asks tightens the ``bounds`` of an event, by
+    which stations are settled, before he asks for the next one.
+    """
+    for number in _by_share(bounds, rows, plan):
+        yield number, rows
+        rows = unsettled(rows)
+        if not rows.size:
+            return
+
+
+def _by_share(bounds: Sequence[Bound], rows: NDArray[np.intp], plan: Plan) -> list[int]:
     """Numbers of the events, those first whose bounds make up most of the damage of some stations."""
     weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
     damage = weights * np.stack([bound.damage[rows] for bound in bounds])

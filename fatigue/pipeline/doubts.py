@@ -4,6 +4,7 @@ Of one kind the first stand in full. Of the others, which say the same of other 
 warning at the end lists them.
 """
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -18,24 +19,21 @@ _OF_A_WELD = ": weld "  # between file and weld in the place of a warning
 class Doubts:
     """Warnings in the order in which they come.
 
-    ``in_full`` are the first ``MOST_IN_FULL`` of each code, ``more`` counts the others by code, and ``places`` names
-    theirs: by code and by what they begin with, the file as a rule.
+    ``in_full`` are the first ``MOST_IN_FULL`` of each code, ``counts`` are those of all, and ``places`` names those of
+    the others: by code and by what they begin with, the file as a rule.
     """
 
     in_full: list[Problem] = field(default_factory=list)
-    more: dict[str, int] = field(default_factory=dict)
+    counts: Counter[str] = field(default_factory=Counter)
     places: dict[str, dict[str, list[str]]] = field(default_factory=dict)
-    _told: dict[str, int] = field(default_factory=dict)
 
     def add(self, warnings: Iterable[Problem]) -> None:
         """Take warnings in; what is kept of most of them is the name of a weld."""
         for warning in warnings:
-            told = self._told.get(warning.code, 0)
-            if told < MOST_IN_FULL:
-                self._told[warning.code] = told + 1
+            self.counts[warning.code] += 1
+            if self.counts[warning.code] <= MOST_IN_FULL:
                 self.in_full.append(warning)
             else:
-                self.more[warning.code] = self.more.get(warning.code, 0) + 1
                 begin, name = _parts(warning.where)
                 names = self.places.setdefault(warning.code, {}).setdefault(begin, [])
                 if names[-1:] != [name]:  # a weld of several parts is named once
@@ -43,7 +41,7 @@ class Doubts:
 
     def listed(self) -> tuple[Problem, ...]:
         """List those in full, as they came, then one for the others of each code."""
-        summed = (_sum(code, count, self.places[code]) for code, count in self.more.items())
+        summed = (_sum(code, self.counts[code] - MOST_IN_FULL, places) for code, places in self.places.items())
         return (*self.in_full, *summed)
 
 

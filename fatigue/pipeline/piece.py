@@ -1,13 +1,13 @@
 """Stations of one curve that were all counted, or all settled by bounds of one kind: their events and their mission."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.bounds import Bound, by_share
+from fatigue.pipeline.bounds import Bound, Unsettled, event_by_event
 from fatigue.pipeline.estimate import Estimate, estimate_event, member_variances
 from fatigue.pipeline.event_block import EventBlock, bounded_event, count_event, judged, no_overflow
 from fatigue.pipeline.event_load import EventLoad
@@ -17,8 +17,6 @@ from fatigue.pipeline.shapes import Shapes
 TIERS = ("", "modal bound", "weld bound")  # of the column `screened`: counted, or the bound that settled the point
 ABOVE = 1.0 + 1e-6  # so that what was counted in single precision is a bound as well
 ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
-
-Unsettled = Callable[[NDArray[np.intp]], NDArray[np.intp]]  # those of some stations that are not settled
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,18 +97,16 @@ def counted_while(
     NumericalError : stress or damage exceeds double precision
     """
     for part in _cut(rows, shapes):
-        left, events = part, dict[int, tuple[NDArray[np.intp], EventBlock]]()
-        for number in by_share(bounds, part, plan):
+        events: dict[int, tuple[NDArray[np.intp], EventBlock]] = {}
+        for number, left in event_by_event(part, bounds, plan, unsettled):
             event = _counted(left, shapes.at(left), loads[number], estimates[number], rules)
             counted = Bound(*(ABOVE * a for a in (event.damage, event.max_range, event.max_equivalent_range)))
             bounds[number] = bounds[number].tightened(counted, left)
             events[number] = left, event
-            left = unsettled(left)
-            if not left.size:
-                break
-        else:
-            of_left = [event.at(np.isin(rows, left)) for _, (rows, event) in sorted(events.items())]
-            yield _piece(left, _judged(of_left, left, shapes, loads, estimates), plan, shapes, 0)
+        remaining = unsettled(left)
+        if remaining.size:
+            of_these = [event.at(np.isin(rows, remaining)) for _, (rows, event) in sorted(events.items())]
+            yield _piece(remaining, _judged(of_these, remaining, shapes, loads, estimates), plan, shapes, 0)
 
 
 def bounded_at(

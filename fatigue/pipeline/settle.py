@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 from fatigue.life.forms import face_forms, part_forms
 from fatigue.life.mission import Plan, mission_sum
 from fatigue.life.rainflow_fast import Record
-from fatigue.life.screening import ModalExtent, PowerSums, extent_bound
+from fatigue.life.screening import ModalExtent, extent_bound
 from fatigue.life.weld_basis import reduced_bound, weld_bases
-from fatigue.pipeline.bounds import Bound, by_share, event_bound
+from fatigue.pipeline.bounds import Bound, Unsettled, event_bound, event_by_event
 from fatigue.pipeline.estimate import Estimate, estimate_event, mean_stress, member_variances
 from fatigue.pipeline.event_block import no_overflow
 from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.piece import TIERS, Piece, Rules, Unsettled, bounded_at, counted_at, counted_while
+from fatigue.pipeline.piece import TIERS, Piece, Rules, bounded_at, counted_at, counted_while
 from fatigue.pipeline.shapes import Shapes
 
 WELD_BOUNDS_AT_ONCE = 1024  # stations, or those of one weld: 10 kB each with 100 modes
@@ -142,7 +142,7 @@ def _modal_bound(
 ) -> Bound:
     """Bound an event from mean stress (n, 2) and the forms (2, n, 2) that `extent_bound` wants."""
     found = extent_bound(shapes.membrane, shapes.bending, forms, extent)
-    return _event_bound(found, shapes, np.arange(len(shapes)), mean, load, rules)
+    return event_bound(found, load.stress_factor, shapes, slice(None), mean, rules.yield_of_damage)
 
 
 def _without_small_raw_ends(
@@ -160,28 +160,6 @@ def _without_small_raw_ends(
             bounds.append(_modal_bound(raw, mean_stress(raw, load), forms, load, extent, rules))
     matters = np.asarray((_utilisation(bounds, plan) >= screening.share).any(axis=1))
     return replace(shapes, raw_ends=replace(ends, matters=matters))
-
-
-def _event_bound(
-    found: tuple[NDArray[np.float64], PowerSums],
-    shapes: Shapes,
-    rows: NDArray[np.intp],
-    mean: NDArray[np.float64],
-    load: EventLoad,
-    rules: Rules,
-) -> Bound:
-    """Bound an event at some stations from range and sums n S^q of their stress, stress factor left out."""
-    stress_range, power_sums = found
-    f = load.stress_factor
-    return event_bound(
-        f * stress_range,
-        {q: f**q * power_sum for q, power_sum in power_sums.items()},
-        shapes.size[rows],
-        mean,
-        shapes.law,
-        rules.yield_of_damage,
-        uses_bending_ratio=shapes.uses_bending_ratio,
-    )
 
 
 def _bound_while(
@@ -202,15 +180,12 @@ def _bound_while(
     """
     for part in _in_parts(weld, rows):
         bases = weld_bases(shapes.membrane[part], shapes.bending[part], weld[part], screening.extents)
-        left = part
-        for number in by_share(bounds, part, plan):
+        for number, left in event_by_event(part, bounds, plan, unsettled):
             record, extent = screening.records[number], screening.extents[number]
             found = reduced_bound(bases, np.searchsorted(part, left), record, extent)
-            bounded = _event_bound(found, shapes, left, estimates[number].mean[left], loads[number], rules)
+            mean, factor = estimates[number].mean[left], loads[number].stress_factor
+            bounded = event_bound(found, factor, shapes, left, mean, rules.yield_of_damage)
             bounds[number] = bounds[number].tightened(bounded, left)
-            left = unsettled(left)
-            if not left.size:
-                break
 
 
 def _in_parts(weld: NDArray[np.int64], rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
