@@ -28,6 +28,7 @@ class _Bulk:
 
     source: str
     grids: dict[int, Card] = field(default_factory=dict)
+    grids_again: list[Card] = field(default_factory=list)
     grdset: Card | None = None
     frames: dict[int, tuple[FrameCard, Card]] = field(default_factory=dict)
     shells: dict[int, Card] = field(default_factory=dict)
@@ -37,6 +38,10 @@ class _Bulk:
     bars: dict[str, int] = field(default_factory=dict)
     again: list[tuple[str, Card]] = field(default_factory=list)  # what stands twice with equal content
     remarks: list[Problem] = field(default_factory=list)
+
+    def default(self, at: int) -> int:
+        """Coordinate system of grids that name none: field ``at`` of GRDSET, else the basic one."""
+        return self.grdset.integer(at, 0) if self.grdset else 0
 
 
 def read_bdf(path: Path) -> FeModel:
@@ -56,7 +61,7 @@ def read_bdf(path: Path) -> FeModel:
             _HANDLERS[card.name](bulk, card)
         except DataError as error:
             problems += error.problems
-    _refuse_some(problems)
+    _refuse_some(problems + _grids_twice(bulk))
     return _model(bulk, deck, left_out)
 
 
@@ -71,7 +76,7 @@ def _refuse_some(problems: list[Problem]) -> None:
 def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
     """Resolve coordinates and references."""
     xyz: dict[int, NDArray[np.float64]] = {}
-    default_cp, default_cd = (bulk.grdset.integer(k, 0) if bulk.grdset else 0 for k in (1, 5))
+    default_cp, default_cd = bulk.default(1), bulk.default(5)
 
     def position(grid: int) -> NDArray[np.float64]:
         if grid not in xyz:
@@ -174,22 +179,28 @@ def _grid(bulk: _Bulk, card: Card) -> None:
                 "superelement", card.where, f"grid {grid} belongs to superelement {card.text(7)}", "Give the residual"
             )
         )
-    known = bulk.grids.get(grid)
-    if known is None:
-        bulk.grids[grid] = card
-        return
-    same = same_grid(known, card)
-    if same is None:
-        raise DataError(
-            Problem(
-                "grid_twice",
-                card.where,
-                f"grid {grid} is already defined at {known.where}, elsewhere or in another system",
-                "Give it another id",
-            )
-        )
-    bulk.grids[grid] = same
-    bulk.again.append(("GRID", card))
+    if bulk.grids.setdefault(grid, card) is not card:
+        bulk.grids_again.append(card)
+
+
+def _grids_twice(bulk: _Bulk) -> list[Problem]:
+    """Take each grid once, the one with more digits; give those that differ, once the defaults of GRDSET are known."""
+    problems: list[Problem] = []
+    for card in bulk.grids_again:
+        grid = card.integer(0)
+        known = bulk.grids[grid]
+        try:
+            same = same_grid(known, card, bulk.default(1), bulk.default(5))
+        except DataError as error:
+            problems += error.problems
+            continue
+        if same is None:
+            what = f"grid {grid} is already defined at {known.where}, elsewhere or in another system"
+            problems.append(Problem("grid_twice", card.where, what, "Give it another id"))
+            continue
+        bulk.grids[grid] = same
+        bulk.again.append(("GRID", card))
+    return problems
 
 
 def _grdset(bulk: _Bulk, card: Card) -> None:
@@ -199,6 +210,8 @@ def _grdset(bulk: _Bulk, card: Card) -> None:
     if card.integer(7, 0):
         what = f"all grids belong to superelement {card.text(7)}"
         raise DataError(Problem("superelement", card.where, what, "Give the residual"))
+    card.integer(1, 0)
+    card.integer(5, 0)
     bulk.grdset = card
 
 

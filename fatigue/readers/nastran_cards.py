@@ -108,7 +108,7 @@ class LeftOut:
 
 @dataclass(slots=True)
 class _Open:
-    """A card, or stray continuation lines, that may go on.
+    """A card that may go on, or stray continuation lines, without a name and kept as ``lines``.
 
     ``announced`` is the mark of field 10; ``doubtful`` a number such as ``+1.`` in its place, which is data unless a
     continuation follows; ``flows`` tells that the last line ended in a comma, ``start`` and ``width`` where the fields
@@ -125,6 +125,7 @@ class _Open:
     flows: bool = False
     start: int = 0
     width: int = _ROW
+    lines: list["_Split"] = field(default_factory=list)
 
     def card(self) -> Card:
         """Close the card."""
@@ -166,7 +167,7 @@ def cards(lines: Iterable[Line], wanted: Container[str], left_out: LeftOut, prob
                     yield from _closed(now, waiting)
                 now = _Open("", source, number, wanted=True)
                 strays.setdefault(head[1:], []).append((now, problem))
-            _go_on(now, _split(line), place(source, number), problems)
+            _go_on(now, _split(line), problems)
             continue
         name = head.rstrip("* ")
         if now is not None and now.flows and (not _NAME.match(name) or name in _WORDS):
@@ -213,14 +214,16 @@ def _begin(now: _Open, split: _Split) -> None:
     now.announced, now.flows = split.mark, split.flows
 
 
-def _go_on(now: _Open, split: _Split, where: str, problems: list[Problem]) -> None:
+def _go_on(now: _Open, split: _Split, problems: list[Problem]) -> None:
     """Add a continuation line; half a line of large fields must be followed by its other half."""
-    if now.wanted:
-        if now.fields or now.name:
-            now.complete()
+    if not now.name:
+        now.lines.append(split)
+    elif now.wanted:
+        now.complete()
         now.start, now.width, now.doubtful = len(now.fields), split.width, split.doubtful
         if split.width == _ROW and now.start % _ROW and any(split.data):
-            what = f"a line of small fields follows half a line of large ones of {now.name or 'a card'}"
+            where = place(now.source, now.line)
+            what = f"a line of small fields follows half a line of large ones of this {now.name}"
             problems.append(Problem("half_line", where, what, "Begin the other half with *"))
         now.fields += split.data
     now.announced, now.flows = split.mark, split.flows
@@ -229,7 +232,10 @@ def _go_on(now: _Open, split: _Split, where: str, problems: list[Problem]) -> No
 def _flow(now: _Open, line: str) -> None:
     """Add a line that follows one with a comma at its end: its first field is data, too."""
     split = _free(["", *line.split(",")])
-    if now.wanted:
+    if not now.name:
+        before = now.lines.pop()
+        now.lines.append(split._replace(data=before.data + split.data, width=before.width))
+    elif now.wanted:
         now.fields += split.data
         now.doubtful = split.doubtful
     now.announced, now.flows = split.mark, split.flows
@@ -251,17 +257,16 @@ def _rejoined(
         for now in opened:
             mark = name
             while mark in strays:
-                lines = strays.pop(mark)
-                if len(lines) > 1 or len(waiting.get(mark, ())) > 1:
-                    where = place(lines[-1][0].source, lines[-1][0].line)
+                found = strays.pop(mark)
+                if len(found) > 1 or len(waiting.get(mark, ())) > 1:
+                    where = place(found[-1][0].source, found[-1][0].line)
                     what = f"continuation {mark} and its card cannot be matched, as the name is used again"
                     problems.append(Problem("continuation_twice", where, what, "Write it straight after its card"))
-                more = lines[0][0]
-                now.complete()
-                now.fields += more.fields
-                now.doubtful, mark = more.doubtful, more.announced[1:]
+                for split in found[0][0].lines:
+                    _go_on(now, split, problems)
+                mark = now.announced[1:]
             yield now.card()
-    problems += [problem for lines in strays.values() for _, problem in lines if problem]
+    problems += [problem for found in strays.values() for _, problem in found if problem]
 
 
 def _no_name(head: str, where: str) -> Problem:

@@ -11,6 +11,7 @@ from fatigue.errors import DataError, Problem
 _STATEMENT = re.compile(r"\s*INCLUDE(?=[\s,='\"])[\s,=]*", re.IGNORECASE)
 _SYMBOL = re.compile(r"([A-Za-z_]\w+):(.*)\Z", re.DOTALL)
 _DRIVE = re.compile(r"([A-Za-z]):([\\/].*)\Z", re.DOTALL)
+_BLANK = "\0"
 _VARIABLE = re.compile(r"\$\{(\w+)\}|\$(\w+)|%(\w+)%")
 
 
@@ -31,7 +32,7 @@ def include_name(line: str, following: Iterator[tuple[int, str]], where: str) ->
     """File name of the statement that ``line`` begins; it goes on after an open quotation and after a comma.
 
     Quotation marks may enclose any part of the name; ``$`` begins a comment only outside of them. Blanks at the ends
-    of lines do not count.
+    of lines do not count; those outside of quotation marks, which NASTRAN drops, are given as NUL.
 
     Raises
     ------
@@ -44,16 +45,17 @@ def include_name(line: str, following: Iterator[tuple[int, str]], where: str) ->
         name += part
         if not quote and not part.endswith(","):
             break
-        name = name if quote else name[:-1].rstrip()
+        name = name if quote else name[:-1].rstrip(_BLANK)
         following_line = next(following, None)
         if following_line is None:
             raise DataError(Problem("bad_include", where, "the file name has no end", "Close the quotation"))
         text = following_line[1].strip()
         if not quote and text.startswith("$"):
             text = ","  # a comment inside the statement
-    if not name.strip():
+    name = name.strip(f"{_BLANK} ")
+    if not name:
         raise DataError(Problem("bad_include", where, "INCLUDE names no file", "Name the file"))
-    return name.strip()
+    return name
 
 
 def _unquoted(text: str, quote: str, at_start: bool) -> tuple[str, str]:
@@ -67,11 +69,11 @@ def _unquoted(text: str, quote: str, at_start: bool) -> tuple[str, str]:
                 kept += char
         elif char in "'\"":
             quote = char
-        elif char == "$" and (kept or not at_start):
+        elif char == "$" and (kept or not at_start or not _VARIABLE.match(text)):
             break
         else:
-            kept += char
-    return (kept if quote else kept.rstrip()), quote
+            kept += _BLANK if char in " \t" else char
+    return (kept if quote else kept.rstrip(_BLANK)), quote
 
 
 def find_include(name: str, including: Path, root: Path, where: str) -> Found:
@@ -84,8 +86,9 @@ def find_include(name: str, including: Path, root: Path, where: str) -> Found:
     DataError : no such file, an environment variable that is not set
     """
     text = _expanded(name, where)
+    name = name.replace(_BLANK, " ")
     places = list(dict.fromkeys((including.parent, root.parent)))
-    for spelling in dict.fromkeys((text, text.replace(" ", ""))):  # NASTRAN drops blanks outside of quotation marks
+    for spelling in dict.fromkeys((text.replace(_BLANK, " "), text.replace(_BLANK, ""))):
         wanted = Path(spelling if os.name == "nt" else spelling.replace("\\", "/"))
         found = [path for place in places if (path := _in_any_case(place / wanted))]
         if found:

@@ -11,6 +11,7 @@ from fatigue.readers.nastran_cards import Card
 
 _THICKNESS_SPREAD = 0.01
 _FULL_BENDING = 1.0  # 12 I / T^3 of a homogeneous plate
+_PSHELL_OFFSET = 12
 _SIDES = {"TOP": -0.5, "BOTTOM": 0.5}  # OptiStruct: this face lies on the grids; mid-surface over thickness
 
 
@@ -39,11 +40,10 @@ SHELLS = {
 
 @dataclass(frozen=True, slots=True)
 class Property:
-    """A shell property: its section, and the offset of its elements that give none themselves (OptiStruct)."""
+    """A shell property: its section, and the PSHELL that may hold an offset for elements without one (OptiStruct)."""
 
     section: Section
-    offset: str = ""
-    card: Card | None = None
+    pshell: Card | None = None
 
 
 def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
@@ -80,12 +80,10 @@ def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
 
 def _offset(card: Card, at: int, prop: Property, thickness: float) -> float:
     """ZOFFS of the element, else of its property: a length, or the face that lies on the grids."""
-    text = card.text(at).upper()
-    if not text:
-        card, at, text = (prop.card, 12, prop.offset) if prop.card else (card, at, "")
-    if text in _SIDES:
-        return _SIDES[text] * thickness
-    return card.real(at, 0.0)
+    if not card.text(at) and prop.pshell:
+        card, at = prop.pshell, _PSHELL_OFFSET
+    side = _SIDES.get(card.text(at).upper())
+    return card.real(at, 0.0) if side is None else side * thickness
 
 
 def pshell(card: Card) -> Property:
@@ -100,7 +98,7 @@ def pshell(card: Card) -> Property:
     else:
         doubt = ""
     _checked(card, thickness)
-    return Property(Section(thickness or np.nan, 0.0, doubt), card.text(12).upper(), card)
+    return Property(Section(thickness or np.nan, 0.0, doubt), card)
 
 
 def pcomp(card: Card) -> Property:
@@ -116,7 +114,7 @@ def pcomp(card: Card) -> Property:
     side = _SIDES.get(card.text(1).upper())
     offset = card.real(1, -total / 2) + total / 2 if side is None else side * total
     _checked(card, total)
-    return Property(Section(total, offset, f"{card.name} {card.text(0)} is a layered section"), card=card)
+    return Property(Section(total, offset, f"{card.name} {card.text(0)} is a layered section"))
 
 
 def _checked(card: Card, thickness: float) -> None:

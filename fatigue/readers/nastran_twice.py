@@ -23,12 +23,12 @@ def _same_field(a: Card, b: Card, at: int) -> bool:
         return False
 
 
-def same_grid(a: Card, b: Card) -> Card | None:
+def same_grid(a: Card, b: Card, cp: int, cd: int) -> Card | None:
     """Give the GRID written with more digits if both are the same point in the same systems to the digits written.
 
-    Blank coordinates are 0.0. Constraints (field 8) do not count.
+    ``cp`` and ``cd`` are the systems of grids that name none. Blank coordinates are 0.0; constraints do not count.
     """
-    if any(not _same_field(a, b, at) for at in (1, 5)):
+    if a.integer(1, cp) != b.integer(1, cp) or a.integer(5, cd) != b.integer(5, cd):
         return None
     finer = a
     for at in (2, 3, 4):
