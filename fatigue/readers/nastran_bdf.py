@@ -162,7 +162,7 @@ def _remarks(bulk: _Bulk, left_out: LeftOut) -> list[Problem]:
             Problem(
                 "cards_left_out",
                 bulk.source,
-                f"weld lines need no other cards, and these are left out (first at): {listed}",
+                f"cards that weld lines do not need are left out, number, name and first place: {listed}",
                 "Nothing to do, unless a name is misspelt",
                 sum(left_out.count.values()),
             )
