@@ -12,7 +12,9 @@ import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.known_formats import misplaced
+from fatigue.naming import missing_file
 
 CSV_BLOCK = 1 << 22  # bytes of a CSV file decoded together, some 50 000 rows
 DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises over bytes that make no sense
@@ -40,9 +42,12 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     DataError
         missing, unreadable, damaged, not UTF-8, without header or without rows
     """
-    opener = {".parquet": _open_parquet, ".csv": _open_csv}.get(path.suffix.lower())
+    suffix = path.suffix.lower()
+    opener = {".parquet": _open_parquet, ".csv": _open_csv}.get(suffix)
     if path.is_dir():
-        raise DataError(Problem("not_a_file", str(path), "this is a folder", "Give a .parquet or .csv file"))
+        raise DataError(missing_file(path))
+    if opener is None or suffix == ".csv":
+        refuse(DataError, filter(None, [misplaced(path, str(path), text=opener is None)]))
     if opener is None:
         raise DataError(
             Problem(
@@ -52,14 +57,24 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     try:
         columns = opener(path, texts)
     except FileNotFoundError:
-        raise DataError(Problem("missing_file", str(path), "there is no such file", "Correct the path")) from None
+        raise DataError(missing_file(path)) from None
     except PermissionError:
         raise DataError(Problem("unreadable_file", str(path), "may not be read", "Check its permissions")) from None
     except DAMAGE as error:
-        raise DataError(damaged(path, error)) from None
+        raise DataError(other_format(path) or damaged(path, error)) from None
+    except DataError:
+        refuse(DataError, filter(None, [other_format(path)]))
+        raise
     if columns.rows == 0:
         raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
     return columns
+
+
+def other_format(path: Path) -> Problem | None:
+    """Refusal of bytes that are another format than the name says; None where they are not known to be one."""
+    with path.open("rb") as file:
+        own = path.suffix.lower() == ".parquet" and file.read(4) == b"PAR1"
+    return None if own else misplaced(path, path.name)
 
 
 def _open_parquet(path: Path, texts: Collection[str]) -> Columns:

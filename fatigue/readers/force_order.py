@@ -19,6 +19,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError
+from fatigue.naming import composed
 from fatigue.readers.files import DAMAGE, Columns, csv_batches, csv_names, damaged
 from fatigue.readers.forces import COMPONENTS, open_nodal_forces
 from fatigue.readers.tables import Table, codes_of, named
@@ -67,7 +68,7 @@ class WeldCodes:
             welds = welds.cast(pa.string()).dictionary_encode()
         for chunk in welds.chunks:
             names = chunk.dictionary.cast(pa.string()).to_pylist()
-            known = np.array([*(self.code.get((name or "").strip(), -1) for name in names), -1], dtype=np.int32)
+            known = np.array([*(self.code.get(composed(name or ""), -1) for name in names), -1], dtype=np.int32)
             yield known, codes_of(chunk, len(names))
 
 

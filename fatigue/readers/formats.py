@@ -4,6 +4,8 @@ from pathlib import Path
 from typing import Literal
 
 from fatigue.errors import DataError, Problem
+from fatigue.known_formats import guessed, known_format, own_format
+from fatigue.naming import missing_file
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.foreign_history import ForeignHistory
@@ -15,6 +17,16 @@ from fatigue.readers.nastran_punch import read_punch
 from fatigue.readers.text_history import read_parquet_history, read_text_history
 
 Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
+
+_IS: dict[Format, tuple[str, str]] = {  # what each is called, and the option it belongs to
+    "op2": ("a NASTRAN OP2 file", "--forces"),
+    "h5": ("an HDF5 file", "--forces or --mesh"),
+    "parquet": ("a Parquet table", "--coordinates, or, if it is a table of a case, to case.toml"),
+    "punch": ("a NASTRAN punch file", "--forces"),
+    "mcf": ("an ANSYS file of modal coordinates", "--coordinates"),
+    "bdf": ("a NASTRAN deck", "--mesh"),
+    "text": ("a text table", "--coordinates"),
+}
 
 _HEAD = 200_000
 _BINARY: dict[Format, tuple[bytes, ...]] = {
@@ -36,6 +48,8 @@ def recognise(path: Path) -> Format:
     try:
         with path.open("rb") as file:
             head = file.read(_HEAD)
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+        raise DataError(missing_file(path, code="unreadable", wanted="the file itself")) from None
     except OSError as error:
         raise DataError(
             Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
@@ -45,16 +59,22 @@ def recognise(path: Path) -> Format:
     for form, starts in _BINARY.items():
         if head.startswith(starts):
             return form
+    if (known := known_format(path)) is not None:
+        raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))
     if b"\0" in head:
-        raise DataError(
-            Problem(
-                "unknown_binary",
-                str(path),
-                "an unknown binary format",
-                "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table",
-            )
-        )
+        raise DataError(_unknown_binary(path, head))
     return _text_format(head.decode("utf-8", errors="replace"))
+
+
+def _unknown_binary(path: Path, head: bytes) -> Problem:
+    """Refusal of a binary file without a known signature, with what it may be."""
+    what = "an unknown binary format"
+    if not head.strip(b"\0"):
+        what += ": it begins with nothing but zeros"
+        return Problem("unknown_binary", str(path), what, "Copy the file again, it was perhaps not fetched yet")
+    if (guess := guessed(path, head)) is not None:
+        return Problem("unknown_binary", str(path), f"{what}, perhaps {guess.name}", guess.remedy)
+    return Problem("unknown_binary", str(path), what, "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table")
 
 
 def _text_format(text: str) -> Format:
@@ -79,9 +99,7 @@ def read_forces(path: Path, subcase: int | None) -> FeResults:
     if form == "punch":
         return read_punch(path, subcase)
     raise DataError(
-        Problem(
-            "no_forces", str(path), f"a file of format {form} holds no grid point forces", "Give .op2, MSC .h5 or .pch"
-        )
+        _swapped("no_forces", path, form, "grid point forces", "--forces an .op2, an MSC .h5 or a punch file")
     )
 
 
@@ -92,11 +110,7 @@ def read_model(path: Path) -> FeModel:
         return read_bdf(path)
     if form == "h5":
         return read_h5_model(path)
-    raise DataError(
-        Problem(
-            "no_mesh", str(path), f"a file of format {form} holds no mesh", "Give the bulk data (.bdf, .dat) or MSC .h5"
-        )
-    )
+    raise DataError(_swapped("no_mesh", path, form, "mesh", "--mesh the deck (.bdf, .dat) or the MSC .h5"))
 
 
 def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
@@ -106,13 +120,17 @@ def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: st
         return read_mcf(path)
     if form == "parquet":
         return read_parquet_history(path, columns, time_column)
-    if form == "text":
+    if form == "text" and own_format(path) is None:
         return read_text_history(path, columns, time_column)
     raise DataError(
-        Problem(
-            "no_coordinates",
-            str(path),
-            f"a file of format {form} holds no modal coordinates",
-            "Export them as a text table, .parquet or .mcf",
-        )
+        _swapped("no_coordinates", path, form, "modal coordinates", "--coordinates a text table, .parquet or .mcf")
     )
+
+
+def _swapped(code: str, path: Path, form: Format, lacks: str, wanted: str) -> Problem:
+    """Refusal of a file that is sound and in the wrong place: what it is, and where it belongs."""
+    name, option = _IS[form]
+    if form == "text" and (own := own_format(path)) is not None:
+        return Problem(code, str(path), f"this is {own.name}, which holds no {lacks}", f"{own.remedy}, and to {wanted}")
+    what = f"this is {name} (format {form}), which holds no {lacks}"
+    return Problem(code, str(path), what, f"Give it to {option}, and to {wanted}")

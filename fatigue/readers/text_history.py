@@ -15,6 +15,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.naming import composed
 from fatigue.readers.files import open_columns
 from fatigue.readers.foreign_history import ForeignHistory, check_values
 
@@ -107,7 +108,8 @@ def _history(
                 "Export time and coordinates",
             )
         )
-    time_at = _time_at(path, names, time_column)
+    names = [composed(name) for name in names]
+    time_at = _time_at(path, names, None if time_column is None else composed(time_column))
     if columns is None:
         taken = [k for k in range(len(names)) if k != time_at]
         mode = np.array([_mode_number(names[k]) for k in taken], np.int64)

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.naming import composed
 from fatigue.readers.body import SURFACES
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.line_geometry import length
@@ -148,7 +149,7 @@ def read_register(path: Path) -> dict[str, RegisterRow]:
     welds: set[str] = set()
     for number, cells in enumerate(table, start=1):
         where = f"{path}: row {number}"
-        clean = {str(k).strip(): (v or "").strip() for k, v in cells.items() if isinstance(v, str | None)}
+        clean = {composed(str(k)): composed(v or "") for k, v in cells.items() if isinstance(v, str | None)}
         if missing := [name for name in ("weld", "line", "status") if not clean.get(name)]:
             problems.append(Problem("missing_value", where, f"column {missing[0]} is missing or empty", "Fill it in"))
             continue
