@@ -66,10 +66,16 @@ BINARY = (
     Known("a Python pickle", _PANDAS.format("read_pickle"), tuple(bytes((0x80, p)) for p in (2, 3, 4, 5))),  # [V]
     Known("a MATLAB 7.3 file", f"{_CHANNELS}: writetable", (b"MATLAB 7.3 MAT-file",)),  # [D]
     Known("a MATLAB file", f"{_CHANNELS}: writetable", (b"MATLAB 5.0 MAT-file",)),  # [V]
+    Known(
+        "a MATLAB 4 file",
+        f"{_CHANNELS}: writetable",
+        within=rb"(?s)^[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0",  # [V] little end
+    ),
     Known("a netCDF file", "Write its variables as CSV or Parquet", (b"CDF\x01", b"CDF\x02", b"CDF\x05")),  # [D]
     # measured and simulated channels
     Known("an NI TDMS file", f"{_CHANNELS} (npTDMS, DIAdem)", (b"TDSm", b"TDSh")),  # [D]
     Known("an ASAM MDF file (.mf4, .mdf, .dat)", f"{_CHANNELS} (asammdf)", (b"MDF     ", b"UnFinMF ")),  # [D]
+    Known("a universal file (.unv, .uff)", _CHANNELS, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]"),  # [D]
     Known("an RPC III file (.rsp, .drv)", _CHANNELS, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)"),  # [D]
     # results of other solvers
     Known(
@@ -134,7 +140,6 @@ TEXT = (
         "Give a table as CSV or Parquet",
         within=rb'^\s*(?:\{\s*["}]|\[\s*(?:\{|\[\s*["\d-]|["\d-][^\]\n]*,))',
     ),
-    Known("a universal file (.unv, .uff)", _CHANNELS, within=rb"^\s{0,4}-1\s*\n\s{0,5}\d{1,5}b?\s"),  # [D]
     Known("an ASCII OP2 file", "Write it binary: FORM=UNFORM in ASSIGN OUTPUT2", within=rb"NASTRAN FORT TAPE ID CODE"),
     Known(
         "a NASTRAN print file (.f06)",
@@ -146,7 +151,7 @@ TEXT = (
         _OP2,
         within=rb"(?m)^(?!\s*\$).*(?:R E A L   E I G E N|E I G E N V E C T O R   N)",
     ),  # [V], [D]
-    Known("a text matrix file of NASTRAN (.op4)", _OP2, within=rb"^(?: {0,7}-?\d+){4}\w{0,8} *1P,\d+E\d+\.\d+"),  # [V]
+    Known("a text matrix file of NASTRAN (.op4)", _OP2, within=rb"^[ \d-]{31}\d\w{1,8} *(?:1P,\d+[ED]\d+\.\d+)?\s*\n"),  # [V]
     Known(
         "an ANSYS archive (.cdb)", "Write the mesh as a NASTRAN deck", within=rb"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)"
     ),
@@ -224,7 +229,9 @@ def known_format(path: Path, *, text: bool = True) -> Known | None:
 def misplaced(path: Path, where: str, *, text: bool = True) -> Problem | None:
     """Refusal of a file whose content belongs elsewhere, be it read there or nowhere; None if that cannot be told."""
     known = known_format(path, text=text) or own_format(path, text=text)
-    return None if known is None else Problem("foreign_format", where, f"this is {known.name}", known.remedy)
+    if known is not None:
+        return Problem("foreign_format", where, f"this is {known.name}", known.remedy)
+    return unknown_binary(path, where, "Give the file itself", stray=0.01)
 
 
 def own_format(path: Path, *, text: bool = True) -> Known | None:
@@ -240,10 +247,34 @@ def own_format(path: Path, *, text: bool = True) -> Known | None:
     return next((known for known in OWN if (text or not known.within) and known.fits(plain)), None)
 
 
-def guessed(path: Path, head: bytes) -> Known | None:
-    """Guess what a binary file without signature is, by a program's name in it, else by its own name."""
-    hint = next((known for known in HINTS if known.fits(head[:4096])), None)
-    return hint or SUFFIXES.get(path.suffix.lower())
+def unknown_binary(path: Path, where: str, remedy: str, *, stray: float = 0.0) -> Problem | None:
+    """Refusal of a binary file without signature: what it may be by a program's name in it, else by its own name.
+
+    None for a text, be it of two bytes a character, and for a file that cannot be opened. ``remedy`` is for one that
+    tells nothing; a share of ``stray`` zeros is taken for damage of a text.
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(HEAD)
+    except OSError:
+        return None
+    if head.count(b"\0") <= stray * len(head) or _two_byte_text(head):
+        return None
+    what = "this is an unknown binary format"
+    if not head.strip(b"\0"):
+        what += ", it begins with nothing but zeros"
+        return Problem("unknown_binary", where, what, "Copy the file again, perhaps it was not fetched yet")
+    hint = next((known for known in HINTS if known.fits(head[:4096])), None) or SUFFIXES.get(path.suffix.lower())
+    if hint is not None:
+        return Problem("unknown_binary", where, f"{what}, perhaps {hint.name}", hint.remedy)
+    return Problem("unknown_binary", where, what, remedy)
+
+
+def _two_byte_text(head: bytes) -> bool:
+    """Whether bytes are text in UTF-16: a byte order mark, or zeros at every other place and nowhere else."""
+    zeros = (head[:2000:2].count(0), head[1:2000:2].count(0))
+    half = len(head[:2000]) // 2
+    return head.startswith((b"\xff\xfe", b"\xfe\xff")) or (min(zeros) == 0 and max(zeros) > 0.9 * half)
 
 
 def _zip(file: BinaryIO) -> Known:
@@ -260,7 +291,7 @@ def _zip(file: BinaryIO) -> Known:
     if any(name.startswith(("word/", "ppt/")) for name in names):
         return Known("an Office document", "Give the table itself as CSV")
     if names and all(name.endswith(".npy") for name in names):
-        return Known("NumPy arrays (.npz)", "Write their columns, with their names, as CSV or Parquet")
+        return Known("a NumPy archive (.npz)", "Write its columns, with their names, as CSV or Parquet")
     if "modelDescription.xml" in names:
         return Known("a simulation unit (.fmu)", _CHANNELS)
     return Known("a ZIP archive", _UNPACK)

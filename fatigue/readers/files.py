@@ -47,7 +47,7 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     if path.is_dir():
         raise DataError(missing_file(path))
     if opener is None or suffix == ".csv":
-        refuse(DataError, filter(None, [misplaced(path, str(path), text=opener is None)]))
+        refuse(DataError, filter(None, [_named_otherwise(path, text=opener is None)]))
     if opener is None:
         raise DataError(
             Problem(
@@ -70,11 +70,18 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     return columns
 
 
+def _named_otherwise(path: Path, *, text: bool) -> Problem | None:
+    """Refusal of a file that surely is of another format than a table; not of one that merely cannot be recognised."""
+    problem = misplaced(path, path.name, text=text)
+    return None if problem is None or problem.code == "unknown_binary" else problem
+
+
 def other_format(path: Path) -> Problem | None:
     """Refusal of bytes that are another format than the name says; None where they are not known to be one."""
+    if path.suffix.lower() != ".parquet":
+        return misplaced(path, path.name)
     with path.open("rb") as file:
-        own = path.suffix.lower() == ".parquet" and file.read(4) == b"PAR1"
-    return None if own else misplaced(path, path.name)
+        return None if file.read(4) == b"PAR1" else _named_otherwise(path, text=True)
 
 
 def _open_parquet(path: Path, texts: Collection[str]) -> Columns:

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Literal
 
-from fatigue.errors import DataError, Problem
-from fatigue.known_formats import guessed, known_format, own_format
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.known_formats import known_format, own_format, unknown_binary
 from fatigue.naming import missing_file
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
@@ -25,10 +25,11 @@ _IS: dict[Format, tuple[str, str]] = {  # what each is called, and the option it
     "punch": ("a NASTRAN punch file", "--forces"),
     "mcf": ("an ANSYS file of modal coordinates", "--coordinates"),
     "bdf": ("a NASTRAN deck", "--mesh"),
-    "text": ("a text table", "--coordinates"),
+    "text": ("a text table", "--coordinates if it holds them"),
 }
 
 _HEAD = 200_000
+_READABLE = "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table"
 _BINARY: dict[Format, tuple[bytes, ...]] = {
     "h5": (b"\x89HDF\r\n\x1a\n",),
     "parquet": (b"PAR1",),
@@ -61,20 +62,8 @@ def recognise(path: Path) -> Format:
             return form
     if (known := known_format(path)) is not None:
         raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))
-    if b"\0" in head:
-        raise DataError(_unknown_binary(path, head))
+    refuse(DataError, filter(None, [unknown_binary(path, str(path), _READABLE)]))
     return _text_format(head.decode("utf-8", errors="replace"))
-
-
-def _unknown_binary(path: Path, head: bytes) -> Problem:
-    """Refusal of a binary file without a known signature, with what it may be."""
-    what = "an unknown binary format"
-    if not head.strip(b"\0"):
-        what += ": it begins with nothing but zeros"
-        return Problem("unknown_binary", str(path), what, "Copy the file again, it was perhaps not fetched yet")
-    if (guess := guessed(path, head)) is not None:
-        return Problem("unknown_binary", str(path), f"{what}, perhaps {guess.name}", guess.remedy)
-    return Problem("unknown_binary", str(path), what, "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table")
 
 
 def _text_format(text: str) -> Format:
