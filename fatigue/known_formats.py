@@ -140,7 +140,9 @@ TEXT = (
         "Give a table as CSV or Parquet",
         within=rb'^\s*(?:\{\s*["}]|\[\s*(?:\{|\[\s*["\d-]|["\d-][^\]\n]*,))',
     ),
-    Known("an ASCII OP2 file", "Write it binary: FORM=UNFORM in ASSIGN OUTPUT2", within=rb"NASTRAN FORT TAPE ID CODE"),
+    Known(
+        "an ASCII OP2 file", "Write it binary: FORM=UNFORMATTED in ASSIGN OUTPUT2", within=rb"NASTRAN FORT TAPE ID CODE"
+    ),
     Known(
         "a NASTRAN print file (.f06)",
         _OP2,
@@ -151,7 +153,9 @@ TEXT = (
         _OP2,
         within=rb"(?m)^(?!\s*\$).*(?:R E A L   E I G E N|E I G E N V E C T O R   N)",
     ),  # [V], [D]
-    Known("a text matrix file of NASTRAN (.op4)", _OP2, within=rb"^[ \d-]{31}\d\w{1,8} *(?:1P,\d+[ED]\d+\.\d+)?\s*\n"),  # [V]
+    Known(
+        "a text matrix file of NASTRAN (.op4)", _OP2, within=rb"^[ \d-]{31}\d\w{1,8} *(?:1P,\d+[ED]\d+\.\d+)?\s*\n"
+    ),  # [V]
     Known(
         "an ANSYS archive (.cdb)", "Write the mesh as a NASTRAN deck", within=rb"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)"
     ),
@@ -201,6 +205,16 @@ OWN = (
     Known("a weld register", "Give it to --register", within=rb"^(?=[^\n]*\bweld\b)(?=[^\n]*\bline\b)[^\n]*\bstatus\b"),
 )
 """Formats that are read, and where."""
+
+
+ZIPPED = (
+    (r"xl/", Known("an Excel workbook (.xlsx)", _CSV)),  # [V]
+    (r"content\.xml$", Known("an OpenDocument file (.ods)", _CSV)),  # [D]
+    (r"(word|ppt)/", Known("an Office document", "Give the table itself as CSV")),  # [D]
+    (r".*\.npy$", Known("a NumPy archive (.npz)", "Write its columns, with their names, as CSV or Parquet")),  # [V]
+    (r"modelDescription\.xml$", Known("a simulation unit (.fmu)", _CHANNELS)),  # [D]
+)
+"""What a ZIP archive is, by the name of a file in it."""
 
 
 def known_format(path: Path, *, text: bool = True) -> Known | None:
@@ -284,17 +298,8 @@ def _zip(file: BinaryIO) -> Known:
             names = archive.namelist()
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, RuntimeError):
         return Known("a ZIP archive, or an Excel workbook, cut short", "Copy it again")
-    if any(name.startswith("xl/") for name in names):
-        return Known("an Excel workbook (.xlsx)", _CSV)
-    if "mimetype" in names and "content.xml" in names:
-        return Known("an OpenDocument file (.ods)", _CSV)
-    if any(name.startswith(("word/", "ppt/")) for name in names):
-        return Known("an Office document", "Give the table itself as CSV")
-    if names and all(name.endswith(".npy") for name in names):
-        return Known("a NumPy archive (.npz)", "Write its columns, with their names, as CSV or Parquet")
-    if "modelDescription.xml" in names:
-        return Known("a simulation unit (.fmu)", _CHANNELS)
-    return Known("a ZIP archive", _UNPACK)
+    known = next((known for pattern, known in ZIPPED if any(re.match(pattern, name) for name in names)), None)
+    return known or Known("a ZIP archive", _UNPACK)
 
 
 def _office(head: bytes) -> Known:

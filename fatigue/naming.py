@@ -26,7 +26,7 @@ def composed(text: str) -> str:
 
 
 def control_characters(text: str) -> str:
-    """Say which control character a path holds: in TOML ``"C:\\temp"`` is a tab; empty if it holds none."""
+    r"""Say which control character a path holds: in TOML ``"C:\temp"`` is a tab; empty if it holds none."""
     names = {"\t": r"a tab (\t)", "\n": r"a line end (\n)", "\b": r"a backspace (\b)", "\f": r"a form feed (\f)"}
     names |= {"\r": r"a carriage return (\r)"}
     return next((names.get(c, f"the character {c!r}") for c in text if ord(c) < 32), "")
@@ -49,32 +49,33 @@ def missing_file(
     wanted : what to give instead of a folder
     """
     place = where or str(path)
-    what = f"there is no file {path}" if where else "there is no such file"
     if path.is_dir():
         return _folder(path, place, wanted)
+    what, remedy = _instead(path, _as_written(path, base), base)
+    return Problem(code, place, (f"there is no file {path}" if where else "there is no such file") + what, remedy)
+
+
+def _instead(path: Path, given: Path, base: Path | None) -> tuple[str, str]:
+    """Say what is peculiar about a path that leads nowhere, and what to do about it."""
     if path.is_symlink():
-        return Problem(code, place, f"{what}: it is a link to {path.readlink()}, which is gone", "Give the file itself")
+        return f": it is a link to {path.readlink()}, which is gone", "Give the file itself"
     if control := control_characters(str(path)):
-        what = f"there is no file {str(path)!r}, a path with {control} in it"
-        return Problem(code, place, what, "Write / between folders, or put the path into single quotes")
-    given = _as_written(path, base)
+        return f", a path with {control} in it", "Write / between folders, or put the path into single quotes"
     if found := _other_spelling(path, given):
         written = str(_as_written(found, base))
-        remedy = f"Write {written!r}"
         if unicodedata.normalize("NFC", written) == unicodedata.normalize("NFC", str(given)):
-            remedy = f"Rename {found.name!r}: its accents are separate characters there, or here, as macOS writes them"
-        return Problem(code, place, what, remedy)
-    name = PureWindowsPath(path).name
-    names = _names_in(base or path.parent) if _DRIVE.search(str(given)) else _names_in(path.parent)
-    near = difflib.get_close_matches(name, names, n=1)
+            return (
+                "",
+                f"Rename {found.name!r}: its accents are separate characters there, or here, as macOS writes them",
+            )
+        return "", f"Write {written!r}"
+    windows = bool(_DRIVE.search(str(given))) and not path.drive
+    names = _names_in(base or path.parent) if windows else _names_in(path.parent)
+    near = difflib.get_close_matches(PureWindowsPath(path).name, names, n=1)
     there = f"; {near[0]!r} is there" if near else ""
-    if _DRIVE.search(str(given)) and not path.drive:
-        return Problem(code, place, f"{what}, a path of Windows", f"Give a path of this computer{there}")
-    if _ADDRESS.search(str(given)):
-        return Problem(code, place, f"{what}, an address", "Give the path of a file on this computer")
-    if not path.parent.is_dir():
-        what += f", nor a folder {path.parent}"
-    return Problem(code, place, what, f"Correct the path{there}")
+    if windows or _ADDRESS.search(str(given)):
+        return ", a path of Windows" if windows else ", an address", f"Give a path of this computer{there}"
+    return "" if path.parent.is_dir() else f", nor a folder {path.parent}", f"Correct the path{there}"
 
 
 def _as_written(path: Path, base: Path | None) -> Path:

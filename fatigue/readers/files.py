@@ -66,6 +66,7 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
         refuse(DataError, filter(None, [other_format(path)]))
         raise
     if columns.rows == 0:
+        refuse(DataError, filter(None, [other_format(path)]))
         raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
     return columns
 

@@ -1,5 +1,6 @@
 """The modes of the forces and those of the simulation: one modal basis, or a refusal that names the difference."""
 
+import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -22,10 +23,12 @@ def mode_list(text: str) -> tuple[int, ...]:
     """
     modes: list[int] = []
     for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
-        if not first.isdigit() or (dash and not last.isdigit()) or (dash and int(last) - int(first) > 100_000):
-            raise CaseError(Problem("bad_modes", "list of modes", f"{part!r} is no mode or range", "Write 1-6,31-52"))
-        modes += range(int(first), int(last or first) + 1)
+        found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
+        first, last = (int(found[1]), int(found[2] or found[1])) if found else (0, -1)
+        if not 0 <= last - first <= 100_000:
+            shown = part if len(part) <= 40 else part[:37] + "..."
+            raise CaseError(Problem("bad_modes", "list of modes", f"{shown!r} is no mode or range", "Write 1-6,31-52"))
+        modes += range(first, last + 1)
     return tuple(modes)
 
 

@@ -56,12 +56,14 @@ class Table:
             if (other := other_format(self.path)) is not None and len(missing) == len(required):
                 raise DataError(other)
             raise DataError(*self.problems, *missing)
+        found_wrong = self.problems if strict else self.warnings
+        found_wrong += self._nameless_columns()
         known = (*required, *optional)
         for name in (name for name in self.position if name not in known):
             near = difflib.get_close_matches(name, set(known) - self.position.keys(), n=1)
             remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
             found = Problem("unknown_column", self.where(name), "the column is unknown and not read", remedy)
-            (self.problems if strict else self.warnings).append(found)
+            found_wrong.append(found)
 
     def where(self, column: str, row: int | None = None) -> str:
         """Name a place in the file; ``row`` is an index from 0."""
@@ -121,8 +123,8 @@ class Table:
     def integers(self, name: str, *, default: int | None = None) -> NDArray[np.int64]:
         """Whole numbers (r,), exact to the last digit; an empty cell or an absent column takes the default.
 
-        Without a default that is a mistake, as are fractions, what is beyond 64 bits, and what a column of floating-point
-        numbers may have rounded: beyond 2^53 two neighbouring ids become one there.
+        Without a default that is a mistake, as are fractions, what is beyond 64 bits, and what a floating-point column
+        may have rounded: beyond 2^53 two neighbouring ids become one there.
         """
         if name in self.position:
             column = _numbers_of_texts(self._column(name))
@@ -250,8 +252,20 @@ class Table:
             )
         )
 
+    def _nameless_columns(self) -> Iterator[Problem]:
+        """Tell columns without a name that hold something; spreadsheets write empty ones, which are nothing."""
+        for position, name in enumerate(self.columns.names):
+            if composed(name) or not self.rows:
+                continue
+            column = self.columns.read(position)
+            filled = [value for value in column.to_pylist() if value is not None and str(value).strip()]
+            if filled:
+                where = f"{self.path.name}: column {position + 1}"
+                what = f"the column has no name and is not read, it holds {str(filled[0])[:30]!r}"
+                yield Problem("unknown_column", where, what, "Give it a name, or remove it")
+
     def _missing_columns(self, required: Collection[str]) -> Iterator[Problem]:
-        present = ", ".join(self.position)
+        present = ", ".join(name for name in self.position if name)
         for name in required:
             if name not in self.position:
                 yield Problem(
@@ -298,7 +312,7 @@ def named(path: Path, columns: Columns) -> Table:
     problems = [
         Problem("duplicate_column", f"{path.name}: column {name}", "the column appears twice", "Remove one of them")
         for i, stored in enumerate(columns.names)
-        if position.setdefault(name := composed(stored), i) != i
+        if (name := composed(stored)) and position.setdefault(name, i) != i
     ]
     refuse(DataError, problems)
     return Table(path, columns, position)

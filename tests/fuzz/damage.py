@@ -8,9 +8,33 @@ Damage = Callable[[bytes, random.Random], bytes]
 
 NUMBER = re.compile(rb"[-+]?\d+(?:\.\d*)?(?:[eEdD][-+]?\d+)?")
 INSTEAD = (
-    *(b"nan", b"NaN", b"inf", b"-inf", b"1e400", b"-1e400", b"1e-400", b"", b"x", b"-", b"?", b"#N/A", b"1,5", b"1.5.2"),
+    *(
+        b"nan",
+        b"NaN",
+        b"inf",
+        b"-inf",
+        b"1e400",
+        b"-1e400",
+        b"1e-400",
+        b"",
+        b"x",
+        b"-",
+        b"?",
+        b"#N/A",
+        b"1,5",
+        b"1.5.2",
+    ),
     *(b"0x1F", b"1_000", b"99999999999999999999", b"-1", b"0", b"1e3", b"12.0", b"2.5", b"1.0D+03", b"1.0+3", b"TRUE"),
-    *("\u0661\u0662".encode(), "\u2212".encode() + b"1", "1\u00a0000".encode(), b"'12'", b'"12"', b"9" * 400, b"$", b"%"),
+    *(
+        "\u0661\u0662".encode(),
+        "\u2212".encode() + b"1",
+        "1\u00a0000".encode(),
+        b"'12'",
+        b'"12"',
+        b"9" * 400,
+        b"$",
+        b"%",
+    ),
 )
 SEPARATORS = b",;\t "
 
@@ -133,7 +157,7 @@ def saved_anew(data: bytes, rng: random.Random) -> bytes:
         lambda: b"# written by hand\n" + data,
         lambda: b"sep=,\n" + data,
         lambda: data + b"Tr\xe4ger\n",
-        lambda: data.upper(),
+        data.upper,
         lambda: data.replace(b",", b";"),
         lambda: data.replace(b".", b","),
     )

@@ -77,18 +77,30 @@ def _read(source: Source, expected: Sound, name: str, path: Path) -> tuple[str, 
         try:
             columns, remarks = source.read(path)
         except FatigueError as error:
-            bad = [p for p in error.problems if not error.problems or "\n" in str(p) or not p.what or not p.remedy]
-            if bad or not error.problems:
-                return "message", repr(str(error))[:300]
-            return ("warning", str(raised[0].message)) if raised else ("refused", str(error)[:200])
+            kind, detail = _refused(error)
         except Hang:
-            return "hang", traceback.format_exc()[-600:]
+            kind, detail = "hang", traceback.format_exc()[-600:]
         except Exception:
-            return "traceback", traceback.format_exc()[-900:]
-    if raised:
+            kind, detail = "traceback", traceback.format_exc()[-900:]
+        else:
+            kind, detail = _silent(source, expected, name, columns, _codes(remarks))
+    if raised and kind not in ("hang", "traceback"):
         return "warning", f"{raised[0].filename}:{raised[0].lineno} {raised[0].message}"
+    return kind, detail
+
+
+def _refused(error: FatigueError) -> tuple[str, str]:
+    """Check that a refusal is one line for each problem, with a finding and a remedy."""
+    bad = [problem for problem in error.problems if "\n" in str(problem) or not problem.what or not problem.remedy]
+    if bad or not error.problems:
+        return "message", repr(str(error))[:300]
+    return "refused", str(error)[:200]
+
+
+def _silent(source: Source, expected: Sound, name: str, columns: Columns, remarks: frozenset[str]) -> tuple[str, str]:
+    """Say whether what was read without a refusal differs, and whether it may."""
     kind, detail = compared(expected.columns, columns)
-    if kind != "same" and _codes(remarks) - expected.remarks:
+    if kind != "same" and remarks - expected.remarks:
         return "remarked", detail
     if kind in ("fewer", "more") and (source.structure or not _can_change_counts(name)):
         return "structure", f"{kind}: {detail}"

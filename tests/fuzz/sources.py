@@ -15,8 +15,8 @@ from fatigue.errors import Problem
 from fatigue.readers.body import Modes, read_mesh, read_modes, read_weld_nodes, read_welds
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
-from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.forces import open_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
+from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.history import read_history
 from fatigue.readers.neutral_folder import read_record
@@ -59,9 +59,13 @@ def _results(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
 def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     found: FeModel = read_model(path)
     mesh = found.mesh
-    columns: Columns = {name: getattr(mesh, name) for name in ("node", "xyz", "element", "corner", "mid", "pid", "offset")}
+    columns: Columns = {
+        name: getattr(mesh, name) for name in ("node", "xyz", "element", "corner", "mid", "pid", "offset")
+    }
     columns |= {"?thickness": mesh.thickness, "frame_node": found.frame_node, "frame": found.frame}
-    columns |= {f"set {k}": v for k, v in found.node_sets.items()} | {f"of {k}": v for k, v in found.marker_edges.items()}
+    columns |= {f"set {k}": v for k, v in found.node_sets.items()} | {
+        f"of {k}": v for k, v in found.marker_edges.items()
+    }
     doubts = [f"{k} {v}" for k, v in (found.section_doubt | found.element_doubt).items()]
     return columns, (*found.remarks, *(Problem("doubt", "", doubt, "") for doubt in doubts))
 
@@ -86,7 +90,9 @@ def _modes(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
 
 def _welds(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     found, warnings = read_welds(path, {"master-steel"}, strict=False)
-    columns = {name: np.array([str(getattr(w, name)) for w in found]) for name in ("name", "closed", "surface", "curve")}
+    columns = {
+        name: np.array([str(getattr(w, name)) for w in found]) for name in ("name", "closed", "surface", "curve")
+    }
     return columns | {"end": np.array([str(w.end_length) for w in found])}, tuple(warnings)
 
 
@@ -312,7 +318,11 @@ def sources(folder: Path) -> list[Source]:
     add("history, blanks", "q.dat", _text(q, "   ", ".", "! run 1\n"), _coordinates)
     pq.write_table(pa.table(q), folder / "sound_q.parquet")
     add("history, Parquet", "q.parquet", (folder / "sound_q.parquet").read_bytes(), _coordinates, binary=True)
-    ef = {"mode": [1] * 7 + [2] * 7, "node": [1, 2, 3, 4, 2, 5, 3] * 2, "element": [7] * 4 + [8] * 3 + [7] * 4 + [8] * 3}
+    ef = {
+        "mode": [1] * 7 + [2] * 7,
+        "node": [1, 2, 3, 4, 2, 5, 3] * 2,
+        "element": [7] * 4 + [8] * 3 + [7] * 4 + [8] * 3,
+    }
     ef |= {name: [float(k) for k in range(14)] for name in neutral.COMPONENTS}
     tables: tuple[tuple[str, Mapping[str, list[Any]], Reader], ...] = (
         ("modes", neutral.MODES, _modes),
@@ -338,7 +348,7 @@ def sources(folder: Path) -> list[Source]:
     write_json(folder / "sound.json", {"program": "fatigue", "version": "1", "inputs": [], "warnings": []})
     add("provenance.json", "provenance.json", (folder / "sound.json").read_bytes(), _provenance)
     plain = schema("nodes")
-    filled = {f.name: pa.array([None] * 5 if f.name not in _FILLED else _FILLED[f.name], f.type) for f in plain}
+    filled = {f.name: pa.array(_FILLED.get(f.name, [None] * 5), f.type) for f in plain}
     pq.write_table(pa.table(filled, schema=plain), folder / "sound_nodes.parquet")
     nodes = (folder / "sound_nodes.parquet").read_bytes()
     add("result table", "nodes.parquet", nodes, _result_table, binary=True, structure=True)
