@@ -273,7 +273,7 @@ def named(path: Path, columns: Columns) -> Table:
         if position.setdefault(name := stored.strip(), i) != i
     ]
     refuse(DataError, problems)
-    return Table(path, columns, position)
+    return Table(path, columns, position, warnings=list(columns.doubts))
 
 
 def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:
