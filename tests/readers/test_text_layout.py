@@ -129,10 +129,9 @@ def test_another_encoding_is_a_doubt(tmp_path):
         path.write_bytes(b"a,b\n" + b"weld,1\n" * rows + b"Tr\xe4ger,2\n")
         table = open_table(path, texts=("a",))
         assert table.texts("a")[-1] == "Träger"
-        assert [str(warning) for warning in table.warnings] == [
-            f"t.csv: line {rows + 2}: byte 0xe4 is not UTF-8; the file is read as Windows-1252, where it is 'ä'. "
-            "Save it as UTF-8."
-        ]
+        (warning,) = table.warnings
+        assert warning.where == f"t.csv: line {rows + 2}"
+        assert warning.what == "byte 0xe4 is not UTF-8; the file is read as Windows-1252, where it is 'ä'"
 
 
 def test_what_the_head_does_not_show(tmp_path):
