@@ -12,7 +12,8 @@ from fatigue.errors import DataError, Problem
 
 Encoding = Literal["utf-8", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp1252"]
 
-HEAD_BYTES = 1 << 18
+HEAD_BYTES = 1 << 18  # of a table with names in its first lines
+LONG_HEAD_BYTES = 1 << 22  # of a history, which may begin with pages of text
 _MARKS: tuple[tuple[bytes, Encoding], ...] = (
     (codecs.BOM_UTF8, "utf-8"),
     (codecs.BOM_UTF32_LE, "utf-32"),  # before UTF-16, whose mark it begins with
@@ -128,3 +129,20 @@ def _first_stray(data: bytes) -> int:
 
 def _line(data: bytes, at: int) -> int:
     return data.count(b"\n", 0, at) + 1
+
+
+def read_head(path: Path) -> tuple[str, Encoding, bool]:
+    """Read the beginning of a text file: text, encoding, and whether that is all of it.
+
+    Raises
+    ------
+    DataError : missing or unreadable, bytes that no encoding explains, NUL bytes
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(LONG_HEAD_BYTES)
+    except OSError as error:
+        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+    if len(head) < LONG_HEAD_BYTES or marked_encoding(head) != "utf-8":
+        return (*read_text(path), True)
+    return (*decoded(path, head[: head.rfind(b"\n") + 1]), False)
