@@ -12,6 +12,7 @@ from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_h5 import read_h5, read_h5_model
 from fatigue.readers.nastran_op2 import read_op2
 from fatigue.readers.nastran_punch import read_punch
+from fatigue.readers.text_encoding import marked_encoding
 from fatigue.readers.text_history import read_parquet_history, read_text_history
 
 Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
@@ -45,7 +46,8 @@ def recognise(path: Path) -> Format:
     for form, starts in _BINARY.items():
         if head.startswith(starts):
             return form
-    if b"\0" in head:
+    encoding = marked_encoding(head)
+    if b"\0" in head and encoding == "utf-8":
         raise DataError(
             Problem(
                 "unknown_binary",
@@ -54,7 +56,7 @@ def recognise(path: Path) -> Format:
                 "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table",
             )
         )
-    return _text_format(head.decode("utf-8", errors="replace"))
+    return _text_format(head.decode(encoding, errors="replace"))
 
 
 def _text_format(text: str) -> Format:

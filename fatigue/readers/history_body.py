@@ -21,6 +21,7 @@ _SAMPLE = 200
 _SEPARATORS = ("\t", ";", ",", "|", None)  # None: blanks
 _RULE = re.compile(r"[\s\-=_+|*#;,]+\Z")
 _NUMERIC_START = re.compile(r"[\s\"']*[-+.,;|\d]|\s*\Z")
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?\Z")
 _DATE = re.compile(
     r"(?<!\d)(\d{4}-\d{1,2}-\d{1,2}|\d{1,2}\.\d{1,2}\.\d{2,4}|\d{1,2}/\d{1,2}/\d{2,4}|\d{1,2}:\d{2}(?::\d{2})?)(?!\d)"
 )
@@ -69,7 +70,8 @@ def find_rows(path: Path, lines: Sequence[str]) -> Rows:
         if separator is not None and not any(separator in line for line in head):
             continue
         for decimal in (".", ","):
-            if decimal != separator and (start := _first(head, separator, decimal)) is not None:
+            quoted = separator == "," and any('"' in line for line in head)
+            if (decimal != separator or quoted) and (start := _first(head, separator, decimal)) is not None:
                 width = _width(head[start], separator, decimal)
                 sample = head[start : start + _SAMPLE]
                 score = sum(_width(line, separator, decimal) == width for line in sample)
@@ -77,7 +79,9 @@ def find_rows(path: Path, lines: Sequence[str]) -> Rows:
                     (score, -rank, Rows(start, separator, decimal, width, _cells(head[start], separator, width)))
                 )
     if found:
-        return max(found, key=lambda f: f[:2])[2]
+        rows = max(found, key=lambda f: f[:2])[2]
+        _refuse_two_commas(path, head, rows)
+        return rows
     dated = next(
         (k for k, line in enumerate(head) if _DATE.search(line) and re.search(r"\d[\s;,\t]+[-+.\d]", line)), None
     )
@@ -91,6 +95,20 @@ def find_rows(path: Path, lines: Sequence[str]) -> Rows:
             "Export time and modal coordinates as columns of text",
         )
     )
+
+
+def _refuse_two_commas(path: Path, head: Sequence[str], rows: Rows) -> None:
+    """Refuse a table without a point whose whole numbers begin with a zero: they are what follows a decimal comma."""
+    if rows.separator != "," or rows.decimal == ",":
+        return
+    sample = [split_fields(line, ",") for line in head[rows.first : rows.first + _SAMPLE]]
+    if any("." in cell for cells in sample for cell in cells):
+        return
+    for k, cells in enumerate(sample):
+        if any(re.fullmatch(r"0\d+", cell) for cell in cells):
+            what = "commas seem to stand both between the columns and in the numbers"
+            remedy = "Write semicolons between the columns, or points in the numbers"
+            raise DataError(Problem("two_commas", f"{path}, line {rows.first + k + 1}", what, remedy))
 
 
 def _first(head: Sequence[str], separator: str | None, decimal: Decimal) -> int | None:
@@ -228,7 +246,7 @@ def _value_line(line: str, headers: Sequence[Sequence[str]], rows: Rows) -> str:
     if is_rule(line):
         return ""
     if not _NUMERIC_START.match(line):
-        if line.lstrip().startswith(COMMENTS) or split_fields(line, rows.separator) in headers:
+        if line.lstrip().startswith(COMMENTS) or tuple(split_fields(line, rows.separator)) in headers:
             return ""
         return line
     if rows.separator is None or '"' in line:
@@ -254,11 +272,13 @@ def _row_problem(path: Path, body: Sequence[str], rows: Rows, names: Sequence[st
         wrong = [c for c, cell in enumerate(cells) if not (is_number(cell, rows.decimal) or is_gap(cell))]
         if wrong and _DATE.search(line):
             return _date_problem(path, number - 1, line)
-        if len(wrong) == len(cells) or (wrong and len(cells) != rows.width):
+        is_text = wrong[:1] == [0] and re.search(r"[^\W\d]{2}", cells[0])
+        if len(wrong) == len(cells) or (wrong and (is_text or len(cells) != rows.width)):
             what = f"{_shown(line)} is no row of numbers; the table does not hold numbers only"
             return Problem("bad_table", where, what, "Remove what stands among or below the rows of numbers")
         if wrong:
-            return _cell_problem(where, cells[wrong[0]], wrong[0], rows, names)
+            worst = next((c for c in wrong if _THOUSANDS.match(cells[c])), wrong[0])
+            return _cell_problem(where, cells[worst], worst, rows, names)
         if len(cells) != rows.width:
             return _count_problem(where, len(cells), rows)
     where = f"{path}, from line {rows.first + 1}"
@@ -271,7 +291,7 @@ def _cell_problem(where: str, cell: str, column: int, rows: Rows, names: Sequenc
     what = f"{cell!r} in {name} is no number; the table does not hold numbers only"
     remedy = "Export plain columns of numbers below one line of names"
     other: Decimal = "," if rows.decimal == "." else "."
-    if re.fullmatch(r"[+-]?\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?", cell):
+    if _THOUSANDS.match(cell):
         what += "; it seems to have thousands separators"
         remedy = "Export without thousands separators"
     elif is_number(cell, other):

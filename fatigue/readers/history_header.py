@@ -4,7 +4,7 @@ Everything that is stated is used, or refused where two statements disagree.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -18,7 +18,12 @@ from fatigue.readers.text_layout import SEPARATORS
 from fatigue.readers.text_numbers import Decimal, is_number, plain_number, split_fields
 
 _LISTED = re.compile(
-    r"\W*(?:channel|chan|column|col|signal|kanal|spalte|ch)?\.?\s*(\d{1,4})\s*[:=.)\]\t;,-]+\s*(\S.*?)\s*\Z",
+    r"[^\w\"']*(?:channel|chan|column|col|signal|kanal|spalte|ch)?\.?\s*(\d{1,4})\s*[:=.)\]\t;, -]+\s*"
+    r"([\"'$.]*[^\W\d].*?)\s*\Z",
+    re.IGNORECASE,
+)
+_FREE_LABEL = re.compile(
+    r"\W*(samples|channels|points|[xy]0|delta_?[xt]|[xy]_dimension|x_columns|date|time_pref|separator|operator)\W*\Z",
     re.IGNORECASE,
 )
 _TYPES = ("double", "float", "single", "real", "real*8", "float64", "float32", "numeric", "number")
@@ -69,39 +74,45 @@ def read_header(path: Path, lines: Sequence[str], rows: Rows) -> Header:
     ------
     DataError : rows that disagree, names for another number of columns, a row of numbers nobody labelled
     """
-    found = _rows_of(lines[: rows.first], rows)
+    listed, lines_of_list = _listed(path, lines[: rows.first], rows.width)
+    found = _rows_of(lines[: rows.first], rows, lines_of_list)
     names = [row for row in found.rows if row.kind == "names"]
-    listed = _listed(path, found.free, rows.width)
-    if not names:
+    if not names and listed is None:
         _refuse_short_names(path, lines, rows, found.rows)
     if listed is not None:
         names.append(listed)
     channels = [[channel(name) for name in row.cells] for row in names]
     merged = _merged(path, names, channels) if names else [channel("")] * rows.width
+    sign = _sign(rows)
     for row in found.rows:
         if row.kind == "units":
             merged = [_with_unit(path, row, c, cell) for c, cell in zip(merged, row.cells, strict=True)]
         elif row.kind in ("modes", "frequencies"):
-            merged = [_with_number(path, row, c, cell, rows.decimal) for c, cell in zip(merged, row.cells, strict=True)]
+            merged = [_with_number(path, row, c, cell, sign) for c, cell in zip(merged, row.cells, strict=True)]
         elif row.kind == "label":
             raise DataError(_label_problem(path, row))
         elif row.kind == "numbers":
-            _refuse_unlike(path, row, merged, rows.decimal)
+            raise DataError(_numbers_problem(path, row, names))
     return Header(tuple(row.cells for row in names), tuple(merged), tuple(found.cells), tuple(found.free))
 
 
-def _rows_of(head: Sequence[str], rows: Rows) -> _Found:
+def _sign(rows: Rows) -> Decimal:
+    """Tell the decimal sign that numbers of the header may have besides a point: the rows may be whole numbers."""
+    return "." if rows.separator == "," else ","
+
+
+def _rows_of(head: Sequence[str], rows: Rows, listed: Collection[int]) -> _Found:
     """Sort the lines above the numbers into rows of cells, one for every column, and free text."""
     found = _Found()
     for k, line in enumerate(head):
-        if is_rule(line):
+        if is_rule(line) or k + 1 in listed:
             continue
         found.cells.append(tuple(split_fields(line, rows.separator)))
         cells = _cells_of(line, rows)
         if cells is None:
             found.free.append((k + 1, line))
             continue
-        kind = _kind(cells, rows.decimal)
+        kind = _kind(cells, _sign(rows))
         if kind == "free":
             found.free.append((k + 1, line))
         elif kind != "types":
@@ -133,19 +144,17 @@ def _cell_count(text: str, separator: str | None) -> int:
 def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
     """Tell names, units, types of data, and rows of numbers with and without a label."""
     label, rest = cells[0], [cell for cell in cells[1:] if cell]
-    numbers = [is_number(cell, ".") or is_number(cell, decimal) for cell in rest]
-    if rest and all(numbers):
-        if is_number(label, ".") or is_number(label, decimal):
-            return "numbers"
-        return _kind_of_label(label)
     filled = [cell for cell in cells if cell]
-    if all(cell.lower() in _TYPES for cell in filled):
-        return "types"
-    if _UNIT_LABEL.match(label) and rest and all(_is_unit(cell) for cell in rest):
-        return "units"
-    if all(_is_unit(cell) for cell in filled) and (len(filled) > 1 or re.search(r"[\[(]", filled[0])):
-        return "units"
-    return "names"
+    numbers = [is_number(cell, ".") or is_number(cell, decimal) for cell in rest]
+    if rest and all(numbers) and not _FREE_LABEL.match(label):
+        return "numbers" if is_number(label, ".") or is_number(label, decimal) else _kind_of_label(label)
+    of_units = all(_is_unit(cell) for cell in filled) and (len(filled) > 1 or re.search(r"[\[(]", filled[0]))
+    tests = {
+        "free": _FREE_LABEL.match(label),
+        "types": all(cell.lower() in _TYPES for cell in filled),
+        "units": of_units or (_UNIT_LABEL.match(label) and rest and all(_is_unit(cell) for cell in rest)),
+    }
+    return next((kind for kind, found in tests.items() if found), "names")
 
 
 def _kind_of_label(label: str) -> str:
@@ -161,24 +170,27 @@ def _is_unit(cell: str) -> bool:
     return known or states_no_unit(bare) or re.fullmatch(r"\s*[\[(<].*[\])>]\s*", cell) is not None
 
 
-def _listed(path: Path, free: Sequence[tuple[int, str]], width: int) -> _Row | None:
-    """Names from a list of channels, one a line and numbered; it has to have as many as there are columns."""
-    found = [(line, int(m[1]), m[2]) for line, text in free if (m := _LISTED.match(text)) and not is_number(m[2], ".")]
-    for first in range(len(found)):
-        run = [f for k, f in enumerate(found[first:]) if f[1] == found[first][1] + k]
-        if len(run) < 2 or run[0][1] not in (0, 1):
+def _listed(path: Path, head: Sequence[str], width: int) -> tuple[_Row | None, Collection[int]]:
+    """Read names from a list of channels, one a line and numbered; it has to have as many as there are columns.
+
+    Returns
+    -------
+    the names as a row, None if there is no list, and the lines it takes
+    """
+    found = [(k + 1, int(m[1]), m[2]) for k, line in enumerate(head) if (m := _LISTED.match(line))]
+    for first, (line, number, _) in enumerate(found):
+        run = [f for k, f in enumerate(found[first:]) if f[:2] == (line + k, number + k)]
+        if len(run) < 2 or number not in (0, 1):
             continue
         names = [name.strip("\"' ") for _, _, name in run]
         timed = any(time_unit_in(name) is not None for name in names)
         if len(names) == width - 1 and not timed:
             names = ["time", *names]
-        if len(names) == width:
-            return _Row(run[0][0], tuple(names), "names")
-        if timed or len(names) > 2:
+        if len(names) != width:
             what = f"{len(names)} channels are listed above rows of {width} numbers"
-            remedy = "Export again, or remove the list"
-            raise DataError(Problem("column_count", f"{path}, line {run[0][0]}", what, remedy))
-    return None
+            raise DataError(Problem("column_count", f"{path}, line {line}", what, "Export again, or remove the list"))
+        return _Row(line, tuple(names), "names"), range(line, line + len(run))
+    return None, ()
 
 
 def _refuse_short_names(path: Path, lines: Sequence[str], rows: Rows, above: Sequence[_Row]) -> None:
@@ -195,7 +207,8 @@ def _refuse_short_names(path: Path, lines: Sequence[str], rows: Rows, above: Seq
             continue
         what = f"{len(cells)} names stand above rows of {rows.width} numbers"
         remedy = "Export a name for every column, and a column for every name"
-        if rows.separator == "," and len(cells) < rows.width <= 2 * len(cells):
+        points = any("." in line for line in lines[rows.first : rows.first + 50])
+        if rows.separator == "," and not points and len(cells) < rows.width <= 2 * len(cells):
             what += "; commas seem to stand both between the columns and in the numbers"
             remedy = "Write semicolons between the columns, or points in the numbers"
         raise DataError(Problem("column_count", f"{path}, line {near[-1] + 1}", what, remedy))
@@ -276,17 +289,14 @@ def _with_number(path: Path, row: _Row, own: Channel, cell: str, decimal: Decima
     return replace(own, mode=int(value))
 
 
-def _refuse_unlike(path: Path, row: _Row, channels: Sequence[Channel], decimal: Decimal) -> None:
-    """Refuse a row of numbers without a label, unless it repeats the numbers of the modes that the names give."""
-    values = [float(plain_number(c, decimal if not is_number(c, ".") else ".") or "nan") for c in row.cells]
-    pairs = [(c.mode, v) for c, v in zip(channels, values, strict=True) if not c.is_time]
-    if pairs and all(mode and mode == value for mode, value in pairs):
-        return
-    modes = [str(mode) for mode, _ in pairs if mode]
+def _numbers_problem(path: Path, row: _Row, names: Sequence[_Row]) -> Problem:
+    """Refusal of a row of numbers without a label among the rows of the header."""
     what = f"a row of numbers ({_some(row.cells)}) stands above the rows of values"
-    what += f", while the names give the modes {_some(modes)}" if modes else ""
+    below = [name for name in names if name.line > row.line]
+    if below:
+        what = f"a row of numbers ({_some(row.cells)}) stands above the names in line {below[0].line}"
     remedy = "Remove it, or say in its first cell what it holds: Mode, or Frequency [Hz]"
-    raise DataError(Problem("header", f"{path}, line {row.line}", what, remedy))
+    return Problem("header", f"{path}, line {row.line}", what, remedy)
 
 
 def _label_problem(path: Path, row: _Row) -> Problem:

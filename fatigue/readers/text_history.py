@@ -23,7 +23,7 @@ from fatigue.readers.history_body import find_rows, read_values
 from fatigue.readers.history_header import Header, header_frequencies, read_header
 from fatigue.readers.history_statements import normalisation_in, stated_time_unit, statement_problems
 from fatigue.readers.text_encoding import read_head
-from fatigue.readers.text_layout import text_lines
+from fatigue.readers.text_layout import text_lines, whole_cells
 
 Vectors = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ def read_text_history(
         differ, statements of the header that disagree with each other or with the table
     """
     text, encoding, whole = read_head(path)
-    lines = text_lines(text, whole=whole)
+    lines = whole_cells(text_lines(text, whole=whole))
     rows = find_rows(path, lines)
     header = read_header(path, lines, rows)
     names = [c.name for c in header.channels]
@@ -162,7 +162,12 @@ def _times(path: Path, header: Header, wanted: str | None) -> list[int]:
         return named or [0]
     shown = ", ".join(repr(c.name) for c in channels[:8])
     raise DataError(
-        Problem("no_time", str(path), f"no column is named time; the columns are {shown}", "Name it with --time-column")
+        Problem(
+            "no_time",
+            str(path),
+            f"no column is named time; the columns are {shown}",
+            "Name it, or its position from 1, with --time-column",
+        )
     )
 
 

@@ -17,6 +17,8 @@ from fatigue.readers.text_numbers import Decimal, is_number, split_fields
 SEPARATORS = (",", ";", "\t", "|")
 COMMENTS = ("#", "%", "!", "//")
 SAMPLE_LINES = 200
+HEADER_LINES = 100  # within which names are broken over several lines
+MOST_BREAKS = 20  # lines of one cell
 
 _SEP_LINE = re.compile(r'\s*"?sep=(.)"?\s*\Z', re.IGNORECASE)
 _UNIT = re.compile(r"(?:[\[(<].*[\])>]|-|s|ms|us|µs|min|h|Hz|mm|cm|m|in|N|kN|N\.?mm|N\.?m|MPa|kg|t)\Z", re.IGNORECASE)
@@ -82,11 +84,25 @@ def text_lines(text: str, *, whole: bool = True) -> list[str]:
     return lines if whole or len(lines) == 1 else lines[:-1]
 
 
+def whole_cells(lines: Sequence[str]) -> list[str]:
+    """Join the lines of a cell in quotation marks, as spreadsheets break them, on its last line; blank ones remain."""
+    result = list(lines)
+    for k in range(len(lines)):
+        joined, end = result[k], k
+        while joined.count('"') % 2 and end < min(k + MOST_BREAKS, len(lines) - 1):
+            end += 1
+            joined = f"{joined} {lines[end]}"
+        if end > k and joined.count('"') % 2 == 0:
+            result[k : end + 1] = [""] * (end - k) + [joined]
+    return result
+
+
 def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, texts: Collection[str] = ()) -> TableLayout:
     """Find the layout of the lines of a file, or of its first ones; as ``table_layout``."""
     at, declared, comment = 0, None, None
     if not lines[0].strip():
         raise DataError(_no_names(path))
+    lines = whole_cells(lines[:HEADER_LINES]) + list(lines[HEADER_LINES:])
     for at, line in enumerate(lines):
         if found := _SEP_LINE.match(line):
             declared = found[1]
