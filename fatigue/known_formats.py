@@ -245,7 +245,7 @@ def misplaced(path: Path, where: str, *, text: bool = True) -> Problem | None:
     known = known_format(path, text=text) or own_format(path, text=text)
     if known is not None:
         return Problem("foreign_format", where, f"this is {known.name}", known.remedy)
-    return unknown_binary(path, where, "Give the file itself", stray=0.01)
+    return unknown_binary(path, where, "Give the file itself", stray=0.15)
 
 
 def own_format(path: Path, *, text: bool = True) -> Known | None:
@@ -288,7 +288,7 @@ def _two_byte_text(head: bytes) -> bool:
     """Whether bytes are text in UTF-16: a byte order mark, or zeros at every other place and nowhere else."""
     zeros = (head[:2000:2].count(0), head[1:2000:2].count(0))
     half = len(head[:2000]) // 2
-    return head.startswith((b"\xff\xfe", b"\xfe\xff")) or (min(zeros) == 0 and max(zeros) > 0.9 * half)
+    return head.startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")) or (min(zeros) == 0 and max(zeros) > 0.9 * half)
 
 
 def _zip(file: BinaryIO) -> Known:

@@ -14,6 +14,7 @@ from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_h5 import read_h5, read_h5_model
 from fatigue.readers.nastran_op2 import read_op2
 from fatigue.readers.nastran_punch import read_punch
+from fatigue.readers.text_encoding import marked_encoding
 from fatigue.readers.text_history import read_parquet_history, read_text_history
 
 Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
@@ -63,7 +64,7 @@ def recognise(path: Path) -> Format:
     if (known := known_format(path)) is not None:
         raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))
     refuse(DataError, filter(None, [unknown_binary(path, str(path), _READABLE)]))
-    return _text_format(head.decode("utf-8", errors="replace"))
+    return _text_format(head.decode(marked_encoding(head), errors="replace"))
 
 
 def _text_format(text: str) -> Format:

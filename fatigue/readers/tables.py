@@ -315,7 +315,7 @@ def named(path: Path, columns: Columns) -> Table:
         if (name := composed(stored)) and position.setdefault(name, i) != i
     ]
     refuse(DataError, problems)
-    return Table(path, columns, position)
+    return Table(path, columns, position, warnings=list(columns.doubts))
 
 
 def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:
