@@ -11,8 +11,11 @@ from pydantic import BaseModel, ValidationError
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, read_text, syntax_problem
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.known_formats import misplaced
 from fatigue.life.curves import catalogue
+from fatigue.naming import missing_file
 
+CASE_FILE = "this is a case (case.toml)"
 DISTANCE_TOLERANCE = 1e-3  # relative, between length_km and speed times duration
 
 MODELS: dict[tuple[str, ...], type[BaseModel]] = {
@@ -44,6 +47,9 @@ def load_case(path: Path | str) -> Case:
         problems += mission_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
+        other = misplaced(path, path.name)
+        if other is not None and other.what != CASE_FILE:
+            raise CaseError(other) from None
         problems.append(syntax_problem(text, error))
     except ValidationError as error:
         problems[:0] = (found for details in error.errors() for found in model_problems(details, MODELS, raw))
@@ -56,7 +62,7 @@ def check_files(case: Case) -> None:
     refuse(
         DataError,
         (
-            Problem("missing_file", f"{case.path.name}: {key}", f"there is no file {file}", "Correct the path")
+            missing_file(file, f"{case.path.name}: {key}", base=case.path.parent)
             for key, file in case.input_files().items()
             if not file.is_file()
         ),

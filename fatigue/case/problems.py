@@ -14,6 +14,8 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from fatigue.errors import CaseError, Problem
+from fatigue.known_formats import misplaced
+from fatigue.naming import composed, control_characters, missing_file
 
 SHARE_TOLERANCE = 1e-6  # of the sum of all shares
 
@@ -44,12 +46,15 @@ def read_text(path: Path) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
-        problem = Problem("missing_file", str(path), "there is no such file", "Give the path of a case.toml")
+        found = missing_file(path)
+        problem = replace(found, remedy="Give the path of a case.toml") if found.remedy == "Correct the path" else found
     except IsADirectoryError:
         problem = Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it")
     except OSError as error:
         problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
     except UnicodeDecodeError as error:
+        if (other := misplaced(path, path.name, text=False)) is not None:
+            raise CaseError(other) from None
         line = error.object[: error.start].count(b"\n") + 1
         problem = Problem(
             "not_utf8",
@@ -62,10 +67,22 @@ def read_text(path: Path) -> str:
 
 def syntax_problem(text: str, error: tomllib.TOMLDecodeError) -> Problem:
     """Name line and column of a text that is not TOML."""
+    lines = text.splitlines()
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", str(error), re.DOTALL)
     what, line, column = found.groups() if found else (str(error), None, None)
-    place = f"line {line}, column {column}" if line else f"line {max(1, len(text.splitlines()))}"
-    return Problem("toml_syntax", place, f"not valid TOML: {what}", "Correct the line")
+    place = f"line {line}, column {column}" if line else f"line {max(1, len(lines))}"
+    remedy = "Correct the line"
+    if line and re.search(r'"[^"\n]*\\', lines[int(line) - 1]):
+        remedy = "Write / between the folders of a path, or put the path into single quotes"
+    return Problem("toml_syntax", place, f"not valid TOML: {what}", remedy)
+
+
+def path_problems(files: Mapping[str, str | None]) -> Iterator[Problem]:
+    """Find paths, by their keys, in which a backslash of Windows and the letter after it became one character."""
+    for key, file in files.items():
+        if file is not None and (control := control_characters(file)):
+            what = f"the path {_shown(file)} holds {control}, as \\ begins an escape between double quotes"
+            yield Problem("bad_path", key, what, "Write / between the folders, or put the path into single quotes")
 
 
 def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -> Iterator[Problem]:
@@ -102,6 +119,9 @@ def curve_problems(raw: dict[str, Any], catalogue: Collection[str]) -> Iterator[
     own, chosen = raw.get("curves"), raw.get("curve")
     own = own if isinstance(own, dict) else {}
     for name in own:
+        if name != composed(name):
+            what = f"the name {name!r} has blanks around it or accents as characters of their own (NFD)"
+            yield Problem("bad_name", f"curves.{name}", what, f"Write {composed(name)!r}")
         if name in catalogue:
             yield Problem(
                 "duplicate", f"curves.{name}", f"{name!r} is a curve of the catalogue", "Give it another name"
@@ -110,6 +130,8 @@ def curve_problems(raw: dict[str, Any], catalogue: Collection[str]) -> Iterator[
     if isinstance(name, str) and name and name not in (known := sorted({*catalogue, *own})):
         near = difflib.get_close_matches(name, known, n=1)
         remedy = f"Write {near[0]!r}" if near else f"Add it under [curves], or use one of {', '.join(known)}"
+        if composed(name) in map(composed, known):
+            remedy = "Copy the name from [curves]: there an accent is a character of its own, or here"
         yield Problem("unknown_curve", "curve.name", f"there is no curve {name!r}", remedy)
 
 
@@ -122,11 +144,11 @@ def mission_problems(raw: dict[str, Any]) -> Iterator[Problem]:
     first: dict[str, int] = {}
     for position, event in enumerate(events, 1):
         name = event.get("name")
-        if isinstance(name, str) and first.setdefault(name, position) < position:
+        if isinstance(name, str) and first.setdefault(composed(name), position) < position:
             yield Problem(
                 "duplicate",
                 f"mission.event[{position}].name",
-                f"{name!r} is already the name of mission.event[{first[name]}]",
+                f"{name!r} is already the name of mission.event[{first[composed(name)]}]",
                 "Give every event its own name",
             )
     shares = [event["share"] for event in events if "share" in event]

@@ -10,7 +10,7 @@ from typing import Annotated, Literal, Self, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
 
-from fatigue.case.problems import Contradictions, absent, clash
+from fatigue.case.problems import Contradictions, absent, clash, path_problems
 from fatigue.errors import Problem
 from fatigue.life.curves import Applies, Extension, Survival, catalogue
 from fatigue.life.damage import ThicknessRule
@@ -67,6 +67,7 @@ class Body(_Table):
     )
 
     def _contradictions(self) -> Iterator[Problem]:
+        yield from path_problems({key: getattr(self, key) for key in BODY_FILES})
         if self.nodal_forces and self.element_forces:
             yield clash("nodal_forces", "nodal_forces and element_forces are both given", "Keep one of them")
         if not self.nodal_forces and not self.element_forces:
@@ -206,6 +207,7 @@ class Event(_Table):
     )
 
     def _contradictions(self) -> Iterator[Problem]:
+        yield from path_problems({"history": self.history})
         by_share, by_number = self.share is not None, self.per_1000_km is not None
         if by_share and by_number:
             what = f"share = {self.share:g} and per_1000_km = {self.per_1000_km:g} are both given"

@@ -172,9 +172,10 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
       fatigue show result --top 20
       fatigue show result --weld W1_roof_bracket_neg --json
     """
+    from fatigue.naming import composed
     from fatigue.results.summary import result_summary
 
-    found = result_summary(folder, top=top, only=welds)
+    found = result_summary(folder, top=top, only=[composed(weld) for weld in welds])
     if as_json:
         print_json(found.as_record())
     else:

@@ -14,18 +14,25 @@ from fatigue.readers.fe_model import in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.forces import Convention
-from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform
+from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform, with_own_frequencies
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
-from fatigue.readers.modal_basis import common_modes, simulated_frequencies, simulation_modes, without_modes
+from fatigue.readers.modal_basis import (
+    column_map,
+    common_modes,
+    simulated_frequencies,
+    simulation_modes,
+    with_declared_units,
+    without_modes,
+)
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
-from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import WeldSources, find_welds
 from fatigue.readers.weld_register import REGISTER, RegisterRow, register_text
 
 CASE = "case.toml"
+_FREQUENCIES = "frequency match"  # the check of the audit
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +115,9 @@ def convert(options: ConvertOptions) -> Conversion:
     histories = [_history(path, options, results, table) for path in options.coordinates]
     judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
     _refuse_red(judged, options)
+    if _FREQUENCIES not in options.accept:
+        for history in histories:
+            with_own_frequencies(history, results.mode, results.frequency)
     convention = options.convention or judged.convention
     if convention is None:
         raise CaseError(
@@ -189,23 +199,25 @@ def _history(
     path: Path, options: ConvertOptions, results: FeResults, table: dict[int, tuple[float, float]]
 ) -> ForeignHistory:
     """Read one event and match its columns with the modes of the forces."""
-    columns = None
-    if options.columns is not None:
-        mapping = open_table(options.columns, texts=("column",))
-        mapping.expect(("column", "mode"), (), strict=False)
-        names, modes = mapping.texts("column"), mapping.integers("mode")
-        mapping.refuse()
-        columns = {name: int(mode) for name, mode in zip(names, modes, strict=True)}
+    columns = None if options.columns is None else column_map(options.columns)
     history = read_coordinates(path, columns, options.time_column)
-    known = np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
+    stated, known = history, np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
     history = replace(history, frequency=np.where(np.isnan(history.frequency), known, history.frequency))
-    history = matched(history, results.mode, results.frequency, options.match)
+    if options.match == "frequency" or _FREQUENCIES in options.accept:
+        history = matched(history, results.mode, results.frequency, options.match)
+    else:  # what the file itself states is compared here, the table of the simulation's modes after the audit
+        joined = matched(stated, results.mode, results.frequency, options.match)
+        with_own_frequencies(joined, results.mode, results.frequency)
+        history = replace(history, mode=joined.mode)
+    history = with_declared_units(history, options.coordinate_units, options.normalisation, results.analysis)
     keep = ~np.isin(history.mode, np.array(options.ignore_modes, np.int64))
     history = replace(
         history,
         mode=history.mode[keep],
         frequency=history.frequency[keep],
         name=tuple(n for n, k in zip(history.name, keep, strict=True) if k),
+        unit=tuple(u for u, k in zip(history.unit, keep, strict=True) if k) if history.unit else (),
+        resolution=None if history.resolution is None else history.resolution[keep],
         q=history.q[keep],
     )
     return uniform(history, options.resample_s)

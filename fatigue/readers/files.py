@@ -2,17 +2,26 @@
 
 import csv
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
+import pyarrow.types as pt
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.known_formats import misplaced
+from fatigue.naming import missing_file
+from fatigue.readers.table_units import units_row_doubts
+from fatigue.readers.text_encoding import encoding_of, not_utf8_remark, read_text
+from fatigue.readers.text_layout import TableLayout, table_layout, text_lines
+from fatigue.readers.text_numbers import as_numbers, split_fields
 
 CSV_BLOCK = 1 << 22  # bytes of a CSV file decoded together, some 50 000 rows
 DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises over bytes that make no sense
@@ -22,7 +31,8 @@ DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises o
 class Columns:
     """An open file: names and types of its columns, number of rows, and how to read one column by its position.
 
-    ``numbers`` are the rows' own numbers in the file, from 0, where these are only a part of it.
+    ``numbers`` are the rows' own numbers in the file, from 0, where these are only a part of it; ``doubts`` were met
+    while opening it.
     """
 
     names: tuple[str, ...]
@@ -30,6 +40,7 @@ class Columns:
     rows: int
     read: Callable[[int], pa.ChunkedArray]
     numbers: NDArray[np.int64] | None = None
+    doubts: tuple[Problem, ...] = ()
 
 
 def open_columns(path: Path, texts: Collection[str]) -> Columns:
@@ -40,9 +51,12 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     DataError
         missing, unreadable, damaged, not UTF-8, without header or without rows
     """
-    opener = {".parquet": _open_parquet, ".csv": _open_csv}.get(path.suffix.lower())
+    suffix = path.suffix.lower()
+    opener = {".parquet": _open_parquet, ".csv": _open_csv}.get(suffix)
     if path.is_dir():
-        raise DataError(Problem("not_a_file", str(path), "this is a folder", "Give a .parquet or .csv file"))
+        raise DataError(missing_file(path))
+    if opener is None or suffix == ".csv":
+        refuse(DataError, filter(None, [_named_otherwise(path, text=opener is None)]))
     if opener is None:
         raise DataError(
             Problem(
@@ -52,14 +66,32 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
     try:
         columns = opener(path, texts)
     except FileNotFoundError:
-        raise DataError(Problem("missing_file", str(path), "there is no such file", "Correct the path")) from None
+        raise DataError(missing_file(path)) from None
     except PermissionError:
         raise DataError(Problem("unreadable_file", str(path), "may not be read", "Check its permissions")) from None
     except DAMAGE as error:
-        raise DataError(damaged(path, error)) from None
+        raise DataError(other_format(path) or damaged(path, error)) from None
+    except DataError:
+        refuse(DataError, filter(None, [other_format(path)]))
+        raise
     if columns.rows == 0:
+        refuse(DataError, filter(None, [other_format(path)]))
         raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
     return columns
+
+
+def _named_otherwise(path: Path, *, text: bool) -> Problem | None:
+    """Refusal of a file that surely is of another format than a table; not of one that merely cannot be recognised."""
+    problem = misplaced(path, path.name, text=text)
+    return None if problem is None or problem.code == "unknown_binary" else problem
+
+
+def other_format(path: Path) -> Problem | None:
+    """Refusal of bytes that are another format than the name says; None where they are not known to be one."""
+    if path.suffix.lower() != ".parquet":
+        return misplaced(path, path.name)
+    with path.open("rb") as file:
+        return None if file.read(4) == b"PAR1" else _named_otherwise(path, text=True)
 
 
 def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
@@ -83,52 +115,72 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:
-    names = csv_names(path)
-    # Arrow wants unique names; positions serve, and repeated names are told by whoever knows which columns matter
-    positions = [str(i) for i in range(len(names))]
+    """Read a CSV file as a whole; where its head did not tell everything, in the light of the rest."""
+    layout, table = _csv_table(path, table_layout(path, texts), texts)
+    doubts = units_row_doubts(path.name, layout)
+    if layout.encoding == "cp1252":
+        doubts += (not_utf8_remark(path, path.read_bytes()),)
+    numbers = None
+    wordy = [k for k, name in enumerate(layout.names) if pa.string() == table.schema.types[k] and name not in texts]
+    if wordy and (again := _repeated_names(table, layout.names)).any():
+        numbers = np.flatnonzero(~again)
+        table = table.filter(pa.array(~again))
+    for k in wordy:
+        read = as_numbers(table.column(k), layout.decimal or ",")
+        if read is not None:
+            table = table.set_column(k, str(k), read)
+    return Columns(layout.names, tuple(table.schema.types), table.num_rows, table.column, numbers, doubts)
+
+
+def _csv_table(path: Path, layout: TableLayout, texts: Collection[str]) -> tuple[TableLayout, pa.Table]:
+    """Read a table in the encoding of its head, or in that of the whole file."""
     try:
-        table = pa_csv.read_csv(
-            path,
-            pa_csv.ReadOptions(column_names=positions, skip_rows=1),
-            convert_options=pa_csv.ConvertOptions(
-                column_types={i: pa.string() for i, name in zip(positions, names, strict=True) if name.strip() in texts}
-            ),
-        )
+        table = _arrow_table(path, layout, texts)
+        if pa.binary() in table.schema.types:  # Arrow's last resort over bytes that are not UTF-8
+            raise pa.ArrowInvalid("invalid UTF8 data")
     except pa.ArrowInvalid as error:
-        raise DataError(_csv_problem(path, len(names), error)) from None
-    if pa.binary() in table.schema.types:  # Arrow's last resort where a column is neither numbers nor UTF-8
-        raise DataError(_not_utf8(path))
-    return Columns(tuple(names), tuple(table.schema.types), table.num_rows, table.column)
+        encoding = encoding_of(path, path.read_bytes())
+        if encoding == layout.encoding:
+            raise DataError(_csv_problem(path, layout, error)) from None
+        return _csv_table(path, replace(layout, encoding=encoding), texts)
+    return layout, table
 
 
-def csv_names(path: Path) -> list[str]:
-    """Read the first line of a CSV file, the names of its columns.
-
-    Raises
-    ------
-    DataError
-        not UTF-8, an empty line, or one that is divided by something other than commas
-    """
-    try:
-        names = next(_csv_rows(path), [])
-    except UnicodeDecodeError:
-        raise DataError(_not_utf8(path)) from None
-    if not names:
-        raise DataError(Problem("empty_table", path.name, "the first line is empty", "Write the column names there"))
-    for separator, word in ((";", "semicolons"), ("\t", "tabs")):
-        if len(names) == 1 and separator in names[0]:
-            raise DataError(
-                Problem(
-                    "csv_separator",
-                    f"{path.name}: line 1",
-                    f"the columns are separated by {word}",
-                    "Write the file with commas between columns and points in numbers",
-                )
-            )
-    return names
+def _arrow_table(path: Path, layout: TableLayout, texts: Collection[str]) -> pa.Table:
+    # Arrow wants unique names; positions serve, and repeated names are told by whoever knows which columns matter
+    positions = [str(i) for i in range(len(layout.names))]
+    kinds = {i: pa.string() for i, name in zip(positions, layout.names, strict=True) if name.strip() in texts}
+    options = pa_csv.ReadOptions(column_names=positions, skip_rows=layout.first, encoding=layout.encoding)
+    return pa_csv.read_csv(
+        _csv_source(path, layout),
+        options,
+        parse_options=pa_csv.ParseOptions(delimiter=layout.separator or "\t"),
+        convert_options=pa_csv.ConvertOptions(column_types=kinds, decimal_point=layout.decimal or "."),
+    )
 
 
-def csv_batches(path: Path, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.RecordBatch]:
+def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
+    """Give Arrow the file itself, or where blanks divide its cells or a UTF-16 mark is missing, a text it can read."""
+    if layout.separator is not None:
+        return path
+    text, _ = read_text(path)
+    rows = ("\t".join(split_fields(line, None)) for line in text_lines(text))
+    return BytesIO("\n".join(rows).encode(layout.encoding))
+
+
+def _repeated_names(table: pa.Table, names: Sequence[str]) -> NDArray[np.bool_]:
+    """Rows (r,) that hold the names of the columns once more."""
+    again = np.ones(table.num_rows, dtype=np.bool_)
+    for k, name in enumerate(names):
+        column = table.column(k)
+        if column.type != pa.string():
+            return np.zeros(table.num_rows, dtype=np.bool_)
+        same = pc.equal(pc.utf8_trim_whitespace(column), name.strip())
+        again &= np.asarray(same.fill_null(False).to_numpy(zero_copy_only=False), dtype=np.bool_)
+    return again
+
+
+def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.RecordBatch]:
     """Read some columns of a CSV file of any size, ``CSV_BLOCK`` bytes at a time, as values of the given kinds.
 
     Raises
@@ -136,45 +188,61 @@ def csv_batches(path: Path, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.Rec
     pa.ArrowException, UnicodeDecodeError, OSError
         what is wrong is better told by ``open_columns``, which reads the file as a whole
     """
-    names = [name.strip() for name in csv_names(path)]
+    names = [name.strip() for name in layout.names]
+    read_as = {name: pa.string() if layout.fortran and pt.is_floating(kind) else kind for name, kind in kinds.items()}
     reader = pa_csv.open_csv(
-        path,
-        pa_csv.ReadOptions(column_names=names, skip_rows=1, block_size=CSV_BLOCK),
-        convert_options=pa_csv.ConvertOptions(include_columns=list(kinds), column_types=dict(kinds)),
+        _csv_source(path, layout),
+        pa_csv.ReadOptions(column_names=names, skip_rows=layout.first, block_size=CSV_BLOCK, encoding=layout.encoding),
+        parse_options=pa_csv.ParseOptions(delimiter=layout.separator or "\t"),
+        convert_options=pa_csv.ConvertOptions(
+            include_columns=list(kinds), column_types=read_as, decimal_point=layout.decimal or "."
+        ),
     )
-    yield from reader
+    if not layout.fortran:
+        yield from reader
+        return
+    for batch in reader:
+        columns = {}
+        for name, kind in kinds.items():
+            column = batch.column(name)
+            if read_as[name] != kind:
+                read = as_numbers(pa.chunked_array([column]), layout.decimal or ",")
+                if read is None:
+                    raise pa.ArrowInvalid(f"a cell of {name} is no number")
+                column = read.combine_chunks()
+            columns[name] = column
+        yield pa.RecordBatch.from_pydict(columns)
 
 
-def _csv_rows(path: Path) -> Iterator[list[str]]:
-    with path.open(encoding="utf-8-sig", newline="") as stream:
-        yield from csv.reader(stream)
-
-
-def _csv_problem(path: Path, width: int, error: Exception) -> Problem:
-    """Find out what Arrow stumbled over: an undecodable byte, a row with too few or many cells, or something else."""
+def _csv_problem(path: Path, layout: TableLayout, error: Exception) -> Problem:
+    """Find out what Arrow stumbled over: a row with too few or many cells, or something else."""
+    width, separator = len(layout.names), layout.separator or "\t"
     try:
-        rows = (cells for cells in _csv_rows(path) if cells)
-        for row, cells in enumerate(rows):
-            if len(cells) != width:
-                return Problem(
-                    "ragged_row",
-                    f"{path.name}: row {row}",
-                    f"{len(cells)} cells in a table of {width} columns",
-                    "Write one cell per column, texts with commas in double quotes",
-                )
+        with path.open(encoding=layout.encoding, newline="") as stream:
+            for _ in range(layout.first):
+                next(stream, "")
+            rows = (cells for cells in csv.reader(stream, delimiter=separator) if cells)
+            for row, cells in enumerate(rows, 1):
+                if len(cells) != width:
+                    return _ragged(path, row, cells, layout)
     except UnicodeDecodeError:
-        return _not_utf8(path)
+        return damaged(path, error)
     except csv.Error as broken:
         return damaged(path, broken)
     return damaged(path, error)
 
 
-def _not_utf8(path: Path) -> Problem:
-    """Name the line of the first byte that is not UTF-8."""
-    text = path.read_bytes().decode(errors="surrogateescape")
-    good = re.split("[\udc80-\udcff]", text, maxsplit=1)[0]
-    line, byte = good.count("\n") + 1, ord(text[len(good)]) - 0xDC00
-    return Problem("not_utf8", f"{path.name}: line {line}", f"byte {byte:#04x} is not UTF-8", "Save it as UTF-8")
+def _ragged(path: Path, row: int, cells: Sequence[str], layout: TableLayout) -> Problem:
+    """Describe a row with too few or too many cells."""
+    width = len(layout.names)
+    what = f"{len(cells)} cells in a table of {width} columns"
+    remedy = "Write one cell per column, texts with commas in double quotes"
+    whole = [re.fullmatch(r"\s*[+-]?\d*\s*", cell) is not None for cell in cells]
+    many = width < len(cells) <= 2 * width and (row == 1 or len(cells) > width + 1)
+    if layout.separator == "," and many and sum(whole) > len(cells) // 2:
+        what += ": commas stand between the columns and, it seems, in the numbers"
+        remedy = "Write semicolons between the columns, or points in the numbers"
+    return Problem("ragged_row", f"{path.name}: row {row}", what, remedy)
 
 
 def damaged(path: Path, error: Exception) -> Problem:

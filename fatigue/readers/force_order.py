@@ -19,9 +19,11 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError
-from fatigue.readers.files import DAMAGE, Columns, csv_batches, csv_names, damaged
+from fatigue.naming import composed
+from fatigue.readers.files import DAMAGE, Columns, csv_batches, damaged
 from fatigue.readers.forces import COMPONENTS, open_nodal_forces
 from fatigue.readers.tables import Table, codes_of, named
+from fatigue.readers.text_layout import table_layout
 
 Rows = TypeVar("Rows", pa.Table, pa.RecordBatch)
 Batches: TypeAlias = Callable[[int, int], Iterator[pa.RecordBatch]]
@@ -67,7 +69,7 @@ class WeldCodes:
             welds = welds.cast(pa.string()).dictionary_encode()
         for chunk in welds.chunks:
             names = chunk.dictionary.cast(pa.string()).to_pylist()
-            known = np.array([*(self.code.get((name or "").strip(), -1) for name in names), -1], dtype=np.int32)
+            known = np.array([*(self.code.get(composed(name or ""), -1) for name in names), -1], dtype=np.int32)
             yield known, codes_of(chunk, len(names))
 
 
@@ -151,12 +153,12 @@ def parted(path: Path, welds: WeldCodes, scratch: Path) -> Source:
     if path.suffix.lower() != ".csv":
         header = open_nodal_forces(path)
         return _dealt_out(header, header.rows, _parquet_batches(path, _columns(header)), welds, scratch)
-    names = tuple(csv_names(path))
-    kinds = tuple(CSV_KINDS.get(name.strip(), pa.string()) for name in names)
-    header = named(path, Columns(names, kinds, 0, _unread))
+    layout = table_layout(path, ("weld",))
+    kinds = tuple(CSV_KINDS.get(name.strip(), pa.string()) for name in layout.names)
+    header = named(path, Columns(layout.names, kinds, 0, _unread))
     columns = _columns(header)
     try:
-        batches = csv_batches(path, {name: CSV_KINDS[name] for name in columns.values()})
+        batches = csv_batches(path, layout, {name: CSV_KINDS[name] for name in columns.values()})
         tables = (pa.Table.from_batches([batch]) for batch in batches)
         return _dealt_out(header, path.stat().st_size // CSV_ROW, tables, welds, scratch)
     except DAMAGE:  # a mistake, or numbers of another type: told, or read, with the file in memory

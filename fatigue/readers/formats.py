@@ -4,7 +4,9 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Literal
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.known_formats import known_format, own_format, unknown_binary
+from fatigue.naming import missing_file
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.foreign_history import ForeignHistory
@@ -13,11 +15,23 @@ from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_h5 import read_h5, read_h5_model
 from fatigue.readers.nastran_op2 import read_op2
 from fatigue.readers.nastran_punch import read_punch
+from fatigue.readers.text_encoding import marked_encoding
 from fatigue.readers.text_history import read_parquet_history, read_text_history
 
 Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
 
+_IS: dict[Format, tuple[str, str]] = {  # what each is called, and the option it belongs to
+    "op2": ("a NASTRAN OP2 file", "--forces"),
+    "h5": ("an HDF5 file", "--forces or --mesh"),
+    "parquet": ("a Parquet table", "--coordinates, or, if it is a table of a case, to case.toml"),
+    "punch": ("a NASTRAN punch file", "--forces"),
+    "mcf": ("an ANSYS file of modal coordinates", "--coordinates"),
+    "bdf": ("a NASTRAN deck", "--mesh"),
+    "text": ("a text table", "--coordinates if it holds them"),
+}
+
 _HEAD = 200_000
+_READABLE = "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table"
 _BINARY: dict[Format, tuple[bytes, ...]] = {
     "h5": (b"\x89HDF\r\n\x1a\n",),
     "parquet": (b"PAR1",),
@@ -40,6 +54,8 @@ def recognise(path: Path) -> Format:
     try:
         with path.open("rb") as file:
             head = file.read(_HEAD)
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+        raise DataError(missing_file(path, code="unreadable", wanted="the file itself")) from None
     except OSError as error:
         raise DataError(
             Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
@@ -49,18 +65,10 @@ def recognise(path: Path) -> Format:
     for form, starts in _BINARY.items():
         if head.startswith(starts):
             return form
-    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return _text_format(head.decode("utf-16", errors="replace"))
-    if b"\0" in head.rstrip(b"\0\x1a"):  # which may end a text
-        raise DataError(
-            Problem(
-                "unknown_binary",
-                str(path),
-                "an unknown binary format",
-                "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table",
-            )
-        )
-    return _text_format(head.decode("utf-8", errors="replace"))
+    if (known := known_format(path)) is not None:
+        raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))
+    refuse(DataError, filter(None, [unknown_binary(path, str(path), _READABLE)]))
+    return _text_format(head.decode(marked_encoding(head), errors="replace"))
 
 
 def _text_format(text: str) -> Format:
@@ -85,9 +93,7 @@ def read_forces(path: Path, subcase: int | None, interface: Collection[int] = ()
     if form == "punch":
         return read_punch(path, subcase, interface)
     raise DataError(
-        Problem(
-            "no_forces", str(path), f"a file of format {form} holds no grid point forces", "Give .op2, MSC .h5 or .pch"
-        )
+        _swapped("no_forces", path, form, "grid point forces", "--forces an .op2, an MSC .h5 or a punch file")
     )
 
 
@@ -98,11 +104,7 @@ def read_model(path: Path) -> FeModel:
         return read_bdf(path)
     if form == "h5":
         return read_h5_model(path)
-    raise DataError(
-        Problem(
-            "no_mesh", str(path), f"a file of format {form} holds no mesh", "Give the bulk data (.bdf, .dat) or MSC .h5"
-        )
-    )
+    raise DataError(_swapped("no_mesh", path, form, "mesh", "--mesh the deck (.bdf, .dat) or the MSC .h5"))
 
 
 def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
@@ -112,13 +114,17 @@ def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: st
         return read_mcf(path)
     if form == "parquet":
         return read_parquet_history(path, columns, time_column)
-    if form == "text":
+    if form == "text" and own_format(path) is None:
         return read_text_history(path, columns, time_column)
     raise DataError(
-        Problem(
-            "no_coordinates",
-            str(path),
-            f"a file of format {form} holds no modal coordinates",
-            "Export them as a text table, .parquet or .mcf",
-        )
+        _swapped("no_coordinates", path, form, "modal coordinates", "--coordinates a text table, .parquet or .mcf")
     )
+
+
+def _swapped(code: str, path: Path, form: Format, lacks: str, wanted: str) -> Problem:
+    """Refusal of a file that is sound and in the wrong place: what it is, and where it belongs."""
+    name, option = _IS[form]
+    if form == "text" and (own := own_format(path)) is not None:
+        return Problem(code, str(path), f"this is {own.name}, which holds no {lacks}", f"{own.remedy}, and to {wanted}")
+    what = f"this is {name} (format {form}), which holds no {lacks}"
+    return Problem(code, str(path), what, f"Give it to {option}, and to {wanted}")

@@ -6,12 +6,16 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem
+from fatigue.readers.channel_names import written
 from fatigue.readers.foreign_history import ForeignHistory, check_values
+from fatigue.readers.history_statements import normalisation_in
+from fatigue.readers.text_encoding import read_text
+from fatigue.readers.text_numbers import is_number, plain_number
 
 _COUNT = re.compile(r"^\s*Number of Modes\s*:?\s*(\d{1,6})\s*$", re.MULTILINE | re.IGNORECASE | re.ASCII)
 _NUMBERS = re.compile(r"^\s*Modes?\s*:?((?:\s+\d+)+)\s*$", re.MULTILINE | re.IGNORECASE | re.ASCII)
 _FREQUENCIES = re.compile(
-    r"^\s*Frequenc(?:y|ies)\s*:?((?:\s+[-+.\dED]+)+)\s*$", re.MULTILINE | re.IGNORECASE | re.ASCII
+    r"^\s*Frequenc(?:y|ies)\s*:?((?:\s+[-+.\dEDQ]+)+)\s*$", re.MULTILINE | re.IGNORECASE | re.ASCII
 )
 _TABLE = re.compile(r"^\s*(Time|Freq\w*)\s+Coordinates.*$", re.MULTILINE | re.IGNORECASE)
 
@@ -28,10 +32,7 @@ def read_mcf(path: Path) -> ForeignHistory:
     ------
     DataError : unreadable, no such file, harmonic coordinates, a table that is cut or holds no numbers
     """
-    try:
-        text = path.read_text("ascii", errors="replace")
-    except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+    text, _ = read_text(path)
     count, table = _COUNT.search(text), _TABLE.search(text)
     if count is None or table is None:
         raise _bad(path, "the lines 'Number of Modes' and 'Time Coordinates' are missing")
@@ -43,12 +44,10 @@ def read_mcf(path: Path) -> ForeignHistory:
     head = text[: table.start()]
     numbers = _header(path, _NUMBERS.search(head), modes, "mode numbers")
     frequencies = _header(path, _FREQUENCIES.search(head), modes, "frequencies")
-    try:
-        values = np.array(text[table.end() :].split(), np.float64)
-    except ValueError as error:
-        raise _bad(path, f"the table holds a word that is no number ({error})") from None
+    values = _numbers(path, text[table.end() :], "table", text.count("\n", 0, table.end()) + 1)
     if modes == 0 or values.size == 0 or values.size % (modes + 1):
         raise _bad(path, f"{values.size} numbers are no whole number of rows of time and {modes} coordinates")
+    normalisation = normalisation_in(path, list(enumerate(head.split("\n"), 1)))
     rows = values.reshape(-1, modes + 1)
     mode = np.arange(1, modes + 1) if numbers is None else numbers.astype(np.int64)
     frequency = np.full(modes, np.nan) if frequencies is None else frequencies
@@ -60,21 +59,42 @@ def read_mcf(path: Path) -> ForeignHistory:
             tuple(f"mode {m}" for m in mode),
             rows[:, 0].copy(),
             np.ascontiguousarray(rows[:, 1:].T),
+            resolution=None if frequencies is None else _resolution(head),
+            normalisation=normalisation,
         )
     )
+
+
+def _resolution(head: str) -> np.ndarray:
+    """Half a unit of the last digit of each frequency [Hz]."""
+    found = _FREQUENCIES.search(head)
+    return np.array([written(plain_number(word, "."))[1] for word in found[1].split()] if found else [])
 
 
 def _header(path: Path, found: re.Match[str] | None, modes: int, what: str) -> np.ndarray | None:
     """Numbers of a header line that may go on in the next lines; None if the file has no such line."""
     if found is None:
         return None
-    try:
-        values = np.array(found[1].split(), np.float64)
-    except ValueError as error:
-        raise _bad(path, f"the {what} hold a word that is no number ({error})") from None
+    values = _numbers(path, found[1], what, 0)
     if values.size != modes:
         raise _bad(path, f"{values.size} {what} for {modes} modes")
     return values
+
+
+def _numbers(path: Path, text: str, what: str, line: int) -> np.ndarray:
+    """Numbers among blanks; ``line`` is that on which they begin, 0 where it does not matter."""
+    try:
+        return np.array(text.split(), np.float64)
+    except ValueError:
+        pass
+    words = text.split()
+    plain = [plain_number(word, ".") for word in words]
+    for k, word in enumerate(plain):
+        if not is_number(word, "."):
+            row = next((n for n, row in enumerate(text.split("\n")) if words[k] in row.split()), 0)
+            place = f", line {line + row}" if line else ""
+            raise _bad(path, f"the {what} holds a word that is no number ({words[k]!r}{place})")
+    return np.array(plain, np.float64)
 
 
 def _bad(path: Path, found: str) -> DataError:

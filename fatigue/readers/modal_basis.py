@@ -1,5 +1,6 @@
 """The modes of the forces and those of the simulation: one modal basis, or a refusal that names the difference."""
 
+import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -7,10 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.readers.coordinate_units import compared
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.tables import open_table
+from fatigue.readers.units import Normalisation
+
+_NORMALISED: dict[Normalisation, str] = {"mass": "unit generalised mass", "length": "unity"}
 
 
 def mode_list(text: str) -> tuple[int, ...]:
@@ -22,10 +27,12 @@ def mode_list(text: str) -> tuple[int, ...]:
     """
     modes: list[int] = []
     for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
-        if not first.isdigit() or (dash and not last.isdigit()) or (dash and int(last) - int(first) > 100_000):
-            raise CaseError(Problem("bad_modes", "list of modes", f"{part!r} is no mode or range", "Write 1-6,31-52"))
-        modes += range(int(first), int(last or first) + 1)
+        found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
+        first, last = (int(found[1]), int(found[2] or found[1])) if found else (0, -1)
+        if not 0 <= last - first <= 100_000:
+            shown = part if len(part) <= 40 else part[:37] + "..."
+            raise CaseError(Problem("bad_modes", "list of modes", f"{shown!r} is no mode or range", "Write 1-6,31-52"))
+        modes += range(first, last + 1)
     return tuple(modes)
 
 
@@ -42,6 +49,45 @@ def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
         force=results.force[keep],
         shape=results.shape[keep],
     )
+
+
+def column_map(path: Path) -> dict[str, int]:
+    """Mode of each column by its name, from a table of the columns ``column, mode``."""
+    table = open_table(path, texts=("column",))
+    table.expect(("column", "mode"), (), strict=False)
+    names, code = table.groups("column")
+    mode = table.integers("mode")
+    table.unique({"column": code}, {"column": names})
+    table.refuse()
+    return {names[c]: int(m) for c, m in zip(code, mode, strict=True)}
+
+
+def with_declared_units(
+    history: ForeignHistory, system: str, normalisation: Normalisation, analysis: str
+) -> ForeignHistory:
+    """Compare the unit and the normalisation a file states for its coordinates with those of the options.
+
+    Coordinates of load cases are multiples of the loads; what a file states of their unit is a doubt.
+
+    Raises
+    ------
+    DataError : a contradiction, with the options that would remove it
+    """
+    problems: list[Problem] = []
+    doubts: list[Problem] = []
+    if analysis == "modal":
+        if history.unit:
+            problems, doubts = compared(history.source, history.name, history.unit, system, normalisation)
+        if history.normalisation not in (None, normalisation):
+            what = f"its header declares modes normalised to {_NORMALISED[history.normalisation]}; "
+            what += f"--normalisation {normalisation} takes them as normalised to {_NORMALISED[normalisation]}"
+            remedy = f"State --normalisation {history.normalisation}, or write coordinates for the modes of the FE run"
+            problems.append(Problem("normalisation", history.source, what, remedy))
+    elif units := [unit for unit in dict.fromkeys(history.unit) if unit]:
+        what = f"the coordinates of load cases are multiples of their loads; the file states {', '.join(units)}"
+        doubts.append(Problem("coordinate_unit", history.source, what, "Check that one is one load of the subcase"))
+    refuse(DataError, problems)
+    return replace(history, remarks=(*history.remarks, *doubts))
 
 
 def simulation_modes(path: Path | None) -> dict[int, tuple[float, float]]:
@@ -76,7 +122,7 @@ def common_modes(
                     "mode_without_forces",
                     history.source,
                     f"modes {_short(extra)} have coordinates and no forces",
-                    "Request their forces, or ignore the modes",
+                    _in_order(history, results) or "Request their forces, or ignore the modes",
                 )
             )
     if histories:
@@ -90,7 +136,8 @@ def common_modes(
                     "mode_without_coordinates",
                     str(source),
                     f"modes {_short(elastic)} have forces and no coordinates",
-                    "Export their coordinates, or ignore the modes",
+                    next(filter(None, (_in_order(h, results) for h in histories)), "")
+                    or "Export their coordinates, or ignore the modes",
                 )
             )
         if rigid:
@@ -100,6 +147,23 @@ def common_modes(
             results = without_modes(results, rigid)
     refuse(DataError, problems)
     return results, remarks
+
+
+def _in_order(history: ForeignHistory, results: FeResults) -> str:
+    """Propose to join one after the other where the simulation seems to count its modes from 1; else nothing."""
+    count, fe = history.mode.size, results.mode
+    rigid = fe[results.frequency <= LOWEST_HZ]
+    if np.array_equal(np.sort(history.mode), fe) or not np.array_equal(np.sort(history.mode), np.arange(1, count + 1)):
+        return ""
+    if count == fe.size:
+        return f"If modes 1-{count} of the simulation are modes {fe[0]}-{fe[-1]} of the FE run, state --match order"
+    if count == fe.size - rigid.size:
+        some = f"{rigid[0]}-{rigid[-1]}" if rigid[-1] - rigid[0] + 1 == rigid.size else ",".join(map(str, rigid))
+        return (
+            f"If modes 1-{count} of the simulation are the elastic modes of the FE run, state --match order "
+            f"--ignore-modes {some}"
+        )
+    return ""
 
 
 def _short(modes: list[int]) -> str:

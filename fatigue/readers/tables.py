@@ -17,8 +17,10 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.files import Columns, open_columns
+from fatigue.naming import composed
+from fatigue.readers.files import Columns, open_columns, other_format
 
+LARGEST = 2**63 - 1  # id
 MOST_GUESSES = 20  # at what an unknown text was meant to be: each compares it with all that are known
 
 
@@ -51,13 +53,17 @@ class Table:
     def expect(self, required: Collection[str], optional: Collection[str], *, strict: bool) -> None:
         """Refuse a table without a required column; an unknown column is a doubt, or a mistake where strict."""
         if missing := list(self._missing_columns(required)):
+            if (other := other_format(self.path)) is not None and len(missing) == len(required):
+                raise DataError(other)
             raise DataError(*self.problems, *missing)
+        found_wrong = self.problems if strict else self.warnings
+        found_wrong += self._nameless_columns()
         known = (*required, *optional)
         for name in (name for name in self.position if name not in known):
             near = difflib.get_close_matches(name, set(known) - self.position.keys(), n=1)
             remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
             found = Problem("unknown_column", self.where(name), "the column is unknown and not read", remedy)
-            (self.problems if strict else self.warnings).append(found)
+            found_wrong.append(found)
 
     def where(self, column: str, row: int | None = None) -> str:
         """Name a place in the file; ``row`` is an index from 0."""
@@ -115,18 +121,42 @@ class Table:
         return values
 
     def integers(self, name: str, *, default: int | None = None) -> NDArray[np.int64]:
-        """Whole numbers (r,); an empty cell or an absent column takes the default, without one it is a mistake."""
+        """Whole numbers (r,), exact to the last digit; an empty cell or an absent column takes the default.
+
+        Without a default that is a mistake, as are fractions, what is beyond 64 bits, and what a floating-point column
+        may have rounded: beyond 2^53 two neighbouring ids become one there.
+        """
         if name in self.position:
-            column = self._column(name)
-            if pt.is_integer(column.type) and column.null_count == 0 and column.type != pa.uint64():
-                return np.asarray(column.to_numpy()).astype(np.int64, copy=False)
+            column = _numbers_of_texts(self._column(name))
+            if pt.is_integer(column.type) or pt.is_decimal(column.type):
+                return self._exact(name, column, default)
         values = self.numbers(name, default=default)
         broken = np.isfinite(values) & (values != np.rint(values))
         self.report(broken, "bad_value", name, f"{_first(values, broken)} is not a whole number", "Give a whole number")
-        inexact = np.isfinite(values) & (np.abs(values) > 2.0 ** (np.finfo(values.dtype).nmant + 1))
+        inexact = np.isfinite(values) & (np.abs(values) >= 2.0 ** (np.finfo(values.dtype).nmant + 1))
         what = f"{_first(values, inexact):.0f} is too large for a floating-point column to hold exactly"
-        self.report(inexact, "bad_value", name, what, "Store the column as whole numbers")
+        self.report(inexact, "bad_value", name, what, f"Store whole numbers up to {LARGEST} without point and exponent")
         return np.where(np.isfinite(values) & ~inexact, values, 0).astype(np.int64)
+
+    def _exact(self, name: str, column: pa.ChunkedArray, default: int | None) -> NDArray[np.int64]:
+        """Values of a column of integers or decimals; what is no whole number of 64 bits is a mistake."""
+        missing = np.asarray(column.is_null().to_numpy()) if column.null_count else np.zeros(self.rows, np.bool_)
+        if default is None:
+            self.report(missing, "missing_value", name, "the value is missing or NaN", "Give a number")
+        try:
+            whole = column.cast(pa.int64())
+        except pa.ArrowException:
+            values = [0 if value is None else value for value in column.to_pylist()]
+            broken = np.array([value != int(value) for value in values])
+            what = f"{values[broken.argmax()]} is not a whole number"
+            self.report(broken, "bad_value", name, what, "Give a whole number")
+            large = np.array([abs(value) > LARGEST for value in values])
+            what = f"{values[large.argmax()]} is beyond the largest id, {LARGEST}"
+            self.report(large, "bad_value", name, what, "Number anew")
+            return np.zeros(self.rows, np.int64)
+        if whole.null_count:
+            whole = whole.fill_null(default or 0)
+        return np.asarray(whole.to_numpy())
 
     def flags(self, name: str, *, default: bool) -> NDArray[np.bool_]:
         """Truth values (r,), true and false or 1 and 0; an empty cell or an absent column takes the default."""
@@ -160,7 +190,7 @@ class Table:
         if not pt.is_dictionary(column.type):
             column = column.cast(pa.string()).dictionary_encode()
         chunks = column.unify_dictionaries().chunks
-        stored = [(text or "").strip() for text in chunks[0].dictionary.cast(pa.string()).to_pylist()]
+        stored = [composed(text or "") for text in chunks[0].dictionary.cast(pa.string()).to_pylist()]
         stored.append("")  # position -1 stands for an empty cell
         names, merged = np.unique(np.array([text or default or "" for text in stored], object), return_inverse=True)
         places = [codes_of(chunk, len(stored) - 1) for chunk in chunks]
@@ -222,8 +252,20 @@ class Table:
             )
         )
 
+    def _nameless_columns(self) -> Iterator[Problem]:
+        """Tell columns without a name that hold something; spreadsheets write empty ones, which are nothing."""
+        for position, name in enumerate(self.columns.names):
+            if composed(name) or not self.rows:
+                continue
+            column = self.columns.read(position)
+            filled = [value for value in column.to_pylist() if value is not None and str(value).strip()]
+            if filled:
+                where = f"{self.path.name}: column {position + 1}"
+                what = f"the column has no name and is not read, it holds {str(filled[0])[:30]!r}"
+                yield Problem("unknown_column", where, what, "Give it a name, or remove it")
+
     def _missing_columns(self, required: Collection[str]) -> Iterator[Problem]:
-        present = ", ".join(self.position)
+        present = ", ".join(name for name in self.position if name)
         for name in required:
             if name not in self.position:
                 yield Problem(
@@ -241,7 +283,7 @@ class Table:
         if pt.is_null(column.type):
             return np.full(self.rows, np.nan)
         if pt.is_decimal(column.type) or pt.is_integer(column.type):
-            return np.asarray(column.cast(pa.float64()).to_numpy())
+            return np.asarray(column.cast(pa.float64(), safe=False).to_numpy())  # beyond 2^53 rounded
         if pt.is_floating(column.type):
             values = np.asarray(column.to_numpy())
             return values.astype(np.float64) if values.dtype == np.float16 else values
@@ -270,16 +312,28 @@ def named(path: Path, columns: Columns) -> Table:
     problems = [
         Problem("duplicate_column", f"{path.name}: column {name}", "the column appears twice", "Remove one of them")
         for i, stored in enumerate(columns.names)
-        if position.setdefault(name := stored.strip(), i) != i
+        if (name := composed(stored)) and position.setdefault(name, i) != i
     ]
     refuse(DataError, problems)
-    return Table(path, columns, position)
+    return Table(path, columns, position, warnings=list(columns.doubts))
 
 
 def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:
     """Codes of a coded column (r,), those of empty cells ``missing``."""
     codes = texts.indices if texts.null_count == 0 else texts.indices.fill_null(missing)
     return np.asarray(codes.to_numpy())
+
+
+def _numbers_of_texts(column: pa.ChunkedArray) -> pa.ChunkedArray:
+    """Whole numbers of a column whose texts are all such, as ids are that a program keeps as texts; else the column."""
+    if pt.is_dictionary(column.type):
+        column = column.cast(column.type.value_type)
+    if not _is_text(column.type):
+        return column
+    try:
+        return column.cast(pa.int64())
+    except pa.ArrowException:
+        return column
 
 
 def _is_text(kind: pa.DataType) -> bool:

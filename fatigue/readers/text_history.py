@@ -1,201 +1,239 @@
-"""Modal coordinates from text tables of any layout, as SIMPACK, ADAMS or RecurDyn export them.
+"""Modal coordinates from text tables of any layout, as SIMPACK, ADAMS or RecurDyn export them, and from Parquet.
 
-Separator (comma, semicolon, tab, blanks), decimal comma, title lines and a line of units are recognised. Columns find
-their mode by the last number in their name (``q_12``, ``.FLEX.Q12``, ``$B_Car.q(12)``), or by a map of column to mode.
+Encoding, separator, decimal sign, title lines, names and units are recognised. Columns find their mode by the last
+number in their name (``q_12``, ``.FLEX.Q12``, ``$B_Car.q(12)``), or by a map of column to mode.
 """
 
-import re
-from collections.abc import Mapping
-from dataclasses import dataclass
-from itertools import islice
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pyarrow.types as pt
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.naming import composed
+from fatigue.readers.channel_names import Channel, channel, seconds_per, unit_of_time
 from fatigue.readers.files import open_columns
 from fatigue.readers.foreign_history import ForeignHistory, check_values
+from fatigue.readers.history_body import find_rows, read_values
+from fatigue.readers.history_header import Header, header_frequencies, read_header
+from fatigue.readers.history_statements import normalisation_in, stated_time_unit, statement_problems
+from fatigue.readers.text_encoding import read_head
+from fatigue.readers.text_layout import text_lines, whole_cells
 
 Vectors = NDArray[np.float64]
-
-_HEAD_LINES = 500
-_SEPARATORS = ("\t", ";", ",", None)  # None: blanks
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[ED][+-]?\d+)?\Z", re.IGNORECASE | re.ASCII)
-_NUMBER_COMMA = re.compile(r"[+-]?(?:\d+,?\d*|,\d+)(?:[ED][+-]?\d+)?\Z", re.IGNORECASE | re.ASCII)
-_TIME = re.compile(r"(time|t|zeit)\b", re.IGNORECASE)
-_FREQUENCY = re.compile(r"([\d.]+(?:E[+-]?\d+)?)\s*Hz", re.IGNORECASE | re.ASCII)
-_UNIT = re.compile(r"\[[^\]]*[^\W\d_][^\]]*\]")
-
-
-@dataclass(frozen=True, slots=True)
-class _Layout:
-    """Where the numbers begin and how they are written."""
-
-    first_row: int
-    separator: str | None
-    decimal: str
-    names: tuple[str, ...]
 
 
 def read_text_history(
     path: Path, columns: Mapping[str, int] | None = None, time_column: str | None = None
 ) -> ForeignHistory:
-    """Read a table of time and modal coordinates.
+    """Read a table of time and modal coordinates; time is converted to seconds by the unit in its header.
 
     Parameters
     ----------
     columns : mode number of each column to take; None: all columns, by the last number in their name
-    time_column : name of the time column; None: the column named time or t, else the first
+    time_column : name of the time column, or its position from 1; None: the column named time, t or zeit, or the first
+        of a table without names
 
     Raises
     ------
-    DataError : unreadable, no table of numbers, a column that does not exist, a word among the numbers
+    DataError
+        unreadable, no table of numbers, a column that does not exist, a word among the numbers, no time or several that
+        differ, statements of the header that disagree with each other or with the table
     """
-    layout = _layout(path)
-    try:
-        table = pd.read_csv(
-            path,
-            sep=layout.separator or r"\s+",
-            decimal=layout.decimal,
-            skiprows=layout.first_row,
-            header=None,
-            dtype=np.float64,
-            encoding="utf-8",
-            encoding_errors="replace",
-            skip_blank_lines=True,
-        ).to_numpy()
-    except (ValueError, pd.errors.ParserError, OSError) as error:
-        reason = str(error).splitlines()[0]
-        raise DataError(
-            Problem(
-                "bad_table",
-                f"{path}, from line {layout.first_row + 1}",
-                f"the table does not hold numbers only: {reason}",
-                "Export plain columns of numbers below one line of names",
-            )
-        ) from error
-    names = list(layout.names) if layout.names else [""] * table.shape[1]
-    return _history(path, names, table, columns, time_column)
+    text, encoding, whole = read_head(path)
+    lines = whole_cells(text_lines(text, whole=whole))
+    rows = find_rows(path, lines)
+    header = read_header(path, lines, rows)
+    names = [c.name for c in header.channels]
+    table, at = read_values(path, encoding, rows, header.cells, names)
+    history = _history(path, header, table, at, columns, time_column)
+    refuse(DataError, statement_problems(path, header.free, rows.width, history.time))
+    return replace(history, normalisation=normalisation_in(path, header.free))
 
 
 def read_parquet_history(
     path: Path, columns: Mapping[str, int] | None = None, time_column: str | None = None
 ) -> ForeignHistory:
-    """Read a Parquet table of time and modal coordinates, as ``read_text_history`` reads a text table."""
+    """Read a Parquet table of time and modal coordinates, as ``read_text_history`` reads a text table.
+
+    A column of durations is time, whatever their unit; dates are refused.
+    """
     opened = open_columns(path, ())
-    try:
-        table = np.column_stack([opened.read(k).to_numpy().astype(np.float64) for k in range(len(opened.names))])
-    except (TypeError, ValueError) as error:
-        raise DataError(
-            Problem("bad_table", str(path), f"a column holds no numbers ({error})", "Write columns of numbers only")
-        ) from error
-    return _history(path, list(opened.names), table, columns, time_column)
+    names = [name.strip() for name in opened.names]
+    fields = [pq.read_schema(path).field(k) for k in range(len(names))]
+    units = [((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields]
+    channels = [
+        _with_type(path, channel(name), field.type, unit)
+        for name, field, unit in zip(names, fields, units, strict=True)
+    ]
+    table = np.column_stack([_numbers(path, name, opened.read(k)) for k, name in enumerate(names)])
+    if table.shape[1] < 2:
+        raise DataError(Problem("bad_table", str(path), "the table has one column", "Export time and coordinates"))
+    return _history(path, Header((tuple(names),), tuple(channels), (), ()), table, None, columns, time_column)
+
+
+def _with_type(path: Path, own: Channel, kind: pa.DataType, unit: str) -> Channel:
+    """Add what the type and the metadata of a Parquet column state."""
+    where = f"{path}, column {own.name!r}"
+    if pt.is_timestamp(kind) or pt.is_date(kind) or pt.is_time(kind):
+        what = f"the column holds dates or times of day ({kind}), where seconds from the start of the run are needed"
+        raise DataError(Problem("date_column", where, what, "Write seconds as numbers, or durations"))
+    if pt.is_duration(kind):
+        if own.mode:
+            raise DataError(Problem("bad_table", where, "a modal coordinate is a duration", "Write numbers"))
+        return replace(own, is_time=True, unit="s")
+    if unit and own.unit and unit.lower() != own.unit.lower():
+        what = f"its name states {own.unit}, its metadata {unit}"
+        raise DataError(Problem("header", where, what, "Correct one of them"))
+    return replace(own, unit=own.unit or unit)
+
+
+def _numbers(path: Path, name: str, column: pa.ChunkedArray) -> Vectors:
+    """Values of a Parquet column, durations in seconds."""
+    if pt.is_duration(column.type):
+        ticks = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}[column.type.unit]
+        return np.asarray(column.cast(pa.int64()).to_numpy()).astype(np.float64) / ticks
+    if not (pt.is_integer(column.type) or pt.is_floating(column.type) or pt.is_decimal(column.type)):
+        what = f"a column holds no numbers ({column.type})"
+        raise DataError(Problem("bad_table", f"{path}, column {name!r}", what, "Write columns of numbers only"))
+    return np.asarray(column.to_numpy()).astype(np.float64)
 
 
 def _history(
-    path: Path, names: list[str], table: Vectors, columns: Mapping[str, int] | None, time_column: str | None
+    path: Path,
+    header: Header,
+    table: Vectors,
+    lines: NDArray[np.int64] | None,
+    columns: Mapping[str, int] | None,
+    time_column: str | None,
 ) -> ForeignHistory:
-    """Pick time and modal coordinates out of a table (t, c); columns without a name have an empty one."""
-    if table.shape[1] < len(names) or table.shape[1] < 2:
-        raise DataError(
-            Problem(
-                "bad_table",
-                str(path),
-                f"{len(names)} names for {table.shape[1]} columns",
-                "Export time and coordinates",
-            )
-        )
-    time_at = _time_at(path, names, time_column)
-    if columns is None:
-        taken = [k for k in range(len(names)) if k != time_at]
-        mode = np.array([_mode_number(names[k]) for k in taken], np.int64)
-    else:
-        absent = [name for name in columns if name not in names]
-        if absent:
-            raise DataError(
-                Problem(
-                    "no_column", str(path), f"there is no column {absent[0]!r}", f"Name some of {', '.join(names[:8])}"
-                )
-            )
-        taken = [names.index(name) for name in columns]
-        mode = np.array(list(columns.values()), np.int64)
+    """Pick time and modal coordinates out of a table (t, c)."""
+    channels, kept = _filled(header.channels, table)
+    header = replace(header, channels=tuple(channels), names=tuple(tuple(n[k] for k in kept) for n in header.names))
+    table = table[:, kept]
+    if len(kept) < 2:
+        raise DataError(Problem("bad_table", str(path), "a single column", "Export time and coordinates"))
+    mapped = None if columns is None else [_column(path, header, name) for name in columns]
+    times = _times(path, header, time_column)
+    seconds = _seconds(path, header, channels, times, table, lines)
+    taken = [k for k in range(len(channels)) if k not in times] if mapped is None else mapped
+    mode = np.array([channels[k].mode for k in taken] if columns is None else list(columns.values()), np.int64)
+    listed = header_frequencies(header.free)
+    frequency, resolution = _frequencies(path, [channels[k] for k in taken], mode, listed)
     return check_values(
         ForeignHistory(
             str(path),
             mode,
-            np.array([_frequency(names[k]) for k in taken]),
-            tuple(names[k] or f"column {k + 1}" for k in taken),
-            table[:, time_at].copy(),
+            frequency,
+            tuple(channels[k].name or f"column {k + 1}" for k in taken),
+            seconds,
             np.ascontiguousarray(table[:, taken].T),
+            unit=tuple(channels[k].unit for k in taken),
+            resolution=resolution,
+            lines=lines,
         )
     )
 
 
-def _layout(path: Path) -> _Layout:
-    """Find the first row of numbers and the names above it."""
-    try:
-        with path.open(encoding="utf-8-sig", errors="replace") as file:
-            lines = [line.rstrip("\r\n") for line in islice(file, _HEAD_LINES)]
-    except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
-    for row, line in enumerate(lines):
-        for separator in _SEPARATORS:
-            if separator is not None and separator not in line:
-                continue
-            fields = _fields(line, separator)
-            for decimal, pattern in ((".", _NUMBER), (",", _NUMBER_COMMA)):
-                if decimal == separator or len(fields) < 2 or not all(pattern.match(f) for f in fields):
-                    continue
-                return _Layout(row, separator, decimal, _names(lines[:row], separator, len(fields)))
+def _filled(channels: Sequence[Channel], table: Vectors) -> tuple[list[Channel], list[int]]:
+    """Leave out columns with neither name nor value, which spreadsheets leave between others."""
+    kept = [k for k, c in enumerate(channels) if c.name or not np.isnan(table[:, k]).all()]
+    return [channels[k] for k in kept], kept
+
+
+def _times(path: Path, header: Header, wanted: str | None) -> list[int]:
+    """Positions of the columns of time: that which is wanted, those with a name of time, or the first of nameless."""
+    channels = header.channels
+    if wanted is not None:
+        if (
+            all(wanted not in names for names in header.names)
+            and wanted.isdecimal()
+            and 1 <= int(wanted) <= len(channels)
+        ):
+            return [int(wanted) - 1]
+        return [_column(path, header, wanted, "time column")]
+    named = [k for k, c in enumerate(channels) if c.is_time]
+    if named or not header.names:
+        return named or [0]
+    shown = ", ".join(repr(c.name) for c in channels[:8])
     raise DataError(
         Problem(
-            "no_table",
+            "no_time",
             str(path),
-            f"no row of numbers in the first {min(len(lines), _HEAD_LINES)} lines",
-            "Export time and modal coordinates as columns of text",
+            f"no column is named time; the columns are {shown}",
+            "Name it, or its position from 1, with --time-column",
         )
     )
 
 
-def _fields(line: str, separator: str | None) -> list[str]:
-    """Fields of a line without quotation marks; a separator at its end is no field."""
-    text = line.strip() if separator is None else line.rstrip().removesuffix(separator)
-    return [field.strip().strip("\"'") for field in text.split(separator)]
+def _column(path: Path, header: Header, name: str, what: str = "column") -> int:
+    """Position of a named column; its unit may be left out where that is clear."""
+    name = composed(name)
+    for written in header.names:
+        names = [composed(other) for other in written]
+        if names.count(name) > 1:
+            raise DataError(
+                Problem("column_twice", str(path), f"{names.count(name)} columns are named {name!r}", "Rename them")
+            )
+        if name in names:
+            return names.index(name)
+    shown = ", ".join(c.name for c in header.channels[:8])
+    raise DataError(Problem("no_column", str(path), f"there is no {what} {name!r}", f"Name some of {shown}"))
 
 
-def _names(head: list[str], separator: str | None, count: int) -> tuple[str, ...]:
-    """Find the column names: the first of the lines right above the numbers with as many fields; units may follow."""
-    names: tuple[str, ...] = ()
-    for line in reversed(head):
-        fields = _fields(line.lstrip("#%! "), separator)
-        if len(fields) != count:
-            break
-        if len(set(fields)) == count:
-            names = tuple(fields)
-    return names
+def _seconds(
+    path: Path,
+    header: Header,
+    channels: Sequence[Channel],
+    times: Sequence[int],
+    table: Vectors,
+    lines: NDArray[np.int64] | None,
+) -> Vectors:
+    """Convert times to seconds by the unit that names, rows of units or free text state."""
+    stated = stated_time_unit(path, header.free)
+    found = []
+    for k in times:
+        own = channels[k]
+        unit = own.unit if own.is_time else unit_of_time(own.name) or own.unit
+        factor = seconds_per(unit) if unit else None
+        if unit and factor is None:
+            where, what = f"{path}, column {own.name!r}", f"{unit!r} is no unit of time"
+            raise DataError(Problem("time_unit", where, what, "Write s, ms, us, min or h"))
+        if stated is not None and factor is not None and factor != seconds_per(stated[1]):
+            what = f"two statements of the header disagree: time in {stated[1]}, and {own.name!r} in {unit}"
+            raise DataError(Problem("header", f"{path}, line {stated[0]}", what, "Correct one of them"))
+        factor = factor or (seconds_per(stated[1]) if stated else None) or Fraction(1)
+        found.append(table[:, k] * factor.numerator / factor.denominator)
+    for k, other in zip(times[1:], found[1:], strict=True):
+        if not np.allclose(other, found[0], rtol=1e-9, atol=0.0):
+            row = int(np.argmax(~np.isclose(other, found[0], rtol=1e-9, atol=0.0)))
+            place = f", line {lines[row]}" if lines is not None else ""
+            what = f"time is repeated before every curve, and differs: {found[0][row]:.9g} s in column {times[0] + 1}, "
+            what += f"{other[row]:.9g} s in column {k + 1}"
+            remedy = "Export all curves at the same instants, with one column of time"
+            raise DataError(Problem("several_times", f"{path}{place}, sample {row + 1}", what, remedy))
+    return np.array(found[0])
 
 
-def _time_at(path: Path, names: list[str], wanted: str | None) -> int:
-    if wanted is None:
-        return next((k for k, name in enumerate(names) if _TIME.match(name)), 0)
-    if wanted not in names:
-        raise DataError(
-            Problem("no_column", str(path), f"there is no time column {wanted!r}", f"Name one of {names[:8]}")
-        )
-    return names.index(wanted)
-
-
-def _mode_number(name: str) -> int:
-    """Last whole number in a column name, its unit left out; 0 if there is none."""
-    numbers = re.findall(r"\d{1,9}", _UNIT.sub("", _FREQUENCY.sub("", name)), re.ASCII)
-    return int(numbers[-1]) if numbers else 0
-
-
-def _frequency(name: str) -> float:
-    found = _FREQUENCY.search(name)
-    try:
-        return float(found[1]) if found else float("nan")
-    except ValueError:
-        return float("nan")
+def _frequencies(
+    path: Path, channels: Sequence[Channel], mode: NDArray[np.int64], listed: Mapping[int, tuple[int, float, float]]
+) -> tuple[Vectors, Vectors]:
+    """Frequencies (m,) that names and header state, and half a unit of their last digits [Hz]."""
+    frequency = np.array([c.frequency for c in channels])
+    resolution = np.array([c.resolution for c in channels])
+    for k, m in enumerate(mode.tolist()):
+        if m not in listed:
+            continue
+        line, value, half = listed[m]
+        if np.isfinite(frequency[k]) and abs(frequency[k] - value) > resolution[k] + half:
+            what = f"two statements of the header disagree: {value:g} Hz for mode {m}, and {channels[k].name!r}"
+            raise DataError(Problem("header", f"{path}, line {line}", what, "Correct one of them"))
+        if not np.isfinite(frequency[k]):
+            frequency[k], resolution[k] = value, half
+    return frequency, resolution

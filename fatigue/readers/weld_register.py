@@ -16,6 +16,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.body import SURFACES
+from fatigue.readers.text_rows import read_rows
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.line_geometry import length
 
@@ -137,18 +138,12 @@ def read_register(path: Path) -> dict[str, RegisterRow]:
     ------
     DataError : unreadable, columns missing, a line or a weld given twice, an impossible value
     """
-    try:
-        table = list(csv.DictReader(StringIO(path.read_text("utf-8-sig"))))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise DataError(
-            Problem("unreadable", str(path), f"it cannot be read ({error})", "Save it as CSV, UTF-8")
-        ) from error
+    _, table = read_rows(path, numbers=("thickness_mm", "end_length_mm", "length_mm"))
     found: dict[str, RegisterRow] = {}
     problems = []
     welds: set[str] = set()
-    for number, cells in enumerate(table, start=1):
-        where = f"{path}: row {number}"
-        clean = {str(k).strip(): (v or "").strip() for k, v in cells.items() if isinstance(v, str | None)}
+    for given in table:
+        where, clean = f"{path}: row {given.number}", given.cells
         if missing := [name for name in ("weld", "line", "status") if not clean.get(name)]:
             problems.append(Problem("missing_value", where, f"column {missing[0]} is missing or empty", "Fill it in"))
             continue

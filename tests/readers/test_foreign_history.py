@@ -107,7 +107,7 @@ def test_matching(read):
         ("t,q1\n0,1\n1,x\n", "numbers only"),
         ("t,q1\n0,1\n1,\n", "sample 2: a value is missing"),
         ("t,q1\n0,1\n", "1 samples"),
-        ("t,q1\n0,1\n0,2\n", "time goes from 0 to 0 s"),
+        ("t,q1\n0,1\n-1,2\n", "line 3, sample 2: time goes from 0 to -1 s"),
         ("t,q1\n0,1\n1,2,3\n", "numbers only"),
     ],
 )

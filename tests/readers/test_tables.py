@@ -137,11 +137,8 @@ def test_corrupt_parquet_data(tmp_path):
             "t.csv: row 2: 1 cells in a table of 2 columns. Write one cell per column, texts with commas",
         ),
         ("a,b\n1,2\n\n3,4,5\n", "t.csv: row 2: 3 cells in a table of 2 columns. Write one cell per column"),
-        ("a;b\n1;2\n", "t.csv: line 1: the columns are separated by semicolons. Write the file with commas between"),
-        ("a\tb\n1\t2\n", "t.csv: line 1: the columns are separated by tabs. Write the file with commas between"),
-        (b"tr\xe4ger,b\n1,2\n", "t.csv: line 1: byte 0xe4 is not UTF-8. Save it as UTF-8."),
-        (b"a,b\n1,x\n2,Tr\xe4ger\n", "t.csv: line 3: byte 0xe4 is not UTF-8. Save it as UTF-8."),
-        ("a,b\n1,2\n".encode("utf-16"), "t.csv: line 1: byte 0xff is not UTF-8. Save it as UTF-8."),
+        (b"tr\x81ger,b\n1,2\n", "t.csv: line 1: byte 0x81 is not UTF-8. Save it as UTF-8."),
+        (b"a,b\n1,x\n2,Tr\x81ger\n", "t.csv: line 3: byte 0x81 is not UTF-8. Save it as UTF-8."),
         ("a, b ,a \n1,2,3\n", "t.csv: column a: the column appears twice. Remove one of them."),
     ],
 )
@@ -152,11 +149,11 @@ def test_bad_csv(tmp_path, text, message):
     assert str(refusal.value).startswith(message)
 
 
-@pytest.mark.parametrize("last", [b"1,\xff", b"\xff,weld", b"1,2,\xff"])
+@pytest.mark.parametrize("last", [b"1,\x81", b"\x81,weld", b"1,2,\x81"])
 def test_undecodable_text_far_down(tmp_path, last):
     """A stray byte beyond the first block is found with its line, in any column."""
     rows = b"".join(b"%d,weld\n" % i for i in range(20_000))
-    with pytest.raises(DataError, match=r"^t\.csv: line 20002: byte 0xff is not UTF-8"):
+    with pytest.raises(DataError, match=r"^t\.csv: line 20002: byte 0x81 is not UTF-8"):
         open_table(csv(tmp_path, b"a,b\n" + rows + last + b"\n"), texts=("b",))
 
 
@@ -228,7 +225,6 @@ def test_unknown_columns(tmp_path):
     ("text", "message"),
     [
         ("a\n1\n\nx\n", "t.csv: column a, row 2: 'x' is not a number. Give a number."),
-        ("a\n1\n2D+03\n", "t.csv: column a, row 2: '2D+03' is not a number. Give a number."),
         ("a\n1\n2_000\n", "t.csv: column a, row 2: '2_000' is not a number. Give a number."),
         ("a,b\n1,\n,\n", "t.csv: column a, row 2: the value is missing or NaN. Give a number."),
         ("a\n1\nNaN\n2\nnan\n", "t.csv: column a, row 2: the value is missing or NaN (and 1 more row). Give a number."),

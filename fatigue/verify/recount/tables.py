@@ -35,7 +35,7 @@ def read_rows_where(path: Path, key: str, values: Sequence[Any]) -> pd.DataFrame
     for piece in _pieces(path, (), key, values):
         codes, keys = pd.factorize(piece[key], use_na_sentinel=False)
         keys = pd.Series(keys)
-        among = (_key(keys) if key == "weld" else keys.astype(np.int64)).isin(values).to_numpy()
+        among = (_key(keys) if key == "weld" else _ids(keys)).isin(values).to_numpy()
         found.append(_typed(piece[among[codes]] if len(piece) else piece))
     return pd.concat([piece for piece in found if len(piece)] or found[:1], ignore_index=True)
 
@@ -84,11 +84,27 @@ def _typed(frame: pd.DataFrame) -> pd.DataFrame:
     """Give ids, numbers and names of welds their types."""
     frame = _named(frame.copy(deep=False))
     for name in frame.columns.difference(TEXTS):
-        frame[name] = frame[name].astype(np.int64 if name in IDS else np.float64)
+        frame[name] = _ids(frame[name]) if name in IDS else _numbers(frame[name])
     if "weld" in frame:
         frame["weld"] = _key(frame["weld"])
     return frame
 
 
+def _ids(column: pd.Series) -> pd.Series:
+    """Ids of a column, exact where they are written as whole numbers; a program may write them as 12.0 or 1e3."""
+    try:
+        return column.astype(np.int64)
+    except ValueError:
+        return column.astype(np.float64).astype(np.int64)
+
+
+def _numbers(column: pd.Series) -> pd.Series:
+    """Numbers of a column; one of texts that nobody asks for stays as it is."""
+    try:
+        return column.astype(np.float64)
+    except (TypeError, ValueError):
+        return column
+
+
 def _key(weld: pd.Series) -> pd.Series:
-    return weld.astype(str).str.strip()
+    return weld.astype(str).str.strip().str.normalize("NFC")
