@@ -28,9 +28,9 @@ _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 class CheckedCase:
     """Sizes of a case that passed every check, and the doubts that remain.
 
-    Of the lines in the weld register that are not assessed, ``excluded`` are excluded and ``candidates`` are candidates;
-    ``samples`` are stress samples of one face: stations times kept samples, over all events. ``warnings`` are summed up
-    as those of an assessment are.
+    Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded, ``candidates`` are
+    candidates; ``samples`` are stress samples of one face: stations times kept samples, over all events. ``warnings``
+    are summed up as those of an assessment are.
     """
 
     title: str

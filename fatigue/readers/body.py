@@ -157,7 +157,7 @@ def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple
 def read_lines(
     path: Path, welds: Sequence[Weld], needed: Collection[str], *, strict: bool
 ) -> tuple[LineStack, list[Problem]]:
-    """Read the line of every weld, in the order of ``welds`` and sorted by ``order``; the ``needed`` ones must be there.
+    """Read the line of every weld, in the order of ``welds`` and sorted by ``order``; those ``needed`` must be there.
 
     Columns: ``weld, order, node, x_mm, y_mm, z_mm, thickness_mm, normal_x|y|z, outward_x|y|z`` and, where present,
     ``edge_mid``.

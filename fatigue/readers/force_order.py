@@ -77,7 +77,6 @@ class WeldCodes:
             known = np.array([*(self._number((name or "").strip()) for name in names), -1], dtype=np.int32)
             yield known, codes_of(chunk, len(names))
 
-
     def _number(self, name: str) -> int:
         return self.code.get(name, -2 if name in self.skipped else -1)
 

@@ -184,7 +184,7 @@ def _contradictions(
 
 
 def _weld(name: str, group: Sequence[tuple[Weld, list[RegisterRow]]], conversion: ConvertRecord) -> Weld:
-    """Weld as registered; an empty cell means the default where `fatigue convert` wrote the tables, else the table's."""
+    """Weld as registered; an empty cell is the default where `fatigue convert` wrote the tables, else the table's."""
     weld, rows = group[0][0], [row for _, own in group for row in own]
     if not rows:
         return weld
