@@ -12,6 +12,7 @@ from fatigue.readers.registered import Registered
 from fatigue.weld.element_forces import ElementForces, elements_around
 from fatigue.weld.join import Joint, fan, joined, joined_elements
 from fatigue.weld.line import LineStack, WeldLine, stacked
+from fatigue.weld.line_check import check_line
 
 Joints = Mapping[str, tuple[Joint, ...]]
 """Where the lines of a joined weld meet, by its name."""
@@ -42,6 +43,8 @@ def registered_lines(
         where = f"{register.file}: weld {weld.name}"
         try:
             if len(some) > 1:
+                for part, source in zip(some, sources, strict=True):
+                    check_line(part, f"{where}, line {source}")
                 line, joints[weld.name] = joined(some, sources, where)
         except DataError as error:
             problems += error.problems

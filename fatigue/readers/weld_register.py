@@ -26,8 +26,8 @@ from fatigue.weld.line_geometry import length
 REGISTER = "welds_register.csv"
 STATUSES = ("assess", "candidate", "excluded")
 FLAGS = {  # as spreadsheets in several languages write them
-    **dict.fromkeys(("true", "1", "yes", "wahr", "ja", "vrai", "oui", "vero", "verdadero"), True),
-    **dict.fromkeys(("", "false", "0", "no", "falsch", "nein", "faux", "non", "falso"), False),
+    **dict.fromkeys(("true", "1", "yes", "wahr", "ja", "vrai", "oui"), True),
+    **dict.fromkeys(("", "false", "0", "no", "falsch", "nein", "faux", "non"), False),
 }
 _COLUMNS = [
     *("weld", "line", "status", "reason", "kind", "pids", "pid", "nodes", "length_mm"),

@@ -49,13 +49,10 @@ def joined(lines: Sequence[WeldLine], names: Sequence[str], where: str) -> tuple
     chain, is_closed = _chain(lines, names, where)
     turned = [_reversed(lines[at]) if is_turned else lines[at] for at, is_turned in chain]
     pairs = [*zip(range(len(chain)), range(1, len(chain)), strict=False)] + [(len(chain) - 1, 0)] * is_closed
+    _check_nodes(lines, names, {int(turned[a].node[-1]) for a, _ in pairs}, where)
     for a, b in pairs:
         _check_side(turned[a], turned[b], names[chain[a][0]], names[chain[b][0]], where)
     line = _concatenated(turned, is_closed)
-    nodes, count = np.unique(line.node, return_counts=True)
-    if (count > 1).any():
-        several = " and ".join(names[at] for at, _ in chain if nodes[count.argmax()] in lines[at].node)
-        raise _refusal(where, f"the lines {several} touch at node {nodes[count.argmax()]}, not only end to end")
     if is_closed:
         line = _from_lowest(line)
     corner = line.node[~line.edge_mid].tolist()
@@ -144,6 +141,19 @@ def _chain(lines: Sequence[WeldLine], names: Sequence[str], where: str) -> tuple
 
 def _reversed(line: WeldLine) -> WeldLine:
     return replace(line, **{name: getattr(line, name)[::-1] for name in NODE_COLUMNS})
+
+
+def _check_nodes(lines: Sequence[WeldLine], names: Sequence[str], meeting: set[int], where: str) -> None:
+    """Refuse lines that touch elsewhere than where their ends meet."""
+    owner: dict[int, int] = {}
+    for at, line in enumerate(lines):
+        for node in line.node.tolist():
+            other = owner.setdefault(node, at)
+            if other != at and node not in meeting:
+                both = f"lines {names[other]} and {names[at]}"
+                if set(line.node.tolist()) == set(lines[other].node.tolist()):
+                    raise _refusal(where, f"{both} have the same nodes: they are two plate sides of one weld")
+                raise _refusal(where, f"{both} touch at node {node}, not only end to end")
 
 
 def _check_side(a: WeldLine, b: WeldLine, name_a: str, name_b: str, where: str) -> None:

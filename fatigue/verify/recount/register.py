@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-YES = ("true", "1", "yes", "wahr", "ja", "vrai", "oui", "vero", "verdadero")
+YES = ("true", "1", "yes", "wahr", "ja", "vrai", "oui")
 
 
 @dataclass(frozen=True, slots=True)
