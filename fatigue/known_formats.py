@@ -272,7 +272,8 @@ def unknown_binary(path: Path, where: str, remedy: str, *, stray: float = 0.0) -
             head = file.read(HEAD)
     except OSError:
         return None
-    if head.count(b"\0") <= stray * len(head) or _two_byte_text(head):
+    begun = head.rstrip(b"\0\x1a")  # which may end a text
+    if not head or (begun and begun.count(b"\0") <= stray * len(begun)) or _two_byte_text(head):
         return None
     what = "this is an unknown binary format"
     if not head.strip(b"\0"):

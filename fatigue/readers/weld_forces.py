@@ -45,11 +45,11 @@ def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
         present.setdefault(int(element), set()).add(int(node))
     strange = results.of_element & ~np.isin(results.kind, sorted(SHELL_KINDS | _CONNECTORS))
     strange_at = dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))
-    rows = []
-    for row in found.rows:
-        cut = found.cuts.get(row.line)
-        reason = _force_gap(cut, present, strange_at) if cut is not None and row.status == "assess" else ""
-        rows.append(replace(row, status="excluded", reason=reason) if reason else row)
+    gaps = {row.weld: _force_gap(cut, present, strange_at) for row, cut in found.assessed()}
+    rows = (
+        replace(row, status="excluded", reason=gaps[row.weld]) if row.status == "assess" and gaps[row.weld] else row
+        for row in found.rows
+    )
     return replace(found, rows=tuple(rows))
 
 
