@@ -8,6 +8,7 @@ import pandas as pd
 import pyarrow as pa
 
 from fatigue.errors import DataError, Problem
+from fatigue.extras import install_command
 from fatigue.report.wording import LONGEST
 from fatigue.results import TABLES, Column, read_provenance, read_table, row_groups
 
@@ -25,7 +26,7 @@ def write_xlsx(folder: Path) -> Path:
 
     Raises
     ------
-    DataError : the extra ``excel`` is not installed, no finished result, or more points than a sheet holds
+    DataError : the package xlsxwriter is not installed, no finished result, or more points than a sheet holds
     """
     try:
         import xlsxwriter  # noqa: PLC0415  (an optional extra)
@@ -35,7 +36,7 @@ def write_xlsx(folder: Path) -> Path:
                 "no_xlsxwriter",
                 WORKBOOK,
                 "writing a workbook needs the package xlsxwriter",
-                'Install it with pip install "fatigue[excel]", or write CSV',
+                f"Run: {install_command('xlsxwriter')}, or write CSV",
             )
         ) from None
     record = read_provenance(folder)
