@@ -84,6 +84,14 @@ class ConvertOptions:
     target_km: float = 1.0e6
     force: bool = False
 
+    def __post_init__(self) -> None:
+        """Take text for a path, and one file of coordinates for a tuple of one."""
+        for name in ("forces", "mesh", "out", "columns", "simulation_modes"):
+            if (given := getattr(self, name)) is not None:
+                object.__setattr__(self, name, Path(given))
+        files = (self.coordinates,) if isinstance(self.coordinates, Path | str) else self.coordinates
+        object.__setattr__(self, "coordinates", tuple(map(Path, files)))
+
 
 @dataclass(frozen=True, slots=True)
 class Conversion:

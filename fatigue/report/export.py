@@ -18,7 +18,7 @@ _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
 _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
 
 
-def write_xlsx(folder: Path) -> Path:
+def write_xlsx(folder: Path | str) -> Path:
     """Write ``nodes.xlsx``: all points, the welds, and what every column means.
 
     Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an
@@ -39,6 +39,7 @@ def write_xlsx(folder: Path) -> Path:
                 f"Run: {install_command('xlsxwriter')}, or write CSV",
             )
         ) from None
+    folder = Path(folder)
     record = read_provenance(folder)
     points = len(read_table(folder, "nodes", ["node"]))
     if points > _MOST_ROWS:
@@ -137,7 +138,7 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
     sheet.freeze_panes(1, 0)
 
 
-def write_csv(folder: Path) -> list[Path]:
+def write_csv(folder: Path | str) -> list[Path]:
     """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
@@ -147,6 +148,7 @@ def write_csv(folder: Path) -> list[Path]:
     ------
     DataError : no finished result in the folder
     """
+    folder = Path(folder)
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:

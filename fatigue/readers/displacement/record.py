@@ -3,12 +3,12 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.formats import read_coordinates
 
 Floats = NDArray[np.float64]
@@ -27,6 +27,17 @@ class Displacement:
     node: int
     direction: Direction
 
+    def __post_init__(self) -> None:
+        """Take text for a path.
+
+        Raises
+        ------
+        CaseError : another direction
+        """
+        object.__setattr__(self, "file", Path(self.file))
+        if self.direction not in get_args(Direction):
+            raise CaseError(Problem("direction", "displacement", f"{self.direction!r} is none", "Give x, y or z"))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DisplacementRecord:
@@ -36,7 +47,7 @@ class DisplacementRecord:
     value: Floats
 
 
-def read_displacement(path: Path, unit_of_length: float) -> DisplacementRecord:
+def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRecord:
     """Read a table of time and one displacement, as text or Parquet.
 
     A unit at the end of the column's name (``displacement_mm``, ``uz [m]``) holds; without one it is
@@ -46,7 +57,7 @@ def read_displacement(path: Path, unit_of_length: float) -> DisplacementRecord:
     ------
     DataError : unreadable, no time, not one displacement, a unit that is no length, a value that is no number
     """
-    table = read_coordinates(path, None, None)
+    table = read_coordinates(Path(path), None, None)
     if len(table.name) != 1:
         raise DataError(
             Problem(
