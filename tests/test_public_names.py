@@ -104,7 +104,7 @@ def test_options_of_a_conversion_may_be_text():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda case, folder: fatigue.read_table(folder, "nodess"), "no table 'nodess' of a result. Name one of nodes"),
+        (lambda case, folder: fatigue.read_table(folder, "point"), "no table 'point' of a result. Name one of nodes"),
         (lambda case, folder: fatigue.read_table(folder, 3), "no table 3 of a result"),
         (lambda case, folder: fatigue.read_table(folder, "nodes", ["lifekm"]), "no column 'lifekm'. Name 'life_km'"),
         (lambda case, folder: fatigue.read_table(folder + "x", "nodes"), "no such result table"),
