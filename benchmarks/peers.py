@@ -7,6 +7,7 @@ import numpy as np
 
 from benchmarks.load import CHOICES, RATE, aluminium, load
 from benchmarks.timing import Row, best_times
+from fatigue.extras import install_command
 from fatigue.life.rainflow import count_block
 from fatigue.life.rainflow_fast import count_block_fast, record_of
 from fatigue.spectrum.methods import dirlik_damage_rate
@@ -72,8 +73,8 @@ def dirlik() -> list[Row]:
 
 
 def _peer(name: str) -> Any:
-    """Import a package of the ``bench`` extra."""
+    """Import a package of the ``bench`` extra of the project."""
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise SystemExit(f"{name} is missing: pip install fatigue[bench]") from error
+        raise SystemExit(f"{name} is missing: {install_command(name)}") from error

@@ -1,19 +1,20 @@
 """The assessment as a story: files, stress shapes, cycles and spectra, damage, kilometres, tables."""
 
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass, field
 from functools import partial
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import Case
-from fatigue.errors import Problem
+from fatigue.case import Case, given_case
+from fatigue.errors import CaseError, Problem, refuse
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import Checkpoint, locked
 from fatigue.pipeline.cycles import CycleWriter, kept_point
@@ -60,8 +61,8 @@ class Assessment:
 
 
 def assess(
-    case: Case,
-    folder: Path,
+    case: Case | Path | str,
+    folder: Path | str,
     *,
     threads: int | None = None,
     executor: Executor | None = None,
@@ -77,9 +78,9 @@ def assess(
 
     Parameters
     ----------
-    case : the checked case
+    case : the checked case, or its file
     folder : where the result goes; an interrupted run in it is continued
-    threads : worker threads, by default one per processor core; the bytes of the tables do not depend on it
+    threads : worker threads, at least 1, by default one per processor core; the bytes of the tables do not depend on it
     executor : instead of threads, any executor whose workers see the same files: it is given names, not data
     share : of the damage limit; points proven to stay below it need no counting. 0: count every point; by default 0.1
         for jobs of more than 5e9 stress samples, and 0 for smaller ones
@@ -93,9 +94,11 @@ def assess(
 
     Raises
     ------
-    CaseError, DataError : the case or its files are wrong; nothing has been written then
+    CaseError, DataError : the case or its files are wrong, or an argument makes no sense; nothing has been written then
     NumericalError : a computation lost its footing
     """
+    refuse(CaseError, _senseless(threads, share, executor))
+    case, folder = given_case(case), Path(folder)
     hashed = meanwhile(partial(inputs_of, case))
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body, threads)
@@ -141,6 +144,17 @@ def assess(
             publish(unpublished, folder)
             log.info("the result is complete")
     return Assessment(folder, done.fulfilled, warnings, done.groups, done.reused)
+
+
+def _senseless(threads: object, share: object, executor: object) -> Iterator[Problem]:
+    """Find arguments that make no sense."""
+    if threads is not None and not (isinstance(threads, Integral) and int(threads) >= 1):
+        yield Problem("argument", "threads", f"{threads!r} is no number of threads", "Give a whole number from 1 on")
+    if share is not None and not (isinstance(share, Real) and 0.0 <= float(share) <= 1.0):
+        yield Problem("argument", "share", f"{share!r} is no share of the damage limit", "Give a number from 0 to 1")
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        what = f"{type(executor).__name__} is no executor"
+        yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
 
 
 @dataclass(slots=True, eq=False)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from fatigue.case import Case
+from fatigue.case import Case, given_case
 from fatigue.errors import Problem
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rainflow import BlockCount, count_block
@@ -73,13 +73,14 @@ class CheckedCase:
         )
 
 
-def check_case(case: Case, *, strict: bool) -> CheckedCase:
-    """Read and check a case and all its files.
+def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
+    """Read and check a case, or the case of a file, and all its files; ``strict``: unknown columns are errors.
 
     Raises
     ------
     CaseError, DataError : what an assessment would refuse, this refuses with the same words
     """
+    case = given_case(case)
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
     doubts = Doubts()

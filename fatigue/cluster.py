@@ -6,6 +6,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 
 from fatigue.errors import DataError, NumericalError, Problem
+from fatigue.extras import install_command
 
 TIMEOUT_S = 10  # until a scheduler that does not answer is given up
 RETRIES = 3  # of a group of welds whose worker was lost
@@ -28,7 +29,12 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         from distributed.scheduler import KilledWorker  # noqa: PLC0415
     except ImportError as error:
         raise DataError(
-            Problem("extra", "--scheduler", "dask.distributed is not installed", "pip install fatigue[cluster]")
+            Problem(
+                "extra",
+                "--scheduler",
+                "the package distributed is not installed",
+                f"Run: {install_command('distributed')}",
+            )
         ) from error
     if not re.fullmatch(r"[a-z]+://\S+:\d+", address):
         raise DataError(

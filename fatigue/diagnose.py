@@ -4,6 +4,7 @@ import logging
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -39,9 +40,9 @@ BIN_KM = 0.1  # about one second at 350 km/h
 
 
 def diagnose(
-    folder: Path,
+    folder: Path | str,
     *,
-    case_file: Path | None = None,
+    case_file: Path | str | None = None,
     share_of_limit: float = SHARE_OF_LIMIT,
     edges_hz: Sequence[float] | None = None,
     bin_km: float = BIN_KM,
@@ -63,7 +64,8 @@ def diagnose(
     DataError : no finished result in the folder, or its inputs are gone or have changed
     CaseError : band edges or bins that make no sense
     """
-    refuse(CaseError, _senseless(edges_hz, bin_km))
+    refuse(CaseError, _senseless(edges_hz, bin_km, share_of_limit))
+    folder, case_file = Path(folder), None if case_file is None else Path(case_file)
     body = _same_body(folder, case_file)
     plan, _ = mission_plan(body)
     edges = third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64)
@@ -119,14 +121,24 @@ def _tables(
     }
 
 
-def _senseless(edges_hz: Sequence[float] | None, bin_km: float) -> list[Problem]:
-    problems = []
-    if edges_hz is not None and not (np.diff([0.0, *edges_hz]) > 0.0).all():
-        what = f"{list(edges_hz)} does not ascend from above 0 Hz"
-        problems.append(Problem("bad_edges", "edges_hz", what, "Sort the edges of the bands"))
-    if not bin_km > 0.0:
-        problems.append(Problem("bad_bin", "bin_km", f"{bin_km:g} km is not a length", "Give a length above 0"))
-    return problems
+def _senseless(edges_hz: Sequence[float] | None, bin_km: float, share_of_limit: float) -> Iterator[Problem]:
+    if edges_hz is not None and not _ascends(edges_hz):
+        what = f"{edges_hz if isinstance(edges_hz, str) else list(edges_hz)} does not ascend from above 0 Hz"
+        yield Problem("bad_edges", "edges_hz", what, "Give edges of bands, sorted")
+    if not (isinstance(bin_km, Real) and 0.0 < bin_km < np.inf):
+        yield Problem("bad_bin", "bin_km", f"{bin_km} km is not a length", "Give a length above 0")
+    if not (isinstance(share_of_limit, Real) and 0.0 <= share_of_limit < np.inf):
+        what = f"{share_of_limit} is no share of the damage limit"
+        yield Problem("bad_share", "share_of_limit", what, "Give 0 or more, for instance 0.1")
+
+
+def _ascends(edges_hz: Sequence[float]) -> bool:
+    """Whether edges of bands are finite numbers, at least one, each above the one before and above 0."""
+    try:
+        edges = np.array([0.0, *(float(edge) for edge in edges_hz)])
+    except (TypeError, ValueError):
+        return False
+    return bool(edges.size > 1 and np.isfinite(edges).all() and (np.diff(edges) > 0.0).all())
 
 
 def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.DataFrame]:

@@ -6,14 +6,14 @@ from pathlib import Path
 from fatigue.errors import DataError, Problem
 
 
-def write_example(folder: Path, *, force: bool = False) -> list[Path]:
+def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
     """Copy the shipped case and its data into a folder; return the case files.
 
     Raises
     ------
     DataError : the folder holds files of the same names and ``force`` is not given, or it cannot be written
     """
-    shipped = _shipped()
+    folder, shipped = Path(folder), _shipped()
     taken = [path.name for path in sorted(shipped.iterdir()) if (folder / path.name).exists()]
     if taken and not force:
         raise DataError(

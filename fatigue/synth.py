@@ -65,11 +65,12 @@ class _Weld:
     moment: Floats
 
 
-def synthesize(folder: Path, size: Size, seed: int = 0) -> Path:
+def synthesize(folder: Path | str, size: Size, seed: int = 0) -> Path:
     """Write the case of a given size into a folder and return the path of its ``case.toml``.
 
     The same size and seed give the same case.
     """
+    folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     frequency = np.linspace(LOWEST_HZ, HIGHEST_HZ, size.modes)
     pq.write_table(

@@ -1,6 +1,6 @@
 """``case.toml`` <-> frozen models: what is assessed, with which curve, over which mission."""
 
-from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, load_case
+from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 
 __all__ = [
@@ -16,5 +16,6 @@ __all__ = [
     "check_distance",
     "check_files",
     "event_length_km",
+    "given_case",
     "load_case",
 ]

@@ -57,6 +57,17 @@ def load_case(path: Path | str) -> Case:
     return case
 
 
+def given_case(case: Case | Path | str) -> Case:
+    """Return the case, read from its file where that is given.
+
+    Raises
+    ------
+    CaseError
+        as `load_case`
+    """
+    return case if isinstance(case, Case) else load_case(case)
+
+
 def check_files(case: Case) -> None:
     """Refuse a case that names files which do not exist, all of them at once."""
     refuse(

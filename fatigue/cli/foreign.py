@@ -78,6 +78,15 @@ def weld_sources(command: Any) -> Any:
 @click.option("--interface-modes", default="", help="Residual, constraint or attachment modes, as 31-52.")
 @click.option("--ignore-modes", default="", help="Modes to leave out on either side, as 1-6.")
 @click.option(
+    "--displacement",
+    "displacements",
+    type=(_FILE, int, click.Choice(["x", "y", "z"])),
+    multiple=True,
+    metavar="FILE NODE x|y|z",
+    help="Elastic displacement of an FE node in the simulation (CSV time_s,displacement_mm): compared with the sum of "
+    "mode shapes times coordinates; repeatable.",
+)
+@click.option(
     "--accept", multiple=True, metavar="CHECK", help="Go on although this check of the audit is red; repeatable."
 )
 @click.option("--curve", default="master-aluminium", show_default=True, help="S-N curve of the first case.toml.")
@@ -105,6 +114,7 @@ def convert(
     simulation_modes: Path | None,
     interface_modes: str,
     ignore_modes: str,
+    displacements: tuple[tuple[Path, int, Any], ...],
     accept: tuple[str, ...],
     curve: str,
     title: str,
@@ -132,6 +142,7 @@ def convert(
     """
     from fatigue.readers.convert import ConvertOptions
     from fatigue.readers.convert import convert as run
+    from fatigue.readers.displacement.record import Displacement
     from fatigue.readers.modal_basis import mode_list
     from fatigue.readers.weld_lines import WeldSources
     from fatigue.readers.weld_register import reasons
@@ -155,6 +166,7 @@ def convert(
             resample_s=resample,
             simulation_modes=simulation_modes,
             welds=WeldSources(node_lists, sets, markers, detect, candidates, register),
+            displacements=tuple(Displacement(*given) for given in displacements),
             accept=accept,
             curve=curve,
             title=title,

@@ -96,7 +96,7 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
     help="In welds proven to stay below SHARE everywhere, count the point with the largest estimate and do not prove "
     "that no other is worse: about half the time.",
 )
-@click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask.distributed cluster (extra `cluster`).")
+@click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask cluster (package `distributed`).")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue did not write.")
 @click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
@@ -185,7 +185,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @cli.command()
 @click.argument("folder", metavar="DIR", type=_FOLDER)
 @click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
-@click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (needs the extra `excel`).")
+@click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (package `xlsxwriter`).")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
 @click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
 def report(folder: Path, pdf: bool, xlsx: bool, csv: bool, force: bool) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
@@ -141,7 +142,7 @@ def catalogue() -> Mapping[str, SNCurve]:
                 thickness_reference=table.get("thickness_reference_mm"),
                 thickness_exponent=table.get("thickness_exponent", 0.0),
             )
-    return curves
+    return MappingProxyType(curves)
 
 
 def survival_level(curve: SNCurve, survival: Survival | None) -> str:

@@ -10,13 +10,14 @@ from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fatigue.compiled import compiled
-from fatigue.errors import CaseError, NumericalError, Problem
+from fatigue.errors import CaseError, Problem
 from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import M_SS
 from fatigue.life.history import Residue
+from fatigue.life.signal import middle, not_finite, recurs, samples_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -127,20 +128,23 @@ class Buffers(NamedTuple):
     weight: Floats
 
 
-def rainflow(signal: NDArray[np.generic], residue: Residue) -> Cycles:
-    """Count the rainflow cycles of a signal (t,).
+def rainflow(signal: ArrayLike, residue: Residue) -> Cycles:
+    """Count the rainflow cycles of a signal (t,), an array, list or series of whole or real numbers.
 
     ``half`` counts what does not close as half cycles (ASTM E1049-85, 5.4.4). ``repeat`` takes the signal as a block
     that recurs for ever: every cycle closes (ASTM E1049-85, 5.4.5; the doubled residue of ISO 12110-2). A signal that
-    never changes has no cycles. Raises `NumericalError` if a sample is not finite.
+    never changes has no cycles.
+
+    Raises
+    ------
+    CaseError : another residue
+    DataError : not one-dimensional, or no numbers; NumericalError : a sample is not finite, or their range overflows
     """
-    s = np.array(signal, dtype=np.float64)
-    if not np.isfinite(s).all():
-        raise not_finite(f"sample {np.flatnonzero(~np.isfinite(s))[0]} of the signal")
+    block, s = recurs(residue), samples_of(signal)
     buffers = buffers_for(s.size)
-    cycles = find_cycles(s, residue == "repeat", buffers)
+    cycles = find_cycles(s, block, buffers)
     start, end = buffers.start[:cycles], buffers.end[:cycles]
-    return Cycles(np.abs(s[end] - s[start]), 0.5 * (s[start] + s[end]), buffers.weight[:cycles], start, end)
+    return Cycles(np.abs(s[end] - s[start]), middle(s[start], s[end]), buffers.weight[:cycles], start, end)
 
 
 def count_block(
@@ -228,13 +232,6 @@ def buffers_for(samples: int) -> Buffers:
     reversal, start, end = (np.empty(samples + 2, np.intp) for _ in range(3))
     path, weight = np.empty(samples + 1), np.empty(samples + 1)
     return Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight)
-
-
-def not_finite(where: str) -> NumericalError:
-    """Refusal of a signal or a block with a sample that is NaN or infinite."""
-    return NumericalError(
-        Problem("not_finite", where, "the stress is NaN or infinite", "Look for such values in the input")
-    )
 
 
 @compiled()

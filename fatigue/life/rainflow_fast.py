@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from fatigue.life import damage
 from fatigue.life.curves import DamageLaw
 from fatigue.life.history import Residue, mean_and_covariance
-from fatigue.life.rainflow import BlockCount, not_finite
+from fatigue.life.rainflow import BlockCount
 from fatigue.life.rainflow_doubt import Exact
 from fatigue.life.rainflow_long import count_block_long
 from fatigue.life.rainflow_power import PowerLaw, power_law
@@ -47,6 +47,7 @@ from fatigue.life.rainflow_product import (
 )
 from fatigue.life.rainflow_run import Run, count_in_memory, count_record
 from fatigue.life.rainflow_state import PAD, fresh_state, room_for
+from fatigue.life.signal import not_finite
 from fatigue.life.spool import Samples, Spool
 
 Floats = NDArray[np.float64]

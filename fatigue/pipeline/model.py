@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Case
+from fatigue.case import Case, given_case
 from fatigue.errors import NumericalError, Problem
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.rated_curves import RatedCurve
@@ -57,15 +57,15 @@ class Model:
         return [self.body.curve_of(weld) for weld in self.welds]
 
 
-def read_model(case: Case, *, strict: bool) -> Model:
-    """Read a body and solve all its welds at once, for small bodies and notebooks.
+def read_model(case: Case | Path | str, *, strict: bool = False) -> Model:
+    """Read the body of a case or its file and solve all its welds at once, for small bodies and notebooks.
 
     Raises
     ------
     CaseError, DataError : with every mistake found in the file at fault
     """
     with TemporaryDirectory() as scratch:
-        return solve_group(one_group(read_body(case, strict=strict), Path(scratch)), 0)
+        return solve_group(one_group(read_body(given_case(case), strict=strict), Path(scratch)), 0)
 
 
 def solve_group(groups: WeldGroups, number: int) -> Model:

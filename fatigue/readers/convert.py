@@ -6,11 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
+from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.audit import Audit, audit
 from fatigue.readers.case_text import case_text
 from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_of_welds
+from fatigue.readers.displacement.check import displacement_row
+from fatigue.readers.displacement.record import Displacement, read_displacement
 from fatigue.readers.fe_model import in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
@@ -31,6 +34,8 @@ from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds, no_welds
 from fatigue.readers.weld_register import REGISTER, RegisterRow, reasons, register_text
+
+Floats = NDArray[np.float64]
 
 CASE = "case.toml"
 _FREQUENCIES = "frequency match"  # the check of the audit
@@ -56,6 +61,7 @@ class ConvertOptions:
     time_column, resample_s : name of the time column; step to interpolate onto
     simulation_modes : table ``mode, frequency_hz, modal_mass`` of the simulation's modes, to compare and scale
     welds : where weld lines come from
+    displacements : elastic displacements of the simulation, to be compared with shapes times coordinates
     accept : audit checks whose red light is accepted
     curve, title, speed_km_h, target_km : for the first case.toml
     force : overwrite foreign and changed files
@@ -79,6 +85,7 @@ class ConvertOptions:
     resample_s: float | None = None
     simulation_modes: Path | None = None
     welds: WeldSources = field(default_factory=WeldSources)
+    displacements: tuple[Displacement, ...] = ()
     accept: tuple[str, ...] = ()
     curve: str = "master-aluminium"
     title: str = ""
@@ -86,6 +93,14 @@ class ConvertOptions:
     target_km: float = 1.0e6
     force: bool = False
     keep_case: bool = False
+
+    def __post_init__(self) -> None:
+        """Take text for a path, and one file of coordinates for a tuple of one."""
+        for name in ("forces", "mesh", "out", "columns", "simulation_modes"):
+            if (given := getattr(self, name)) is not None:
+                object.__setattr__(self, name, Path(given))
+        files = (self.coordinates,) if isinstance(self.coordinates, Path | str) else self.coordinates
+        object.__setattr__(self, "coordinates", tuple(map(Path, files)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +132,22 @@ def convert(options: ConvertOptions) -> Conversion:
     table = simulation_modes(options.simulation_modes)
     histories = [_history(path, options, results, table) for path in options.coordinates]
     judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
+    records = [read_displacement(asked.file, coordinate_units.length) for asked in options.displacements]
+    moved = [
+        displacement_row(
+            asked,
+            record,
+            results,
+            model,
+            histories,
+            _scale(results, table),
+            units,
+            coordinate_units,
+            options.normalisation,
+        )
+        for asked, record in zip(options.displacements, records, strict=True)
+    ]
+    judged = replace(judged, rows=(*judged.rows, *moved))
     _refuse_red(judged, options)
     if _FREQUENCIES not in options.accept:
         for history in histories:
@@ -168,7 +199,7 @@ def convert(options: ConvertOptions) -> Conversion:
         check_folder(options.out, [*files, RECORD], REGISTER)
     doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
     record = {
-        "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *options.coordinates)},
+        "inputs": {str(p): sha256(p) for p in _inputs(options)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],
@@ -241,18 +272,33 @@ def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, t
     is_static = results.analysis == "static"
     interface = np.isin(results.mode, np.array(options.interface_modes, np.int64))
     kind = np.where(interface | is_static, "interface", np.where(results.frequency <= LOWEST_HZ, "rigid", "normal"))
-    mass = np.where(results.modal_mass > 0, results.modal_mass, 1.0)
-    simulated = np.array([table.get(int(m), (np.nan, np.nan))[1] for m in results.mode])
-    scale = np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
+    mass, simulated = _masses(results, table)
     return pa.table(
         {
             "mode": results.mode,
             "frequency_hz": np.nan_to_num(results.frequency),
             "modal_mass": np.where(np.isfinite(simulated), simulated, mass),
             "kind": kind.tolist(),
-            "scale": scale,
+            "scale": _scale(results, table),
         }
     )
+
+
+def _masses(results: FeResults, table: dict[int, tuple[float, float]]) -> tuple[Floats, Floats]:
+    """Generalised masses (m,) of the FE run, and of the simulation (NaN: not given)."""
+    mass = np.where(results.modal_mass > 0, results.modal_mass, 1.0)
+    return mass, np.array([table.get(int(m), (np.nan, np.nan))[1] for m in results.mode])
+
+
+def _scale(results: FeResults, table: dict[int, tuple[float, float]]) -> Floats:
+    """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
+    mass, simulated = _masses(results, table)
+    return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
+
+
+def _inputs(options: ConvertOptions) -> tuple[Path, ...]:
+    """Files whose hashes the record keeps."""
+    return (options.forces, options.mesh, *options.coordinates, *(asked.file for asked in options.displacements))
 
 
 def _slug(name: str) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.extras import install_command
 from fatigue.readers.fe_assembly import assemble
 from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock
@@ -134,9 +135,7 @@ def _h5py() -> ModuleType:
         import h5py  # noqa: PLC0415
     except ImportError as error:
         raise DataError(
-            Problem(
-                "no_h5py", "MSC HDF5 input", "the package h5py is not installed", "Run: pip install 'fatigue[nastran]'"
-            )
+            Problem("no_h5py", "MSC HDF5 input", "the package h5py is not installed", f"Run: {install_command('h5py')}")
         ) from error
     return h5py  # type: ignore[no-any-return]
 

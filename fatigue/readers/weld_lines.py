@@ -40,6 +40,12 @@ class WeldSources:
     candidates: bool = False
     register: Path | None = None
 
+    def __post_init__(self) -> None:
+        """Take text for a path."""
+        for name in ("node_lists", "register"):
+            if (given := getattr(self, name)) is not None:
+                object.__setattr__(self, name, Path(given))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundWelds:
@@ -107,7 +113,9 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     return FoundWelds(by_name, joined, tuple(final), tuple(remarks))
 
 
-def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, overwrite: bool) -> FoundWelds:
+def list_welds(
+    mesh: Path | str, sources: WeldSources, units: str, out: Path | str | None, overwrite: bool
+) -> FoundWelds:
     """Find the weld lines of a model file and write their register, to be edited and given back.
 
     Parameters
@@ -120,6 +128,7 @@ def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, o
     DataError : as ``find_welds``; there are none; ``out`` exists, is not the register that was read, and may not be
         overwritten
     """
+    mesh, out = Path(mesh), None if out is None else Path(out)
     model = in_mm(read_model(mesh), unit_system(units, "units").length)
     found = find_welds(model, sources)
     if not found.rows:

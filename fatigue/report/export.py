@@ -8,6 +8,7 @@ import pandas as pd
 import pyarrow as pa
 
 from fatigue.errors import DataError, Problem
+from fatigue.extras import install_command
 from fatigue.report.wording import LONGEST
 from fatigue.results import TABLES, Column, read_provenance, read_table, row_groups
 
@@ -17,7 +18,7 @@ _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
 _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
 
 
-def write_xlsx(folder: Path) -> Path:
+def write_xlsx(folder: Path | str) -> Path:
     """Write ``nodes.xlsx``: all points, the welds, and what every column means.
 
     Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an
@@ -25,7 +26,7 @@ def write_xlsx(folder: Path) -> Path:
 
     Raises
     ------
-    DataError : the extra ``excel`` is not installed, no finished result, or more points than a sheet holds
+    DataError : the package xlsxwriter is not installed, no finished result, or more points than a sheet holds
     """
     try:
         import xlsxwriter  # noqa: PLC0415  (an optional extra)
@@ -35,9 +36,10 @@ def write_xlsx(folder: Path) -> Path:
                 "no_xlsxwriter",
                 WORKBOOK,
                 "writing a workbook needs the package xlsxwriter",
-                'Install it with pip install "fatigue[excel]", or write CSV',
+                f"Run: {install_command('xlsxwriter')}, or write CSV",
             )
         ) from None
+    folder = Path(folder)
     record = read_provenance(folder)
     points = len(read_table(folder, "nodes", ["node"]))
     if points > _MOST_ROWS:
@@ -136,7 +138,7 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
     sheet.freeze_panes(1, 0)
 
 
-def write_csv(folder: Path) -> list[Path]:
+def write_csv(folder: Path | str) -> list[Path]:
     """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
@@ -146,6 +148,7 @@ def write_csv(folder: Path) -> list[Path]:
     ------
     DataError : no finished result in the folder
     """
+    folder = Path(folder)
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:

@@ -28,7 +28,9 @@ LONGEST_PLACE = 20_000  # letters of the place of a warning: that of one for man
 WORST_POINTS = 50
 
 
-def write_report(folder: Path, case_path: Path | None = None, verification: Sequence[Mapping[str, Any]] = ()) -> Path:
+def write_report(
+    folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
+) -> Path:
     """Write ``report.html`` beside the tables of a finished result.
 
     Parameters
@@ -46,13 +48,16 @@ def write_report(folder: Path, case_path: Path | None = None, verification: Sequ
     ------
     DataError : no finished result in the folder
     """
-    path = folder / "report.html"
+    path = Path(folder) / "report.html"
     path.write_text(report_page(folder, case_path, verification), encoding="utf-8", newline="\n")
     return path
 
 
-def report_page(folder: Path, case_path: Path | None = None, verification: Sequence[Mapping[str, Any]] = ()) -> str:
+def report_page(
+    folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
+) -> str:
     """Return the page as text; see `write_report`."""
+    folder, case_path = Path(folder), None if case_path is None else Path(case_path)
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
     record = result.record
     inputs = find_inputs(record, folder, case_path)

@@ -19,7 +19,7 @@ _WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Applicatio
 TIME_LIMIT_S = 300.0
 
 
-def print_pdf(html: Path, pdf: Path) -> None:
+def print_pdf(html: Path | str, pdf: Path | str) -> None:
     """Print a report to PDF: all figures and details, paginated for A4.
 
     The page draws all its figures before it has finished loading when its address ends in ``#print``.
@@ -28,6 +28,7 @@ def print_pdf(html: Path, pdf: Path) -> None:
     ------
     DataError : no browser is installed, it fails, or there is no such page
     """
+    html = Path(html)
     if not html.is_file():
         raise DataError(Problem("missing_file", str(html), "there is no such page", "Write the report first"))
     browser = find_browser()

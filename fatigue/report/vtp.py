@@ -32,7 +32,7 @@ _VTK_TYPE = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}
 _DTYPE = {"float": "f8", "int": "i8", "flag": "u1"}
 
 
-def write_vtp(folder: Path) -> Path:
+def write_vtp(folder: Path | str) -> Path:
     """Write ``weld_lines.vtp`` beside the tables of a result.
 
     A point of the file is a node of a weld line. Columns that differ between the faces come twice, with ``_top`` and
@@ -43,6 +43,7 @@ def write_vtp(folder: Path) -> Path:
     ------
     DataError : the folder holds no result
     """
+    folder = Path(folder)
     surface, faces = read_codes(folder, "nodes", "surface")
     register = read_table(folder, "welds", ["weld", "closed", "parts"]).to_pydict()
     rows = {face: np.flatnonzero(surface == i) for i, face in enumerate(faces)}
@@ -98,13 +99,14 @@ def _arrays(folder: Path, column: Column, wanted: Mapping[str, NDArray[np.int64]
             yield _data(name, _DTYPE[column.type], values[rows])
 
 
-def write_line_picture(path: Path, lines: Sequence[WeldLine], *, overwrite: bool) -> None:
+def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite: bool) -> None:
     """Write weld lines that are not assessed yet: number of the line, node, thickness, normal and outward vectors.
 
     Raises
     ------
     DataError : the file exists and may not be overwritten, or there are no lines
     """
+    path = Path(path)
     if not lines:
         raise DataError(Problem("no_welds", str(path), "there are no weld lines to draw", "Choose others"))
     if path.exists() and not overwrite:

@@ -15,10 +15,12 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.results.columns import TABLES
-from fatigue.results.store import read_table, readable
+from fatigue.results.store import read_table, readable, table_path
 
 
-def read_rows(folder: Path, table: str, rows: NDArray[np.integer], columns: Sequence[str] | None = None) -> pa.Table:
+def read_rows(
+    folder: Path | str, table: str, rows: NDArray[np.integer], columns: Sequence[str] | None = None
+) -> pa.Table:
     """Read rows by their numbers, in the order of these.
 
     Raises
@@ -39,7 +41,7 @@ def read_rows(folder: Path, table: str, rows: NDArray[np.integer], columns: Sequ
     return found if (np.diff(rows) > 0).all() else found.take(pa.array(np.argsort(ascending)))
 
 
-def row_groups(folder: Path, table: str) -> Iterator[pa.Table]:
+def row_groups(folder: Path | str, table: str) -> Iterator[pa.Table]:
     """Read a table, one row group after the other; at least one, be it empty.
 
     Raises
@@ -53,7 +55,7 @@ def row_groups(folder: Path, table: str) -> Iterator[pa.Table]:
             yield _plain(file.read_row_group(number))
 
 
-def row_count(folder: Path, table: str) -> int:
+def row_count(folder: Path | str, table: str) -> int:
     """Count the rows of a table.
 
     Raises
@@ -66,7 +68,7 @@ def row_count(folder: Path, table: str) -> int:
 
 
 def number_groups(
-    folder: Path, table: str, numbers: Sequence[str], texts: Mapping[str, Sequence[str]]
+    folder: Path | str, table: str, numbers: Sequence[str], texts: Mapping[str, Sequence[str]]
 ) -> Iterator[dict[str, NDArray[Any]]]:
     """Read columns of a table as plain arrays, one row group after the other.
 
@@ -89,7 +91,7 @@ def number_groups(
             yield columns
 
 
-def rows_of_welds(folder: Path, table: str, welds: Sequence[str]) -> dict[str, NDArray[np.int64]]:
+def rows_of_welds(folder: Path | str, table: str, welds: Sequence[str]) -> dict[str, NDArray[np.int64]]:
     """Find the numbers of the rows of each of some welds, ascending.
 
     Raises
@@ -111,7 +113,7 @@ def rows_of_welds(folder: Path, table: str, welds: Sequence[str]) -> dict[str, N
     return {weld: np.concatenate(rows) for weld, rows in found.items()}
 
 
-def worst_toes(folder: Path, top: int, welds: Sequence[str] = ()) -> NDArray[np.int64]:
+def worst_toes(folder: Path | str, top: int, welds: Sequence[str] = ()) -> NDArray[np.int64]:
     """Find the rows of the worst toe points in the table of nodes that were counted, worst first: of some welds or all.
 
     Raises
@@ -128,7 +130,7 @@ def worst_toes(folder: Path, top: int, welds: Sequence[str] = ()) -> NDArray[np.
     return rows[np.argsort(-utilisation[rows], kind="stable")[:top]]
 
 
-def read_codes(folder: Path, table: str, column: str) -> tuple[NDArray[np.int32], list[str]]:
+def read_codes(folder: Path | str, table: str, column: str) -> tuple[NDArray[np.int32], list[str]]:
     """Read a column of texts as codes (n,), -1 for a missing one, and the texts they stand for.
 
     Raises
@@ -150,10 +152,10 @@ def _wanted(file: pq.ParquetFile, columns: Sequence[str] | None) -> list[str]:
 
 
 @contextmanager
-def _opened(folder: Path, table: str) -> Iterator[pq.ParquetFile]:
+def _opened(folder: Path | str, table: str) -> Iterator[pq.ParquetFile]:
     """Open a table, its texts to be read as codes."""
+    path = table_path(folder, table)
     texts = [column.name for column in TABLES[table] if column.type == "text"]
-    path = folder / f"{table}.parquet"
     with readable(path):
         try:
             opened = pq.ParquetFile(path, read_dictionary=texts)

@@ -1,6 +1,7 @@
 """Result tables and records on disk: Parquet with unit and meaning of every column, JSON, hashes."""
 
 import base64
+import difflib
 import hashlib
 import json
 import platform
@@ -16,7 +17,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue import __version__
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
 from fatigue.results.columns import ASSESSED, TABLES, ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
@@ -113,7 +114,7 @@ def _coded_schema(table: str) -> pa.Schema:
 
 
 @contextmanager
-def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
+def table_writer(folder: Path | str, table: str) -> Iterator[TableWriter]:
     """Open ``<table>.parquet`` in a folder for writing, piece by piece."""
     floats = [c.name for c in TABLES[table] if c.type == "float"]
     texts = [c.name for c in TABLES[table] if c.type == "text"]
@@ -121,7 +122,7 @@ def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
     plain = schema(table)
     said = {**plain.metadata, "ARROW:schema": base64.b64encode(plain.serialize())}
     with pq.ParquetWriter(
-        folder / f"{table}.parquet",
+        Path(folder) / f"{table}.parquet",
         _coded_schema(table),
         use_dictionary=texts,
         column_encoding=dict.fromkeys(floats, "BYTE_STREAM_SPLIT"),
@@ -136,23 +137,50 @@ def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
 
 
 @contextmanager
-def result_tables(folder: Path) -> Iterator[dict[str, TableWriter]]:
+def result_tables(folder: Path | str) -> Iterator[dict[str, TableWriter]]:
     """Open all tables of an assessment in a folder for writing, by name."""
-    folder.mkdir(parents=True, exist_ok=True)
+    Path(folder).mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         yield {table: stack.enter_context(table_writer(folder, table)) for table in ASSESSED}
 
 
-def read_table(folder: Path, table: str, columns: Sequence[str] | None = None) -> pa.Table:
-    """Read a result table.
+def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = None) -> pa.Table:
+    """Read a result table; ``columns`` of it, or one, in the order given, by default all.
 
     Raises
     ------
-    DataError : the folder holds no such table, or the file is damaged
+    DataError : the folder holds no such table, there is no such table or column at all, or the file is damaged
     """
-    path = folder / f"{table}.parquet"
+    path = table_path(folder, table)
+    wanted = [columns] if isinstance(columns, str) else None if columns is None else list(columns)
     with readable(path):
-        return pq.read_table(path, columns=None if columns is None else list(columns))
+        refuse(DataError, _unknown_columns(path, wanted or []))
+        return pq.read_table(path, columns=wanted)
+
+
+def table_path(folder: Path | str, table: str) -> Path:
+    """Where a result table is.
+
+    Raises
+    ------
+    DataError : no table of results has this name
+    """
+    if table not in TABLES:
+        names = ", ".join(TABLES)
+        raise DataError(
+            Problem("no_table", str(folder), f"there is no table {table!r} of a result", f"Name one of {names}")
+        )
+    return Path(folder) / f"{table}.parquet"
+
+
+def _unknown_columns(path: Path, wanted: Sequence[str]) -> Iterator[Problem]:
+    """Name columns that a table does not have, and what may have been meant."""
+    there = pq.read_schema(path).names if wanted else []
+    for name in wanted:
+        if name not in there:
+            near = difflib.get_close_matches(str(name), there, n=1)
+            remedy = f"Name {near[0]!r}" if near else f"Name some of {', '.join(there)}"
+            yield Problem("no_column", str(path), f"the table has no column {name!r}", remedy)
 
 
 @contextmanager
@@ -179,13 +207,14 @@ def readable(path: Path) -> Iterator[None]:
     raise DataError(problem)
 
 
-def read_provenance(folder: Path) -> dict[str, Any]:
+def read_provenance(folder: Path | str) -> dict[str, Any]:
     """Read ``provenance.json`` of a result folder.
 
     Raises
     ------
     DataError : the folder holds no finished result
     """
+    folder = Path(folder)
     path = folder / "provenance.json"
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
@@ -212,9 +241,9 @@ def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:
     return [{"file": _relative(path, root), "bytes": path.stat().st_size, "sha256": sha256(path)} for path in paths]
 
 
-def sha256(path: Path) -> str:
+def sha256(path: Path | str) -> str:
     """SHA-256 of a file's content."""
-    with path.open("rb") as file:
+    with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
@@ -230,10 +259,10 @@ def software_versions() -> dict[str, str]:
     return found
 
 
-def write_json(path: Path, record: Mapping[str, Any]) -> None:
+def write_json(path: Path | str, record: Mapping[str, Any]) -> None:
     """Write a record as UTF-8 JSON; infinite and missing numbers become null."""
     text = json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False)
-    path.write_text(text + "\n", encoding="utf-8")
+    Path(path).write_text(text + "\n", encoding="utf-8")
 
 
 def json_ready(value: Any) -> Any:

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import CaseError, DataError, Problem
 from fatigue.results import assessed, not_assessed, read_provenance, read_rows, read_welds, worst_toes
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
@@ -100,13 +101,16 @@ class Summary:
         ]
 
 
-def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summary:
-    """Read the summary of a result folder.
+def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = ()) -> Summary:
+    """Read the summary of a result folder: ``top`` points, of all welds or ``only`` some.
 
     Raises
     ------
-    DataError : no finished result there, or no such weld in it
+    DataError : no finished result there, or no such weld in it; CaseError : ``top`` is no number of points
     """
+    if not (isinstance(top, Integral) and top >= 1):
+        raise CaseError(Problem("argument", "top", f"{top!r} is no number of points", "Give a whole number from 1 on"))
+    only = (only,) if isinstance(only, str) else only
     record = read_provenance(folder)
     every = read_welds(folder)
     welds, left_out = assessed(every), not_assessed(every)

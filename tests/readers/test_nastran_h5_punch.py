@@ -130,7 +130,7 @@ def test_missing_h5py_is_told(monkeypatch):
         return plain(name, *args, **kwargs)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(DataError, match="pip install"):
+    with pytest.raises(DataError, match=r'Run: pip install "h5py>=[\d.]+"'):
         read_h5(H5)
 
 

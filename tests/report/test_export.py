@@ -109,7 +109,7 @@ def test_without_the_extra_the_message_names_it(result_folder, monkeypatch):
         return real(name, *args, **kwargs)
 
     monkeypatch.setattr(builtins, "__import__", missing)
-    with pytest.raises(DataError, match=r"pip install .fatigue\[excel\]., or write CSV"):
+    with pytest.raises(DataError, match=r'pip install "xlsxwriter>=[\d.]+", or write CSV'):
         write_xlsx(result_folder)
 
 

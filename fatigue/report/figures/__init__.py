@@ -1,6 +1,7 @@
 """The figures of the report as functions of tables, for notebooks too: each returns a plotly figure.
 
-They take the tables of a result folder as ``pandas.read_parquet`` reads them, or a part of their rows.
+They take the tables of a result folder as ``pandas.read_parquet`` or ``fatigue.read_table`` reads them, or a
+part of their rows.
 """
 
 from fatigue.report.figures.cycles import exceedance, rainflow_matrices, sn_with_spectrum

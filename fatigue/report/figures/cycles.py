@@ -3,12 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
-import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.damage import cycle_damage
+from fatigue.report.figures.given import Table, check_known, check_one_each, frame_of
 from fatigue.report.figures.style import (
     DASHES,
     INK,
@@ -32,11 +32,13 @@ CLASSES_PER_DECADE = 8  # of equivalent ranges on the S-N curve
 STAIRS = 60
 
 
-def rainflow_matrices(cycles: pd.DataFrame, per_km: NDArray[np.float64]) -> go.Figure:
+def rainflow_matrices(cycles: Table, per_km: NDArray[np.float64]) -> go.Figure:
     """Rainflow matrix and damage matrix side by side: mean over range in equal classes, empty classes white.
 
     ``cycles`` has the columns of the table of cycles; ``per_km`` (c,) is how often each cycle occurs [1/km].
     """
+    cycles = frame_of(cycles, "cycles", ("range_MPa", "mean_MPa", "damage", "count"))
+    check_one_each(per_km, cycles, "per_km")
     stress_range, mean = cycles["range_MPa"].to_numpy(), cycles["mean_MPa"].to_numpy()
     ranges = np.linspace(0.0, 1.001 * stress_range.max(), MATRIX_CLASSES + 1)
     half = max(0.5 * float(np.ptp(mean)), 0.05 * ranges[-1]) * 1.02
@@ -82,11 +84,13 @@ def _matrix(
     }
 
 
-def exceedance(cycles: pd.DataFrame, passes_per_km: Mapping[str, float], most: int = 6) -> go.Figure:
+def exceedance(cycles: Table, passes_per_km: Mapping[str, float], most: int = 6) -> go.Figure:
     """Range exceedance: how often each stress range is reached in 1e6 km, by event and for the whole mission.
 
     ``cycles`` has the columns of the table of cycles; ``most`` events, those with the largest ranges, are drawn.
     """
+    cycles = frame_of(cycles, "cycles", ("event", "range_MPa", "count"))
+    check_known(cycles["event"], passes_per_km, "passes_per_km", "event")
     colours = event_colours(list(passes_per_km))
     ranges, event = cycles["range_MPa"].to_numpy(), cycles["event"].to_numpy()
     count = 1e6 * cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy()
@@ -133,7 +137,7 @@ def cumulative(
 
 
 def sn_with_spectrum(
-    cycles: pd.DataFrame, per_target: NDArray[np.float64], laws: Mapping[str, DamageLaw], used: str, unit: str
+    cycles: Table, per_target: NDArray[np.float64], laws: Mapping[str, DamageLaw], used: str, unit: str
 ) -> go.Figure:
     """S-N curves at their survival levels with the cumulative spectrum of the target mileage on them.
 
@@ -147,6 +151,9 @@ def sn_with_spectrum(
 
     The marks on the spectrum are classes of equal ratio, coloured by the damage of the cycles in them.
     """
+    cycles = frame_of(cycles, "cycles", ("equivalent_range_dS", "damage", "count"))
+    check_one_each(per_target, cycles, "per_target")
+    check_known([used], laws, "laws", "survival level")
     x = cycles["equivalent_range_dS"].to_numpy()
     largest = float(x.max())
     edges = largest * 10.0 ** (-np.arange(2 * CLASSES_PER_DECADE, -1, -1) / CLASSES_PER_DECADE)

@@ -5,6 +5,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.given import Table, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     INK,
@@ -35,16 +36,18 @@ VERDICTS = (
 )
 TRUSTED = VERDICTS[:2]
 SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star")
+_ESTIMATES = ("life_km_same_ratio", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict")
 FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 
 
-def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
+def time_against_frequency(nodes: Table) -> go.Figure:
     """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
 
     ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
     colours the points: 3 for a Gaussian record. Points without an estimate are left out; of very many points a part is
     drawn, see `drawn_points`.
     """
+    nodes = frame_of(nodes, "nodes", (*_ESTIMATES, "kurtosis", "weld", "node", "surface"), empty=True)
     shown = nodes[drawn_points(nodes)]
     x, y = drawn_life(shown["life_km_same_ratio"]), drawn_life(shown["life_km_dirlik"])
     both = np.concatenate([x, y]) if len(shown) else np.array([1e6, 1e8])
@@ -76,8 +79,9 @@ def time_against_frequency(nodes: pd.DataFrame) -> go.Figure:
     )
 
 
-def drawn_points(nodes: pd.DataFrame, most: int = MOST_POINTS) -> NDArray[np.bool_]:
+def drawn_points(nodes: Table, most: int = MOST_POINTS) -> NDArray[np.bool_]:
     """Mark the points with an estimate that are drawn: all, or ``most`` beginning with those that disagree (n,)."""
+    nodes = frame_of(nodes, "nodes", _ESTIMATES, empty=True)
     lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
     drawn: NDArray[np.bool_] = np.isfinite(lives).all(axis=1)
     found = int(np.count_nonzero(drawn))
@@ -118,8 +122,9 @@ def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
     }
 
 
-def ratio_histogram(nodes: pd.DataFrame) -> go.Figure:
+def ratio_histogram(nodes: Table) -> go.Figure:
     """How the damage ratio Dirlik / rainflow is spread over the points, on a logarithmic axis."""
+    nodes = frame_of(nodes, "nodes", ("dirlik_ratio",), empty=True)
     ratio = nodes["dirlik_ratio"].to_numpy(dtype=np.float64)
     ratio = ratio[np.isfinite(ratio) & (ratio > 0.0)]
     limit = max(0.4, float(np.abs(np.log10(ratio)).max(initial=0.0)) * 1.05)

@@ -8,6 +8,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
+from fatigue.report.figures.given import Table, check_one_each, check_one_weld, check_target, frame_of
 from fatigue.report.figures.style import (
     DASHES,
     FACE,
@@ -29,11 +30,15 @@ from fatigue.report.wording import number
 
 PART_GAP = 0.03  # of the whole length, between the parts of a weld split at its kinks
 LARGEST_FACTOR = 1e3  # load factors beyond are drawn there
+_COLUMNS = (
+    "weld", "part", "order", "node", "surface", "toe", "arc_length_mm", "life_km", "load_factor", "max_range_MPa",
+    "utilisation", "fulfilled", "at_end", "at_corner", "screened",
+)  # fmt: skip
 _PANELS = {"y": [0.57, 1.0], "y2": [0.30, 0.53], "y3": [0.0, 0.26]}
 
 
 def along_weld(
-    points: pd.DataFrame, target_km: float, stress: Mapping[str, ArrayLike] | None = None, event: str = ""
+    points: Table, target_km: float, stress: Mapping[str, ArrayLike] | None = None, event: str = ""
 ) -> go.Figure:
     """Life, load factor and stress of one weld over its arc length, both faces, zoomed together.
 
@@ -48,7 +53,12 @@ def along_weld(
     Treated zones of weld ends are shaded, corners marked; faces without a toe are drawn thin, lives that are bounds as
     open circles.
     """
+    points = frame_of(points, "points", _COLUMNS)
+    check_one_weld(points)
+    check_target(target_km)
     top = points[points["surface"] == "top"]
+    for name, values in (stress or {}).items():
+        check_one_each(values, top, f"stress[{name!r}]")
     place, breaks = _unrolled(top)
     data: list[Trace] = []
     for face in ("top", "bottom"):

@@ -7,6 +7,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.given import Table, check_known, check_one_each, check_target, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     GRID,
@@ -27,14 +28,17 @@ from fatigue.report.figures.style import (
 from fatigue.report.wording import in_figure, number, share
 
 STRIP_CELLS = 120
+_OF_WELDS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "fulfilled")
 
 
-def weld_lives(welds: pd.DataFrame, target_km: float, most: int = 30) -> go.Figure:
+def weld_lives(welds: Table, target_km: float, most: int = 30) -> go.Figure:
     """Life of the worst point of every weld against the target, worst on top.
 
-    ``welds`` has the columns of the weld register; at most ``most`` are drawn.
+    ``welds`` has the columns of the weld register; of those assessed at most ``most`` are drawn.
     """
-    shown = welds.sort_values("utilisation", ascending=False, kind="stable").head(most)
+    welds = frame_of(welds, "welds", _OF_WELDS, empty=True)
+    check_target(target_km)
+    shown = welds[welds["utilisation"].notna()].sort_values("utilisation", ascending=False, kind="stable").head(most)
     life = drawn_life(shown["life_km"])
     missed = ~shown["fulfilled"].to_numpy(dtype=bool)
     rows = np.arange(len(shown))
@@ -90,12 +94,14 @@ def weld_lives(welds: pd.DataFrame, target_km: float, most: int = 30) -> go.Figu
     )
 
 
-def weld_strips(nodes: pd.DataFrame, target_km: float, most: int = 60) -> go.Figure:
+def weld_strips(nodes: Table, target_km: float, most: int = 60) -> go.Figure:
     """Every weld line as a strip coloured by the shorter life of its toe faces, worst weld on top.
 
     ``nodes`` has the columns of the table of nodes; parts of a weld split at its kinks follow each other. A strip has
     120 cells; a cell shows the shortest life of its nodes, or that of the nearest node.
     """
+    nodes = frame_of(nodes, "nodes", ("weld", "part", "order", "toe", "arc_length_mm", "life_km", "utilisation"))
+    check_target(target_km)
     toes = nodes[nodes["toe"]]
     worst = toes.groupby("weld", sort=False)["utilisation"].max()
     shown = worst.sort_values(ascending=False, kind="stable").index[:most]
@@ -125,9 +131,7 @@ def weld_strips(nodes: pd.DataFrame, target_km: float, most: int = 60) -> go.Fig
     )
 
 
-def damage_by_event(
-    points: Sequence[str], shares: pd.DataFrame, weights: Mapping[str, str], most: int = 6
-) -> go.Figure:
+def damage_by_event(points: Sequence[str], shares: Table, weights: Mapping[str, str], most: int = 6) -> go.Figure:
     """Stacked bars: share of each event in the damage of each point.
 
     Parameters
@@ -137,6 +141,9 @@ def damage_by_event(
     weights : what is written beside each event in the legend: its share of the mileage
     most : events drawn on their own, those with the largest shares; the rest is one bar
     """
+    shares = frame_of(shares, "shares", (), empty=True)
+    check_one_each(points, shares, "points")
+    check_known(shares.columns, weights, "weights", "event")
     colours = event_colours(list(shares.columns))
     leading = set(shares.sum().sort_values(ascending=False, kind="stable").index[:most])
     series = [(in_figure(f"{e} ({weights[e]})", 44), colours[e], shares[e]) for e in shares.columns if e in leading]
@@ -171,6 +178,7 @@ def damage_by_event(
 
 def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> go.Figure:
     """Bars of shares, the first on top; a negative one relieves."""
+    check_one_each(values, labels, "values")
     rows = list(range(len(labels)))
     low, high = min(0.0, float(np.min(values, initial=0.0))), max(0.0, float(np.max(values, initial=0.0)))
     room = 0.2 * max(high - low, 1e-9)  # for the numbers beside the bars

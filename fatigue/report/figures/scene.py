@@ -8,12 +8,14 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
+from fatigue.report.figures.given import Table, check_target, frame_of
 from fatigue.report.figures.style import BODY, PAPER, Trace, axis, drawn_life, figure, life_scale, single
 from fatigue.report.wording import in_figure, number
 
 LABELLED_STATIONS = 20_000  # beyond, texts at every station would outweigh the page
 MOST_ON_PAPER = 20_000
 SHADED_ELEMENTS = 60_000  # beyond, only the outline of the body is drawn
+_PLACE = ("x_mm", "y_mm", "z_mm")
 FLATTEST = 0.1  # smallest extent of the scene in any direction, of the largest
 FEATURE_ANGLE = 30.0  # [deg] between neighbouring elements that makes their common edge part of the outline
 
@@ -52,22 +54,24 @@ def body_outline(node: NDArray[np.int64], xyz: NDArray[np.float64], corners: NDA
     return Body(xyz[used], compact[: triangles.size].reshape(-1, 3), compact[triangles.size :].reshape(-1, 2))
 
 
-def worst_faces(nodes: pd.DataFrame) -> pd.DataFrame:
+def worst_faces(nodes: Table) -> pd.DataFrame:
     """Keep one row per station: the toe face with the larger utilisation (where no face has a toe, the larger)."""
+    nodes = frame_of(nodes, "nodes", ("weld", "part", "order", "toe", "utilisation"), empty=True)
     rank = nodes["utilisation"].to_numpy() + np.where(nodes["toe"], 1e30, 0.0)
     best = pd.Series(rank, nodes.index).groupby([nodes["weld"], nodes["part"], nodes["order"]], sort=False).idxmax()
     return nodes.loc[best].reset_index(drop=True)
 
 
-def line_rows(stations: pd.DataFrame, closed: frozenset[str]) -> NDArray[np.int64]:
+def line_rows(stations: Table, closed: frozenset[str]) -> NDArray[np.int64]:
     """Rows of the stations in drawing order: -1 between the lines, the first repeated at the end of a closed line."""
+    stations = frame_of(stations, "stations", ("weld", "part"))
     pieces: list[ArrayLike] = []
     for (weld, _), rows in stations.groupby(["weld", "part"], sort=False).indices.items():
         pieces += [rows, rows[:1] if weld in closed else rows[:0], [-1]]
     return np.concatenate(pieces).astype(np.int64)
 
 
-def scene(stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, body: Body | None = None) -> go.Figure:
+def scene(stations: Table, rows: NDArray[np.int64], target_km: float, body: Body | None = None) -> go.Figure:
     """Draw all weld lines in 3-D, coloured by log10 of their life, over the body in grey.
 
     Parameters
@@ -77,6 +81,8 @@ def scene(stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, bod
     target_km : fixes the colour scale [km]
     body : the body to draw, None for none
     """
+    stations = frame_of(stations, "stations", (*_PLACE, "life_km"))
+    check_target(target_km)
     few = len(stations) <= LABELLED_STATIONS
     colour = {"color": single(_drawn(np.log10(drawn_life(stations["life_km"])), rows)), **life_scale(target_km)}
     colour["colorbar"] |= {"len": 0.86, "y": 0.44}  # below the mode bar
@@ -99,10 +105,10 @@ def scene(stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, bod
     )
 
 
-def projections(
-    stations: pd.DataFrame, rows: NDArray[np.int64], target_km: float, body: Body | None = None
-) -> go.Figure:
+def projections(stations: Table, rows: NDArray[np.int64], target_km: float, body: Body | None = None) -> go.Figure:
     """Draw the same in side view and plan for paper, true to scale; of very many stations every so manyth."""
+    stations = frame_of(stations, "stations", (*_PLACE, "life_km"))
+    check_target(target_km)
     rows = rows[:: 1 + len(rows) // MOST_ON_PAPER]
     data: list[Trace] = []
     for n, across, up in (("", "x", "z"), ("2", "x", "y")):

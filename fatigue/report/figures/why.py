@@ -7,6 +7,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.given import Table, check_one_each, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     QUIET,
@@ -22,7 +23,7 @@ from fatigue.report.figures.style import (
 from fatigue.report.wording import in_figure, share
 
 
-def damage_by_band(bands: pd.DataFrame, modes: Sequence[float] = ()) -> go.Figure:
+def damage_by_band(bands: Table, modes: Sequence[float] = ()) -> go.Figure:
     """Share of each frequency band in the damage of one point.
 
     Parameters
@@ -30,6 +31,7 @@ def damage_by_band(bands: pd.DataFrame, modes: Sequence[float] = ()) -> go.Figur
     bands : ``low_hz``, ``high_hz`` (NaN: no upper end) and ``share`` of each band, ascending
     modes : natural frequencies to be marked [Hz]
     """
+    bands = frame_of(bands, "bands", ("low_hz", "high_hz", "share"))
     low, high = _edges(bands)
     values = bands["share"].to_numpy()
     bars = {
@@ -55,11 +57,13 @@ def damage_by_band(bands: pd.DataFrame, modes: Sequence[float] = ()) -> go.Figur
     )
 
 
-def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: pd.DataFrame) -> go.Figure:
+def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: Table) -> go.Figure:
     """Map of the damage: worst points of the welds, worst on top, over frequency bands.
 
     ``shares`` is (weld, band); ``bands`` gives ``low_hz`` and ``high_hz`` (NaN: no upper end) of each, ascending.
     """
+    bands = frame_of(bands, "bands", ("low_hz", "high_hz"))
+    check_one_each(shares, welds, "shares")
     low, high = _edges(bands)
     rows = list(range(len(welds)))
     data = {
@@ -90,12 +94,13 @@ def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: pd.
     )
 
 
-def damage_on_track(track: pd.DataFrame) -> go.Figure:
+def damage_on_track(track: Table) -> go.Figure:
     """Where on the record of one event the damage is made: intensity 1 is its average.
 
     ``track`` has the columns ``start_km, end_km, start_s, end_s, share, intensity`` of one point and event; time is
     drawn for an event without distance.
     """
+    track = frame_of(track, "track", ("start_km", "end_km", "start_s", "end_s", "share", "intensity"))
     unit = "s" if track["start_km"].isna().any() else "km"
     start, end = track[f"start_{unit}"].to_numpy(), track[f"end_{unit}"].to_numpy()
     bars = {

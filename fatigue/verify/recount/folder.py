@@ -4,13 +4,15 @@ In memory at a time are some welds, one record, and of the result the rows of so
 the keys of its stations and two columns of its points.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fatigue.errors import CaseError, Problem, refuse
 from fatigue.results import TABLES, read_provenance
 from fatigue.verify.recount.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
@@ -51,11 +53,11 @@ class Passes:
 
 
 def recount(
-    folder: Path,
+    folder: Path | str,
     *,
     sample: int | None = 50,
     seed: int = 0,
-    case_file: Path | None = None,
+    case_file: Path | str | None = None,
     most_samples: int = MOST_SAMPLES,
 ) -> Recount:
     """Recount points of a finished result from its input files, by other code than the one that made it.
@@ -77,8 +79,10 @@ def recount(
 
     Raises
     ------
-    DataError : no finished result there, or inputs that are missing or changed since
+    DataError : no finished result there, or inputs that are missing or changed since; CaseError : no number of points
     """
+    refuse(CaseError, _senseless(sample, seed))
+    folder, case_file = Path(folder), None if case_file is None else Path(case_file)
     record = read_provenance(folder)
     inputs = open_inputs(record, folder, case_file)
     modes, body = read_modes(inputs), layout(inputs)
@@ -124,6 +128,13 @@ def recount(
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
     return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what)
+
+
+def _senseless(sample: object, seed: object) -> Iterator[Problem]:
+    """Find arguments that make no sense."""
+    for name, given in (("sample", 0 if sample is None else sample), ("seed", seed)):
+        if not (isinstance(given, Integral) and int(given) >= 0):
+            yield Problem("argument", name, f"{given!r} is no whole number from 0 on", "Give one")
 
 
 def _samples(inputs: Inputs, record: Mapping[str, Any]) -> int:
