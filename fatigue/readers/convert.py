@@ -132,7 +132,7 @@ def convert(options: ConvertOptions) -> Conversion:
     table = simulation_modes(options.simulation_modes)
     histories = [_history(path, options, results, table) for path in options.coordinates]
     judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
-    records = [read_displacement(asked.file, coordinate_units.length) for asked in options.displacements]
+    records = [read_displacement(asked.file, history_units.length) for asked in options.displacements]
     moved = [
         displacement_row(
             asked,
@@ -142,7 +142,7 @@ def convert(options: ConvertOptions) -> Conversion:
             histories,
             _scale(results, table),
             units,
-            coordinate_units,
+            history_units,
             options.normalisation,
         )
         for asked, record in zip(options.displacements, records, strict=True)

@@ -19,6 +19,7 @@ from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.units import Normalisation, UnitSystem
+from fatigue.readers.weld_forces import coordinate_units
 
 Floats = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ def displacement_row(
     histories: Sequence[ForeignHistory],
     scale: Floats,
     units: UnitSystem,
-    coordinate_units: UnitSystem,
+    history_units: UnitSystem,
     normalisation: Normalisation,
 ) -> AuditRow:
     """Compare a displacement with the sum of the modes at its node; of several events the one that it fits best.
@@ -43,7 +44,7 @@ def displacement_row(
     results, model : as read, in the file's own units and displacement frames
     histories : modal coordinates of the events on uniform times, their modes those of ``results``
     scale : (m,) factor on the coordinates of each mode of the FE run, where the simulation normalises differently
-    units, coordinate_units, normalisation : as for forces and coordinates
+    units, history_units, normalisation : of the force file, of the coordinates, and of the modes
 
     Raises
     ------
@@ -62,10 +63,9 @@ def displacement_row(
             f"{name}: the force file holds no mode shapes to compare it with",
             "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for all modes in the same run",
         )
-    is_modal = results.analysis == "modal"
-    coordinate = units.modal_coordinate(normalisation) if is_modal else 1.0
-    factor = coordinate_units.modal_coordinate(normalisation) if is_modal else 1.0
-    shape = _shape(asked, name, results, model) * units.length / coordinate * scale[:, None]
+    coordinate = coordinate_units(results, units, normalisation)
+    factor = coordinate_units(results, history_units, normalisation)
+    shape = _shape(asked, name, results, model) * units.length * (scale / coordinate)[:, None]
     direction = "xyz".index(asked.direction)
     found = [compared(record, direction, results.mode, shape, factor, history) for history in histories]
     given = {int(mode) for history in histories for mode in history.mode}

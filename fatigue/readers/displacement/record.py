@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
+from fatigue.readers.coordinate_units import states_no_unit
 from fatigue.readers.formats import read_coordinates
 
 Floats = NDArray[np.float64]
@@ -67,15 +68,22 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
                 "Export time and one displacement: the columns time_s,displacement_mm",
             )
         )
-    stated = _UNIT.search(table.name[0])
-    if stated is None and (other := _OTHER_UNIT.search(table.name[0])):
+    unit = _stated_unit(path, table.name[0], table.unit[0] if table.unit else "")
+    return DisplacementRecord(table.time, _IN_MM.get(unit, unit_of_length) * table.q[0].astype(np.float64))
+
+
+def _stated_unit(path: Path | str, name: str, unit: str) -> str:
+    """Give the unit that the column's name or the row of units states; empty if neither does."""
+    stated = _UNIT.search(name) or _OTHER_UNIT.search(name)
+    label = stated[1] if stated else "" if states_no_unit(unit) else unit
+    label = label.strip().lower().replace("μ", "µ")
+    if label and label not in _IN_MM:
         raise DataError(
             Problem(
                 "no_length",
-                f"{path}, column {table.name[0]!r}",
-                f"{other[1]!r} is no unit of length that is known here",
+                f"{path}, column {name!r}",
+                f"{label!r} is no unit of length that is known here",
                 f"Export an elastic displacement in one of {', '.join(_IN_MM)}",
             )
         )
-    factor = _IN_MM[stated[1].lower().replace("μ", "µ")] if stated else unit_of_length
-    return DisplacementRecord(table.time, factor * table.q[0].astype(np.float64))
+    return label

@@ -43,7 +43,7 @@ def compared(
     direction: int,
     mode: NDArray[np.int64],
     shape: Floats,
-    factor: float,
+    factor: Floats,
     history: ForeignHistory,
 ) -> EventComparison:
     """Put a displacement and one event side by side, at the instants of the coarser of the two.
@@ -52,14 +52,14 @@ def compared(
     ----------
     direction : 0, 1, 2 for x, y, z
     mode, shape : (M,) modes of the FE run, and (M, 3) displacement of the node in them [mm per unit coordinate]
-    factor : on the coordinates of the history, for their units
+    factor : (M,) on the coordinate of each mode in the history, for its unit
     history : of the event, on uniform times
     """
     event = Path(history.source).name
     position = {number: k for k, number in enumerate(mode.tolist())}
     shared = [k for k, number in enumerate(history.mode.tolist()) if number in position]
     at = np.array([position[int(number)] for number in history.mode[shared]], np.int64)
-    summed = factor * (shape[at, direction] @ history.q[shared])
+    summed = (shape[at, direction] * factor[at]) @ history.q[shared]
     if not shared:
         return EventComparison(None, np.inf, f"{event} has no mode of the force file", history.time, summed)
     first, last = max(history.time[0], record.time[0]), min(history.time[-1], record.time[-1])
@@ -72,7 +72,7 @@ def compared(
             f"{history.time[-1]:.6g} s, have {time.size} instants in common"
         )
         return EventComparison(None, np.inf, span, history.time, summed)
-    q = np.stack([factor * _at(time, history.time, row) for row in history.q[shared]])
+    q = np.stack([f * _at(time, history.time, row) for f, row in zip(factor[at], history.q[shared], strict=True)])
     measured = _at(time, record.time, record.value)
     comparison = Comparison(direction, history.mode[shared], at, shape, time, q, measured)
     moves = comparison.rms > 1e-9 * float(np.abs(measured).max())

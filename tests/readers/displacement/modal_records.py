@@ -49,5 +49,5 @@ def row_of(modes, measured, time=None, mode=None, lacking=()):
     names = tuple(f"q_{n}" for n in number)
     history = ForeignHistory("run/q.csv", number, np.full(len(number), np.nan), names, modes.time, modes.q)
     record = DisplacementRecord(modes.time if time is None else time, measured)
-    event = compared(record, 2, np.arange(1, len(modes.shape) + 1), modes.shape, 1.0, history)
+    event = compared(record, 2, np.arange(1, len(modes.shape) + 1), modes.shape, np.ones(len(modes.shape)), history)
     return judged("u.csv", event, causes_of(event, record) if event.misfit > 0.01 else (), lacking)

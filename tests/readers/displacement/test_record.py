@@ -39,6 +39,14 @@ def test_other_layouts_and_parquet(tmp_path):
         assert np.allclose(read_displacement(path, 1.0).value, [1.0, 2.0, 4.0])
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("m", 1000.0), ("[mm]", 1.0), ("-", 7.0)])
+def test_a_row_of_units_holds(tmp_path, unit, factor):
+    """As a unit in the name does."""
+    path = tmp_path / "u.csv"
+    path.write_text(f"time,displacement\ns,{unit}\n0,1\n0.01,2\n0.02,4\n", encoding="utf-8")
+    assert np.allclose(read_displacement(path, 7.0).value, factor * np.array([1.0, 2.0, 4.0]))
+
+
 @pytest.mark.parametrize("unit", ["m/s", "rad", "mm/s^2", "kN"])
 def test_what_is_no_length_is_refused(tmp_path, unit):
     """A velocity is no displacement."""
@@ -61,5 +69,5 @@ def test_broken_files_are_refused_by_name(tmp_path):
     with pytest.raises(DataError, match=r"u.csv"):
         read_displacement(written(tmp_path / "u.csv", "u_mm", values=(1.0, "nan", 2.0)), 1.0)
     (tmp_path / "back.csv").write_text("time_s,u_mm\n0,1\n2,1\n1,1\n")
-    with pytest.raises(DataError, match=r"back.csv, sample 3"):
+    with pytest.raises(DataError, match=r"back.csv, line 4, sample 3"):
         read_displacement(tmp_path / "back.csv", 1.0)
