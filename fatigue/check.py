@@ -20,6 +20,7 @@ from fatigue.pipeline.doubts import Doubts
 from fatigue.pipeline.events import DOUBLE_PRECISION_SAMPLES, mission_plan
 from fatigue.pipeline.model import solve_group
 from fatigue.pipeline.weld_groups import weld_groups
+from fatigue.stages import stage
 
 _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 
@@ -71,11 +72,13 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
     ------
     CaseError, DataError : what an assessment would refuse, this refuses with the same words
     """
+    stage("reading and checking the case")
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
     doubts = Doubts()
     doubts.add((*body.warnings, *record_warnings))
     parts = stations = 0
+    stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
         groups = weld_groups(body, Path(scratch))
         for number in range(len(groups)):
@@ -83,6 +86,7 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
             parts += len(model.lines)
             stations += len(model.stations)
             doubts.add(model.warnings)
+    stage("timing a small piece")
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,

@@ -82,10 +82,15 @@ def _screening(
     )
 
 
+def input_paths(case: Case) -> list[Path]:
+    """List every input file of a case, the case file included."""
+    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
+    return sorted(files)
+
+
 def inputs_of(case: Case) -> list[dict[str, str]]:
     """List every input file of a case with its hash."""
-    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
-    return input_register(sorted(files), case.path.parent)
+    return input_register(input_paths(case), case.path.parent)
 
 
 def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:

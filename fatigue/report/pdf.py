@@ -19,8 +19,8 @@ _WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Applicatio
 TIME_LIMIT_S = 300.0
 
 
-def print_pdf(html: Path, pdf: Path) -> None:
-    """Print a report to PDF: all figures and details, paginated for A4.
+def print_pdf(html: Path, pdf: Path, remark: str = "") -> None:
+    """Print a report to PDF: all figures and details, paginated for A4; ``remark``: a comment for its last line.
 
     The page draws all its figures before it has finished loading when its address ends in ``#print``.
 
@@ -57,6 +57,9 @@ def print_pdf(html: Path, pdf: Path) -> None:
                 )
             )
         shutil.copyfile(printed, pdf)
+        if remark:  # a comment behind the end marker is allowed (ISO 32000-1, 7.2.4 and 7.5.5)
+            with pdf.open("ab") as file:
+                file.write(f"% {remark}\n".encode("ascii"))
 
 
 def find_browser() -> Path:
