@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from fatigue.errors import DataError, Problem
-from fatigue.results import read_provenance, read_rows, read_table, worst_toes
+from fatigue.results import read_provenance, read_rows, read_table, refuse_mixed, worst_toes
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
@@ -89,9 +89,10 @@ def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summa
 
     Raises
     ------
-    DataError : no finished result there, or no such weld in it
+    DataError : no finished result there, tables of different results, or no such weld in it
     """
     record = read_provenance(folder)
+    refuse_mixed(folder, record, ("nodes", "welds"))
     welds = read_table(folder, "welds").to_pandas()
     welds = welds[welds["status"] == "assessed"].astype({"fulfilled": bool, "worst_node": int})
     unknown = sorted(set(only) - set(welds["weld"]))
