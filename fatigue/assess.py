@@ -116,7 +116,7 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            stage("preparing %d events", len(plan.passes))
+            stage("preparing the records of the events (%d)", len(plan.passes))
             work = open_work(groups, plan, counted, state.folder, threads)
             give_back()
             if executor is None:
@@ -125,7 +125,7 @@ def assess(
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             done.doubts.add((*body.warnings, *record_warnings))
-            stage("counting %d events at %d stations and writing tables", len(plan.passes), done.total)
+            stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
             with result_tables(unpublished, key) as tables, closing(assessed):
                 cycles = CycleWriter(tables["cycles"], work.loads, case.curve)

@@ -90,13 +90,13 @@ def diagnose(
         numbers = numbers_of_point(plan, body.modes, edges, bin_km)
         chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
-        stage("preparing %d events", len(plan.passes))
+        stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         points, worst = gather_points(folder, groups, chosen), chosen.worst
         assessed = assessed_rows(folder, chosen.rows, plan)
         loads = event_loads(groups, plan, staging / "histories")
 
-        stage("sharing out the damage of %d events at %d points", len(plan.passes), len(points))
+        stage("sharing out the damage of %d points, event by event (%d)", len(points), len(plan.passes))
         events: list[EventAttribution] = []
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))

@@ -104,7 +104,5 @@ def test_results_from_before_there_were_hashes(folder):
 def test_mixed_tables_are_refused(folder):
     """A table from elsewhere beside this provenance: its name, both hashes, what to do."""
     record = json.loads((folder / "provenance.json").read_text()) | {"result": "f" * 32}
-    with pytest.raises(
-        DataError, match=r"nodes\.parquet: belongs to the result .* not to that of provenance\.json, f+"
-    ):
+    with pytest.raises(DataError, match=r"nodes\.parquet: belongs to the result .* not to that of .*, f{12}"):
         refuse_mixed(folder, record)

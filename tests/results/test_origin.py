@@ -1,7 +1,5 @@
 """The way from a result to its case, and whether it still is the same."""
 
-import os
-
 import pytest
 
 from fatigue.errors import DataError
@@ -81,7 +79,7 @@ def test_the_way_leads_through_a_linked_result_folder(case, tmp_path):
     link.symlink_to(tmp_path / "disk" / "deep")
     record = record_of(case, link)
     assert case_of(record, link) == case
-    assert os.path.samefile(case_of(record, tmp_path / "disk" / "deep"), case)
+    assert case_of(record, tmp_path / "disk" / "deep").samefile(case)
 
 
 def test_a_named_case_has_to_be_the_one_that_was_assessed(case, tmp_path):
