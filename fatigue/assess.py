@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -16,11 +16,11 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.pipeline.body import Body, read_body
-from fatigue.pipeline.checkpoint import Checkpoint, locked
+from fatigue.pipeline.checkpoint import Checkpoint, claimed, settle_folder
 from fatigue.pipeline.cycles import CycleWriter, kept_point
 from fatigue.pipeline.doubts import Doubts
 from fatigue.pipeline.events import mission_plan
-from fatigue.pipeline.folder import publish, refuse_foreign, result_log
+from fatigue.pipeline.folder import publish, refuse_foreign, remember_case, result_log, stale_files
 from fatigue.pipeline.model import toe_faces
 from fatigue.pipeline.orders import Order
 from fatigue.pipeline.piece import TIERS
@@ -29,19 +29,21 @@ from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, wors
 from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.side_by_side import meanwhile
 from fatigue.pipeline.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.work import Counted, Work, inputs_of, key_of, open_work
+from fatigue.pipeline.work import Counted, Work, input_paths, inputs_of, key_of, open_work
 from fatigue.pipeline.workers import Group, by_orders, by_threads
 from fatigue.readers.spare_memory import give_back
 from fatigue.report.page import write_report
 from fatigue.report.vtp import write_vtp
-from fatigue.results import TableWriter, result_tables, write_json
+from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
 from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
+from fatigue.stages import stage
 
 log = logging.getLogger(__name__)
 
 ROWS_AT_ONCE = 512  # stations whose rows are made at a time, as many for each as there are events or modes
 
 Progress = Callable[[str, int, int], None]
+Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +73,7 @@ def assess(
     strict: bool = False,
     force: bool = False,
     report: bool = True,
-    verification: Sequence[Mapping[str, Any]] = (),
+    verification: Verification = (),
     progress: Progress = lambda label, done, total: None,
 ) -> Assessment:
     """Fatigue life, in km, of every point of every weld of one flexible body.
@@ -87,9 +89,9 @@ def assess(
     proves_worst : whether the worst point of welds that stay below the share everywhere is proven as well, not only the
         point with the largest estimate counted
     strict : take unknown columns in the tables for errors
-    force : overwrite files that fatigue did not write
+    force : replace the result of another case, and files of these names that fatigue did not write
     report : write the report and the ParaView file as well
-    verification : checks of the program to show in the report, as ``fatigue.verify`` gives them
+    verification : checks of the program to show in the report, as ``fatigue.verify`` gives them, or what computes them
     progress : called with a label, stations done and stations in all
 
     Raises
@@ -99,6 +101,10 @@ def assess(
     """
     refuse(CaseError, _senseless(threads, share, executor))
     case, folder = given_case(case), Path(folder)
+    settle_folder(folder)
+    own = input_paths(case)
+    refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
+    stage("reading and checking the case")
     hashed = meanwhile(partial(inputs_of, case))
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body, threads)
@@ -106,12 +112,14 @@ def assess(
     counted = Counted(share, proves_worst)
     key = key_of(inputs, counted)
 
-    refuse_foreign(folder, force=force)
-    with locked(folder), one_blas_thread(), Checkpoint(folder, key) as state:
+    claim = claimed(folder, force=force, case_file=case.path, inputs=own)  # another run may have been there meanwhile
+    with claim, one_blas_thread(), Checkpoint(folder, key) as state:
+        remember_case(folder, case.path)
         groups = weld_groups(body, scratch=state.folder / "forces")
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
+            stage("preparing the records of the events (%d)", len(plan.passes))
             work = open_work(groups, plan, counted, state.folder, threads)
             give_back()
             if executor is None:
@@ -120,16 +128,15 @@ def assess(
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             done.doubts.add((*body.warnings, *record_warnings))
+            stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
-            with result_tables(unpublished) as tables, closing(assessed):
+            with result_tables(unpublished, key) as tables, closing(assessed):
                 cycles = CycleWriter(tables["cycles"], work.loads, case.curve)
                 for group in assessed:
                     worst = write_group(tables, group, work)
-                    used_up = group.result.mission.utilisation
-                    kept = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
-                    cycles.add([kept_point(group.model, point) for point in kept])
+                    cycles.add([kept_point(group.model, point) for point in cycles_kept_of(worst, group, work)])
                     done.add(group, work, worst)
-                    del group, used_up  # not to be held until the next one is there
+                    del group  # not to be held until the next one is there
                     give_back()
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
@@ -137,11 +144,11 @@ def assess(
             done.doubts.add(sampling_warnings(body, done))
             warnings = done.doubts.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
-            write_json(unpublished / "provenance.json", record)
-            if report:
-                write_vtp(unpublished)
-                write_report(unpublished, case.path, verification)
-            publish(unpublished, folder)
+            write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
+            write_list(unpublished, write_documents(unpublished, case, verification) if report else [], key)
+            stage("putting the result in place")
+            refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on
+            publish(unpublished, folder, stale_files(folder, own))
             log.info("the result is complete")
     return Assessment(folder, done.fulfilled, warnings, done.groups, done.reused)
 
@@ -155,6 +162,13 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
     if executor is not None and not callable(getattr(executor, "submit", None)):
         what = f"{type(executor).__name__} is no executor"
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
+
+
+def write_documents(folder: Path, case: Case, verification: Verification) -> list[Path]:
+    """Write picture and page beside the tables of a result that is not published yet."""
+    checks = verification() if callable(verification) else verification
+    stage("writing %s and %s", PAGE, PICTURE)
+    return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]
 
 
 @dataclass(slots=True, eq=False)
@@ -203,6 +217,12 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
         tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds, some))
     tables["welds"].write(weld_rows(model, plan, result.mission, worst))
     return worst
+
+
+def cycles_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[WorstPoint]:
+    """Choose the worst points of a group whose cycles go into ``cycles.parquet``."""
+    used_up = group.result.mission.utilisation
+    return [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

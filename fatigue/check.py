@@ -1,27 +1,21 @@
 """A dry run: read and check everything, and say how large the job is, before anything is counted."""
 
+import os
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import numpy as np
-
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
-from fatigue.life.curves import catalogue, damage_law
-from fatigue.life.rainflow import BlockCount, count_block
-from fatigue.life.rainflow_fast import count_block_fast, record_of
 from fatigue.pipeline.body import read_body
 from fatigue.pipeline.doubts import Doubts
-from fatigue.pipeline.events import DOUBLE_PRECISION_SAMPLES, mission_plan
+from fatigue.pipeline.events import mission_plan
 from fatigue.pipeline.model import solve_group
+from fatigue.pipeline.trial import JobTime, job_time
 from fatigue.pipeline.weld_groups import weld_groups
-
-_TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
+from fatigue.stages import stage
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,8 +23,9 @@ class CheckedCase:
     """Sizes of a case that passed every check, and the doubts that remain.
 
     Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded, ``candidates`` are
-    candidates; ``samples`` are stress samples of one face: stations times kept samples, over all events. ``warnings``
-    are summed up as those of an assessment are.
+    candidates; ``samples`` are stress samples of one face: stations times kept samples, over all events.
+    ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` that with
+    every point counted, ``estimate`` what they consist of. ``warnings`` are summed up as those of an assessment are.
     """
 
     title: str
@@ -44,6 +39,8 @@ class CheckedCase:
     samples: int
     distance_km: float
     estimated_s: float
+    estimated_exact_s: float
+    estimate: JobTime
     warnings: tuple[Problem, ...]
 
     @property
@@ -53,8 +50,10 @@ class CheckedCase:
 
     def as_record(self) -> dict[str, Any]:
         """For machines."""
-        return {name: getattr(self, name) for name in self.__slots__ if name != "warnings"} | {
-            "warnings": [str(problem) for problem in self.warnings]
+        plain = {name: getattr(self, name) for name in self.__slots__ if name not in ("warnings", "estimate")}
+        return plain | {
+            "estimate": asdict(self.estimate),
+            "warnings": [str(problem) for problem in self.warnings],
         }
 
     def as_text(self) -> str:
@@ -67,7 +66,7 @@ class CheckedCase:
                 f"  modes            {self.modes}",
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",
-                f"  estimated time   {_duration(self.estimated_s)} on one processor core, if every point is counted",
+                f"  estimated time   {_time_text(self.estimate)}",
                 f"  warnings         {sum(warning.count for warning in self.warnings)}",
             ]
         )
@@ -81,11 +80,14 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     CaseError, DataError : what an assessment would refuse, this refuses with the same words
     """
     case = given_case(case)
+    stage("reading and checking the case")
+    begin = time.process_time()
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
     doubts = Doubts()
     doubts.add((*body.warnings, *record_warnings))
     parts = stations = 0
+    stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
         groups = weld_groups(body, Path(scratch))
         for number in range(len(groups)):
@@ -93,6 +95,10 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
             parts += len(model.lines)
             stations += len(model.stations)
             doubts.add(model.warnings)
+        stage("timing a small piece")
+        read_s = time.process_time() - begin
+        sample = solve_group(groups, len(groups) // 2)
+        estimate = job_time(body, plan, sample, stations, read_s, Path(scratch))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,
@@ -105,37 +111,25 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         events=len(plan.passes),
         samples=samples,
         distance_km=sum(p.length or 0.0 for p in plan.passes),
-        estimated_s=samples * _seconds_per_sample(len(body.modes.mode), 2 * samples > DOUBLE_PRECISION_SAMPLES),
+        estimated_s=estimate.total,
+        estimated_exact_s=estimate.total_exact,
+        estimate=estimate,
         warnings=doubts.listed(),
     )
 
 
-def _seconds_per_sample(modes: int, single: bool) -> float:
-    """Time a small block of noise through superposition and counting, in the precision of the job, on this machine."""
-    rng = np.random.default_rng(0)
-    q = rng.standard_normal((modes, _TRIAL_SAMPLES))
-    shapes = rng.standard_normal((2, _TRIAL_ROWS, modes))
-    law = damage_law(catalogue()["master-steel"], None, "none", 1e7)
-
-    record, size, ratio = record_of(q), np.ones(_TRIAL_ROWS), np.zeros((_TRIAL_ROWS, 2))
-    count: Callable[..., BlockCount] = partial(
-        count_block_fast if single else count_block,
-        uses_bending_ratio=True,
-        residue="repeat",
-        yield_MPa=None,
-        mean_stress=False,
+def _time_text(needed: JobTime) -> str:
+    """Say how long it takes, and what that includes."""
+    cores = os.cpu_count() or 1
+    shared = needed.events + needed.counting
+    counting = f"{_duration(needed.counting)} counting"
+    if needed.screened:
+        counting += f" where bounds settle what they can ({_duration(needed.counting_exact)} with --exact)"
+    return (
+        f"{_duration(needed.total)} of one processor core, {_duration(needed.total - shared + shared / cores)} on the "
+        f"{cores} of this machine: {counting}, {_duration(needed.report)} the report; the first run of a version "
+        "compiles for half a minute more"
     )
-
-    def run() -> None:
-        if single:
-            count(shapes[0], shapes[1], record, size, ratio, law)
-        else:
-            count(shapes[0] @ q, shapes[1] @ q, size, ratio, law)
-
-    run()  # compiles, or loads what was compiled before
-    start = time.perf_counter()
-    run()
-    return (time.perf_counter() - start) / (_TRIAL_ROWS * _TRIAL_SAMPLES)
 
 
 def _duration(seconds: float) -> str:

@@ -1,9 +1,7 @@
 """The diagnosis as a story: a finished result, its records once more, and what makes the damage, where and when."""
 
 import logging
-import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -13,16 +11,27 @@ import pandas as pd
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import Case, load_case
+from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.body import Body, read_body
-from fatigue.pipeline.checkpoint import locked
+from fatigue.pipeline.checkpoint import locked, settle_folder
 from fatigue.pipeline.events import event_loads, mission_plan
-from fatigue.pipeline.folder import move, result_log
+from fatigue.pipeline.folder import publish, result_log, staging_in
 from fatigue.pipeline.weld_groups import weld_groups
-from fatigue.results import read_provenance, read_rows, row_count, sha256, table_writer
+from fatigue.results import (
+    ASSESSED,
+    case_of,
+    changed_inputs,
+    named_case,
+    read_provenance,
+    read_rows,
+    refuse_mixed,
+    row_count,
+    table_writer,
+)
 from fatigue.spectrum.bands import third_octaves
+from fatigue.stages import stage
 from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.findings import Diagnosis, findings
 from fatigue.why.levers import Levers, best_levers
@@ -66,23 +75,30 @@ def diagnose(
     """
     refuse(CaseError, _senseless(edges_hz, bin_km, share_of_limit))
     folder, case_file = Path(folder), None if case_file is None else Path(case_file)
-    body = _same_body(folder, case_file)
+    stage("reading the result and its case")
+    settle_folder(folder)
+    record = read_provenance(folder)
+    refuse_mixed(folder, record, ASSESSED)
+    body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
     edges = third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64)
     with (
         locked(folder),
         result_log(folder),
         threadpool_limits(limits=1, user_api="blas"),
-        _staging(folder) as staging,
+        staging_in(folder) as staging,
     ):
+        _refuse_another(folder, record)
         numbers = numbers_of_point(plan, body.modes, edges, bin_km)
         chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
+        stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         points, worst = gather_points(folder, groups, chosen), chosen.worst
         assessed = assessed_rows(folder, chosen.rows, plan)
         loads = event_loads(groups, plan, staging / "histories")
 
+        stage("sharing out the damage of %d points, event by event (%d)", len(points), len(plan.passes))
         events: list[EventAttribution] = []
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))
@@ -95,13 +111,14 @@ def diagnose(
         levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
         progress("diagnosis", len(loads), len(loads))
 
+        stage("writing tables")
         finished = staging / "tables"
         finished.mkdir()
         for name, pieces in _tables(body, plan, attribution, levers, verdicts).items():
-            with table_writer(finished, name) as table:
+            with table_writer(finished, name, record.get("result", "")) as table:
                 for rows in pieces:
                     table.write(rows)
-        move(finished, folder)
+        publish(finished, folder)
     return findings(body, plan, attribution, levers, verdicts, chosen.what)
 
 
@@ -161,37 +178,18 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
     return [table[number::events].reset_index(drop=True) for number in range(events)]
 
 
-def _same_body(folder: Path, case_file: Path | None) -> Body:
+def _same_body(record: Mapping[str, Any], folder: Path, case_file: Path | None) -> Body:
     """Read the body of a result again and make sure that none of its files has changed since."""
-    record = read_provenance(folder)
-    path = case_file or folder / record["case_path"]
+    path = case_of(record, folder) if case_file is None else named_case(record, case_file)
     if not path.is_file():
-        raise DataError(
-            Problem("no_case", str(path), "the case of this result is not there any more", "Give the case file")
-        )
-    case = load_case(path)
-    refuse(DataError, _changed_inputs(case, record))
-    return read_body(case, strict=False)
+        what, remedy = "the case of this result is not there any more", "Name the case file with --case CASE"
+        raise DataError(Problem("missing_case", str(path), what, remedy))
+    refuse(DataError, changed_inputs(record, path))
+    return read_body(load_case(path), strict=False)
 
 
-def _changed_inputs(case: Case, record: Mapping[str, Any]) -> list[Problem]:
-    """Compare every input file with the hash the result recorded."""
-    problems = []
-    for given in record["inputs"]:
-        path = case.path.parent / given["file"]
-        if not path.is_file() or sha256(path) != given["sha256"]:
-            what = "has changed since the assessment" if path.is_file() else "is not there any more"
-            problems.append(Problem("changed_input", str(path), what, "Run the assessment again"))
-    return problems
-
-
-@contextmanager
-def _staging(folder: Path) -> Iterator[Path]:
-    """Give a hidden folder to work in; tables move out of it when all are whole."""
-    staging = folder / ".fatigue-diagnosis"
-    shutil.rmtree(staging, ignore_errors=True)
-    staging.mkdir()
-    try:
-        yield staging
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
+def _refuse_another(folder: Path, record: Mapping[str, Any]) -> None:
+    """Refuse a folder whose result was replaced since its provenance was read."""
+    if read_provenance(folder) != record:
+        what = "the result was replaced by another run just now"
+        raise DataError(Problem("other_result", str(folder), what, "Diagnose again"))

@@ -5,9 +5,20 @@ from typing import Any
 
 import click
 
+from fatigue.cli.early import (
+    missing_foreign,
+    missing_tables,
+    refuse_all,
+    refuse_bad_modes,
+    refuse_existing,
+    refuse_foreign_conversion,
+    refuse_unknown_curve,
+    refuse_unknown_units,
+)
 from fatigue.cli.main import as_json, cli, print_json
 
 _FILE = click.Path(path_type=Path)
+ABOVE_ZERO = click.FloatRange(0.0, min_open=True)
 _COLOUR = {"red": "red", "amber": "yellow", "green": "green"}
 
 _sources = [
@@ -72,7 +83,7 @@ def weld_sources(command: Any) -> Any:
 @click.option("--columns", type=_FILE, help="CSV column,mode: which column belongs to which mode.")
 @click.option("--time-column", help="Name of the time column.")
 @click.option(
-    "--resample", type=float, metavar="STEP_S", help="Interpolate records with uneven steps onto this step [s]."
+    "--resample", type=ABOVE_ZERO, metavar="STEP_S", help="Interpolate records with uneven steps onto this step [s]."
 )
 @click.option("--simulation-modes", type=_FILE, help="CSV mode,frequency_hz,modal_mass of the simulation's modes.")
 @click.option("--interface-modes", default="", help="Residual, constraint or attachment modes, as 31-52.")
@@ -91,8 +102,10 @@ def weld_sources(command: Any) -> Any:
 )
 @click.option("--curve", default="master-aluminium", show_default=True, help="S-N curve of the first case.toml.")
 @click.option("--title", default="", help="Title of the first case.toml.")
-@click.option("--speed", type=float, default=100.0, show_default=True, help="Speed of the first case.toml [km/h].")
-@click.option("--target-km", type=float, default=1.0e6, show_default=True, help="Target of the first case.toml [km].")
+@click.option("--speed", type=ABOVE_ZERO, default=100.0, show_default=True, help="Speed of the first case.toml [km/h].")
+@click.option(
+    "--target-km", type=ABOVE_ZERO, default=1.0e6, show_default=True, help="Target of the first case.toml [km]."
+)
 @click.option("--force", is_flag=True, help="Overwrite foreign and changed files in DIR.")
 @click.option("--keep-case", is_flag=True, help="Keep the case.toml in DIR as it is, edited or not.")
 @weld_sources
@@ -140,6 +153,13 @@ def convert(
       fatigue convert --mesh model.bdf --forces run.op2 --coordinates q.csv -o body
       fatigue assess body/case.toml -o result
     """
+    refuse_all(missing_foreign(forces, mesh, *coordinates))
+    refuse_all(missing_tables(register, node_lists, columns, simulation_modes))
+    refuse_unknown_units(force_units=units, coordinate_units=coordinate_units)
+    for option, modes in (("--interface-modes", interface_modes), ("--ignore-modes", ignore_modes)):
+        refuse_bad_modes(option, modes)
+    refuse_unknown_curve(curve)
+    refuse_foreign_conversion(output, force=force)
     from fatigue.readers.convert import ConvertOptions
     from fatigue.readers.convert import convert as run
     from fatigue.readers.displacement.record import Displacement
@@ -241,6 +261,13 @@ def welds(
     Example:
       fatigue welds model.bdf -o welds_register.csv --vtp lines.vtp
     """
+    refuse_all(missing_foreign(mesh))
+    refuse_all(missing_tables(register, node_lists))
+    refuse_unknown_units(units=units)
+    if output != register:
+        remedy = "Give it as the register too, or use --force"
+        refuse_existing(output, force=force, what="the file exists", remedy=remedy)
+    refuse_existing(vtp, force=force, what="is there already", remedy="Use --force to overwrite it")
     from dataclasses import asdict
 
     from fatigue.errors import DataError, Problem
@@ -277,14 +304,15 @@ def tension_patch(file: Path, results: bool, force: bool) -> None:
       fatigue tension-patch patch.bdf
       fatigue tension-patch patch.op2 --results
     """
-    from fatigue.errors import DataError, Problem
+    if results:
+        refuse_all(missing_foreign(file))
+    else:
+        refuse_existing(file, force=force, what="is there already", remedy="Use --force to overwrite it")
     from fatigue.readers.formats import read_forces
     from fatigue.readers.tension_patch import DECK, convention_of
 
     if results:
         click.echo(f'force_convention = "{convention_of(read_forces(file, None))}"')
         return
-    if file.exists() and not force:
-        raise DataError(Problem("foreign_file", str(file), "is there already", "Use --force to overwrite it"))
     file.write_text(DECK, encoding="ascii")
     click.echo(f"{file}: run it in your solver, then fatigue tension-patch RESULTS --results")

@@ -11,9 +11,11 @@ from typing import Any
 import click
 
 from fatigue import __version__
+from fatigue.cli.early import refuse_missing_case, refuse_missing_result
 from fatigue.cli.memory import hold_little
-from fatigue.cli.progress import progress_bar
-from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.cli.progress import narrated
+from fatigue.errors import DataError, FatigueError, Problem, refuse
+from fatigue.stages import stage
 
 log = logging.getLogger("fatigue")
 
@@ -58,17 +60,23 @@ def cli(quiet: bool, verbose: bool) -> None:
 @click.argument("case_file", metavar="CASE", type=_CASE)
 @strict
 @as_json
-def check(case_file: Path, strict: bool, as_json: bool) -> None:
+@click.pass_obj
+def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool) -> None:
     """Read and check a case and all its files; print sizes and the estimated time.
 
     \b
     Example:
       fatigue check body/case.toml --strict
     """
-    from fatigue.case import load_case
+    refuse_missing_case(case_file)
+    from fatigue.case import check_files, load_case
+
+    case = load_case(case_file)
+    check_files(case)
     from fatigue.check import check_case
 
-    found = check_case(load_case(case_file), strict=strict)
+    with narrated(quiet=options["quiet"]):
+        found = check_case(case, strict=strict)
     if as_json:
         print_json(found.as_record())
         return
@@ -97,7 +105,9 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
     "that no other is worse: about half the time.",
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask cluster (package `distributed`).")
-@click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue did not write.")
+@click.option(
+    "--force", is_flag=True, help="Replace the result of another case, and files in DIR that fatigue did not write."
+)
 @click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
 @strict
@@ -120,7 +130,8 @@ def assess(
 ) -> None:
     """Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
 
-    An interrupted run goes on where it was when the same command is given again.
+    An interrupted run goes on where it was when the same command is given again. What was derived from an earlier
+    result of the same case in DIR (page, PDF, workbook, CSV, diagnosis) is removed; files of your own stay.
 
     \b
     Example:
@@ -128,14 +139,22 @@ def assess(
     """
     if exact and (screen is not None or likely_worst):
         raise click.UsageError("--exact counts every point: leave out --screen and --likely-worst")
+    refuse_missing_case(case_file)
+    from fatigue.case import check_files, load_case
+    from fatigue.pipeline.folder import refuse_foreign
+    from fatigue.results import JOURNAL
+
+    case = load_case(case_file)
+    check_files(case)
+    if not (output / JOURNAL).exists():
+        own = [case_file, *case.input_files().values()]
+        refuse_foreign(output, force=force, case_file=case_file, inputs=own)
     from fatigue.assess import assess as run
-    from fatigue.case import load_case
     from fatigue.cluster import cluster_executor
     from fatigue.results.summary import result_summary
 
-    case = load_case(case_file)
     workers = cluster_executor(scheduler) if scheduler else nullcontext()
-    with progress_bar(quiet=options["quiet"]) as progress, workers as executor:
+    with narrated(quiet=options["quiet"]) as progress, workers as executor:
         done = run(
             case,
             output,
@@ -146,7 +165,7 @@ def assess(
             strict=strict,
             force=force,
             report=not no_report,
-            verification=() if no_report else _verification(),
+            verification=tuple if no_report else _verification,
             progress=progress,
         )
     _print_warnings(done.warnings)
@@ -172,6 +191,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
       fatigue show result --top 20
       fatigue show result --weld W1_roof_bracket_neg --json
     """
+    refuse_missing_result(folder)
     from fatigue.naming import composed
     from fatigue.results.summary import result_summary
 
@@ -187,37 +207,33 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
 @click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (package `xlsxwriter`).")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
+@click.option("--case", "case_file", type=_CASE, help="Case file, if it is not where the result says.")
 @click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
-def report(folder: Path, pdf: bool, xlsx: bool, csv: bool, force: bool) -> None:
+@click.pass_obj
+def report(
+    options: dict[str, bool], folder: Path, pdf: bool, xlsx: bool, csv: bool, case_file: Path | None, force: bool
+) -> None:
     """Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
 
-    \b
-    Example:
-      fatigue report result --pdf --xlsx
-    """
-    from fatigue.report.export import CSV_TABLES, write_csv, write_xlsx
-    from fatigue.report.page import write_report
-    from fatigue.report.pdf import print_pdf
-    from fatigue.report.vtp import write_vtp
-    from fatigue.results import read_provenance
+    Without the case of the result the page lacks mesh, histories and spectra, and says so.
 
-    record = read_provenance(folder)
-    asked = {"nodes.xlsx": xlsx, "report.pdf": pdf} | {f"{table}.csv": csv for table in CSV_TABLES}
-    taken = [name for name, wanted in asked.items() if wanted and (folder / name).exists()]
-    if taken and not force:
-        what, remedy = "is there already", "Use --force to write it again"
-        raise DataError(Problem("foreign_files", str(folder / taken[0]), what, remedy))
-    html = write_report(folder, folder / record["case_path"], _verification())
-    written = [html, write_vtp(folder)]
-    if xlsx:
-        written.append(write_xlsx(folder))
-    if csv:
-        written += write_csv(folder)
-    if pdf:
-        print_pdf(html, folder / "report.pdf")
-        written.append(folder / "report.pdf")
-    for path in written:
+    \b
+    Examples:
+      fatigue report result --pdf --xlsx
+      fatigue report result --case body/case.toml
+    """
+    refuse_missing_result(folder)
+    from fatigue.documents import AGAIN, CSV, missing_extras, write_documents
+    from fatigue.results import PRINT, WORKBOOK
+
+    wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
+    for problem in missing_extras(wanted).values():
+        log.warning("%s Going on with the others.", problem)
+    with narrated(quiet=options["quiet"]):
+        done = write_documents(folder, wanted, case_file=case_file, verification=_verification, force=force)
+    for path in done.written:
         click.echo(path)
+    refuse(DataError, done.problems)
 
 
 @cli.command()
@@ -254,12 +270,13 @@ def diagnose(
     Example:
       fatigue diagnose result
     """
-    from fatigue.diagnose import diagnose as run
-    from fatigue.report.page import write_report
-    from fatigue.results import read_provenance
-
     edges_hz = None if edges is None else _numbers(edges, "--edges")
-    with progress_bar(quiet=options["quiet"]) as progress:
+    refuse_missing_result(folder, case_file)
+    from fatigue.diagnose import diagnose as run
+    from fatigue.documents import write_documents
+    from fatigue.results import PAGE
+
+    with narrated(quiet=options["quiet"]) as progress:
         found = run(
             folder,
             case_file=case_file,
@@ -268,8 +285,8 @@ def diagnose(
             bin_km=bin_km,
             progress=progress,
         )
-    if (folder / "report.html").exists():
-        write_report(folder, case_file or folder / read_provenance(folder)["case_path"], _verification())
+        if (folder / PAGE).exists():
+            write_documents(folder, [PAGE], case_file=case_file, verification=_verification)
     if as_json:
         print_json(found.as_record())
     else:
@@ -290,7 +307,10 @@ def diagnose(
 @click.option("--all", "every", is_flag=True, help="Recount all points.")
 @click.option("--case", "case_file", type=_CASE, help="Case file, if it is not where the result says.")
 @as_json
-def verify(folder: Path | None, sample: int, every: bool, case_file: Path | None, as_json: bool) -> None:
+@click.pass_obj
+def verify(
+    options: dict[str, bool], folder: Path | None, sample: int, every: bool, case_file: Path | None, as_json: bool
+) -> None:
     """Check the installed program against closed forms and golden values, or recount a result independently.
 
     The recount reads the input files itself, with dense line matrices and the `rainflow` package, and shares no code
@@ -302,14 +322,21 @@ def verify(folder: Path | None, sample: int, every: bool, case_file: Path | None
       fatigue verify
       fatigue verify --results result --all
     """
+    if folder is not None:
+        refuse_missing_result(folder, case_file)
+    elif case_file is not None:
+        raise click.UsageError("--case names the case of a result: give --results DIR as well")
     from fatigue.verify.check import VerificationTable
     from fatigue.verify.recount import Recount, recount
     from fatigue.verify.table import verification_table
 
-    if folder is None:
-        found: VerificationTable | Recount = verification_table()
-    else:
-        found = recount(folder, sample=None if every else sample, case_file=case_file)
+    with narrated(quiet=options["quiet"]):
+        if folder is None:
+            stage("computing the known values")
+            found: VerificationTable | Recount = verification_table()
+        else:
+            stage("recounting from the input files")
+            found = recount(folder, sample=None if every else sample, case_file=case_file)
     if as_json:
         print_json(found.as_record())
     else:
@@ -318,59 +345,11 @@ def verify(folder: Path | None, sample: int, every: bool, case_file: Path | None
         raise SystemExit(4)
 
 
-@cli.command()
-@click.argument("folder", metavar="DIR", type=_FOLDER)
-@click.option("--force", is_flag=True, help="Overwrite files of the same names.")
-def example(folder: Path, force: bool) -> None:
-    """Write the shipped car body, a case in two variants, to DIR.
-
-    \b
-    Example:
-      fatigue example demo && fatigue assess demo/case.toml -o result
-    """
-    from fatigue.example import write_example
-
-    for case_file in write_example(folder, force=force):
-        click.echo(case_file)
-
-
-@cli.command()
-@click.argument("folder", metavar="DIR", type=_FOLDER)
-@click.option("--nodes", type=click.IntRange(min=10), default=10_000, show_default=True, help="Weld nodes.")
-@click.option("--modes", type=click.IntRange(min=2), default=60, show_default=True, help="Modes.")
-@click.option("--events", type=click.IntRange(min=1), default=3, show_default=True, help="Events.")
-@click.option("--seconds", type=float, default=60.0, show_default=True, help="Length of a record [s].")
-@click.option("--rate", type=float, default=250.0, show_default=True, help="Sampling rate [Hz].")
-@click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is drawn.")
-def synth(folder: Path, nodes: int, modes: int, events: int, seconds: float, rate: float, seed: int) -> None:
-    """Write a synthetic case of any size, with a realistic spread of stress levels, to try or time the program on.
-
-    \b
-    Example:
-      fatigue synth big --nodes 100000 --modes 100 --events 12
-    """
-    from fatigue.synth import Size, synthesize
-
-    click.echo(synthesize(folder, Size(nodes, modes, events, seconds, rate), seed))
-
-
-@cli.command()
-def schema() -> None:
-    """Print the JSON Schema of case.toml, for editors that complete and check it.
-
-    \b
-    Example:
-      fatigue schema > case.schema.json
-    """
-    from fatigue.case import case_schema
-
-    print_json(case_schema())
-
-
 def _verification() -> Sequence[Mapping[str, Any]]:
     """Compute the known values that the report shows beside what they should be."""
     from fatigue.verify.table import verification_table
 
+    stage("computing the known values")
     checks: Sequence[Mapping[str, Any]] = verification_table().as_record()["checks"]
     return checks
 

@@ -7,7 +7,7 @@ import os
 import shutil
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.pipeline.folder import STAGING, STATE, complete, refuse_foreign
 from fatigue.pipeline.group import GroupResult, arrays_of
-
-_FOLDER = ".fatigue-state"
+from fatigue.results import JOURNAL
 
 
 def state_key(record: Mapping[str, Any]) -> str:
@@ -35,8 +35,8 @@ class Checkpoint:
     """
 
     def __init__(self, result_folder: Path, key: str) -> None:
-        self.folder = result_folder / _FOLDER / key
-        self._root = result_folder / _FOLDER
+        self.folder = result_folder / STATE / key
+        self._root = result_folder / STATE
 
     def __enter__(self) -> Self:
         """Open the folder and drop what runs with other inputs left there."""
@@ -50,7 +50,8 @@ class Checkpoint:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Remove the folder after success, or when nothing in it is worth keeping for the next run."""
-        if kind is None or not any(self.folder.glob("*.npz")):
+        is_of_use = any(self.folder.glob("*.npz")) or (self._root.parent / JOURNAL).exists()
+        if kind is None or not is_of_use:
             shutil.rmtree(self._root, ignore_errors=True)
 
     def load(self, part: str) -> GroupResult | None:
@@ -130,6 +131,33 @@ def locked(result_folder: Path) -> Iterator[None]:
             path.unlink(missing_ok=True)
             if ours and not any(result_folder.iterdir()):
                 result_folder.rmdir()  # refused before anything was written: leave no empty folder behind
+
+
+@contextmanager
+def claimed(folder: Path, *, force: bool, case_file: Path, inputs: Collection[Path]) -> Iterator[None]:
+    """Hold a result folder for one assessment that may write there, see `folder.refuse_foreign`.
+
+    Raises
+    ------
+    DataError : another run is writing to the folder, or what is in it is not this case's own
+    """
+    with locked(folder):
+        complete(folder)
+        refuse_foreign(folder, force=force, case_file=case_file, inputs=inputs)
+        yield
+
+
+def settle_folder(folder: Path) -> None:
+    """Complete a publication that was cut off, before a result folder is read.
+
+    Raises
+    ------
+    DataError : another run is writing to the folder
+    """
+    if (folder / JOURNAL).exists():
+        with locked(folder):
+            complete(folder)
+            shutil.rmtree(folder / STAGING, ignore_errors=True)
 
 
 def _take(descriptor: int) -> bool:

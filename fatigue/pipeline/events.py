@@ -3,6 +3,7 @@
 import logging
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -92,11 +93,28 @@ def event_load(
     body: Body, event: Event, upsample: int, *, single: bool = False, scratch: Path | None = None
 ) -> EventLoad:
     """Read the record of one event and compute what all stations share; ``scratch``: folder to keep the record in."""
+    load = load_of(body, event, _record(body, event, scratch), upsample, single=single, scratch=scratch)
+    if upsample > 1 and scratch is not None:
+        (scratch / RECORD).unlink()
+    return load
+
+
+def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> ModalHistory:
+    """Read the record of an event and keep the first samples behind its start-up only."""
     history = _record(body, event, scratch)
+    shortened = replace(history, q=np.ascontiguousarray(history.q[:, 0:samples]))
+    (scratch / RECORD).unlink(missing_ok=True)
+    return shortened
+
+
+def load_of(
+    body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool, scratch: Path | None = None
+) -> EventLoad:
+    """Compute what all stations share of a record; ``scratch``: folder for what is computed of each sample."""
     try:
         with np.errstate(over="raise"):
             spectra = event_spectra(body, history)
-            load = prepare_event(
+            return prepare_event(
                 history,
                 body.case.residue(event),
                 event.stress_factor,
@@ -114,9 +132,6 @@ def event_load(
             "Look for a value that is far too large",
         )
         raise NumericalError(problem) from None
-    if upsample > 1 and scratch is not None:
-        (scratch / RECORD).unlink()
-    return load
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:

@@ -1,6 +1,5 @@
 """Where every number of a result comes from: inputs, versions, curves, rules and doubts, as one record."""
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -11,7 +10,7 @@ from fatigue.pipeline.body import Body
 from fatigue.pipeline.folder import OUTPUTS
 from fatigue.pipeline.rated_curves import RatedCurve
 from fatigue.pipeline.work import Work
-from fatigue.results import software_versions
+from fatigue.results import software_versions, way_to_case
 
 RESIDUE_RULES = {
     "repeat": "the record recurs: every cycle closes (ASTM E1049-85 5.4.5, ISO 12110-2)",
@@ -38,7 +37,7 @@ def provenance_record(
         "software": software_versions(),
         "title": case.title,
         "case_file": case.path.name,
-        "case_path": Path(os.path.relpath(case.path, folder)).as_posix(),
+        "case_path": way_to_case(case.path, folder),
         "case_text": case.text,
         "inputs": list(inputs),
         "modes": {

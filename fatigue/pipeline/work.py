@@ -65,13 +65,14 @@ def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, t
     large = SHARE if any(load.single is not None for load in loads) else 0.0
     share = large if counted.share is None else counted.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
-    screening = None if share == 0.0 else _screening(share, counted.proves_worst, loads, scratch, threads)
+    screening = None if share == 0.0 else screening_of(share, counted.proves_worst, loads, scratch, threads)
     return Work(groups, loads, plan, screening, kept_from=large)
 
 
-def _screening(
+def screening_of(
     share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path, threads: int | None
 ) -> Screening:
+    """Prepare what settles points without counting, on some threads; see `Counted` and `open_work`."""
     return Screening(
         share=share,
         proves_worst=proves_worst,
@@ -82,10 +83,15 @@ def _screening(
     )
 
 
+def input_paths(case: Case) -> list[Path]:
+    """List every input file of a case, the case file included."""
+    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
+    return sorted(files)
+
+
 def inputs_of(case: Case) -> list[dict[str, str]]:
     """List every input file of a case with its hash."""
-    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
-    return input_register(sorted(files), case.path.parent)
+    return input_register(input_paths(case), case.path.parent)
 
 
 def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:

@@ -10,26 +10,31 @@ import pyarrow as pa
 from fatigue.errors import DataError, Problem
 from fatigue.extras import install_command
 from fatigue.report.wording import LONGEST
-from fatigue.results import TABLES, Column, read_provenance, read_table, row_groups
+from fatigue.results import (
+    CSV_TABLES,
+    TABLES,
+    WORKBOOK,
+    Column,
+    enlist,
+    read_provenance,
+    row_count,
+    row_groups,
+)
+from fatigue.results.belonging import MARK
 
-WORKBOOK = "nodes.xlsx"
-CSV_TABLES = ("nodes", "damage", "cycles", "welds")
 _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
 _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
 
 
-def write_xlsx(folder: Path | str) -> Path:
-    """Write ``nodes.xlsx``: all points, the welds, and what every column means.
-
-    Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an
-    equals sign stay texts. An infinite life is written as "> 1e+12"; what is not available is empty.
+def refuse_without_xlsxwriter() -> None:
+    """Refuse to write a workbook where the package for it is not installed.
 
     Raises
     ------
-    DataError : the package xlsxwriter is not installed, no finished result, or more points than a sheet holds
+    DataError : the package xlsxwriter is not installed
     """
     try:
-        import xlsxwriter  # noqa: PLC0415  (an optional extra)
+        import xlsxwriter  # noqa: F401, PLC0415  (an optional extra)
     except ImportError:
         raise DataError(
             Problem(
@@ -39,9 +44,26 @@ def write_xlsx(folder: Path | str) -> Path:
                 f"Run: {install_command('xlsxwriter')}, or write CSV",
             )
         ) from None
+
+
+def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
+    """Write ``nodes.xlsx``: all points, the welds, and what every column means.
+
+    Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an
+    equals sign stay texts. An infinite life is written as "> 1e+12"; what is not available is empty. The hash of the
+    result is a property of the workbook. ``into`` is another folder to write to, where it is not listed as a document
+    of the result.
+
+    Raises
+    ------
+    DataError : the package xlsxwriter is not installed, no finished result, or more points than a sheet holds
+    """
+    refuse_without_xlsxwriter()
+    import xlsxwriter  # noqa: PLC0415
+
     folder = Path(folder)
     record = read_provenance(folder)
-    points = len(read_table(folder, "nodes", ["node"]))
+    points = row_count(folder, "nodes")
     if points > _MOST_ROWS:
         raise DataError(
             Problem(
@@ -51,7 +73,7 @@ def write_xlsx(folder: Path | str) -> Path:
                 "Use nodes.parquet or CSV",
             )
         )
-    path = folder / WORKBOOK
+    path = (into or folder) / WORKBOOK
     options = {
         "constant_memory": True,
         "strings_to_formulas": False,
@@ -60,10 +82,14 @@ def write_xlsx(folder: Path | str) -> Path:
     }
     with xlsxwriter.Workbook(str(path), options) as book:
         book.set_properties({"title": record["title"], "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
+        if "result" in record:
+            book.set_custom_property(MARK, record["result"])
         formats = {name: book.add_format(look) for name, look in _FORMATS.items()}
         for name in ("nodes", "welds"):
             _write_sheet(book.add_worksheet(name), row_groups(folder, name), TABLES[name], formats)
         _write_meanings(book.add_worksheet("columns"), formats)
+    if into is None:
+        enlist(folder, path)
     return path
 
 
@@ -138,11 +164,12 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
     sheet.freeze_panes(1, 0)
 
 
-def write_csv(folder: Path | str) -> list[Path]:
+def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
     """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
-    that a spreadsheet would take for a formula gets an apostrophe before it.
+    that a spreadsheet would take for a formula gets an apostrophe before it. ``into`` is another folder to write to,
+    where they are not listed as documents of the result.
 
     Raises
     ------
@@ -153,13 +180,15 @@ def write_csv(folder: Path | str) -> list[Path]:
     paths = []
     for name in CSV_TABLES:
         texts = [column.name for column in TABLES[name] if column.type == "text"]
-        paths.append(folder / f"{name}.csv")
+        paths.append((into or folder) / f"{name}.csv")
         with paths[-1].open("w", encoding="utf-8", newline="") as file:
             for number, piece in enumerate(row_groups(folder, name)):
                 frame = piece.to_pandas(types_mapper={pa.int64(): pd.Int64Dtype()}.get)  # "33", not "33.0", beside none
                 for text in texts:
                     frame[text] = frame[text].map(_harmless, na_action="ignore")
                 frame.to_csv(file, index=False, header=number == 0, lineterminator="\n")
+    if into is None:
+        enlist(folder, *paths)
     return paths
 
 

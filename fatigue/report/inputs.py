@@ -13,18 +13,19 @@ from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.life.history import ModalHistory, kept
 from fatigue.readers.body import Mesh, read_mesh
 from fatigue.readers.history import read_history
-from fatigue.results import sha256
+from fatigue.results import case_of, sha256
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Inputs:
     """The inputs of a result: the case as it was assessed, the folder of its files and their hashes.
 
-    ``root`` is None where the case file was not found any more.
+    ``root`` is None where the case file was not found any more; ``lost`` says so then, and what to do.
     """
 
     case: Case
     root: Path | None
+    lost: Problem
     hashes: Mapping[str, str]
     modes: tuple[int, ...]
 
@@ -55,18 +56,11 @@ class Inputs:
 
     def _unchanged(self, name: str) -> Path:
         if self.root is None:
-            raise DataError(
-                Problem(
-                    "missing_case",
-                    name,
-                    "the case file is not where it was, or has changed",
-                    "Name the case file as well",
-                )
-            )
+            raise DataError(self.lost)
         path = self.root / name
         if not path.is_file():
             raise DataError(Problem("missing_file", name, "is not there any more", "Put it back"))
-        if sha256(path) not in self.hashes.values():
+        if sha256(path) != self.hashes.get(Path(name).as_posix()):
             raise DataError(Problem("changed_input", name, "has changed since the assessment", "Assess the case again"))
         return path
 
@@ -88,14 +82,23 @@ def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None)
         raise DataError(
             Problem("damaged_result", "provenance.json", f"holds no valid case ({error})", "Run the assessment again")
         ) from None
-    path = case_path or folder / record["case_path"]
-    root = path.parent if _holds(path, text) else None
+    path = case_path or case_of(record, folder)
+    found = _text(path)
+    root = path.parent if found == text else None
     hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
-    return Inputs(case, root, hashes, tuple(record["modes"]["used"]))
+    return Inputs(case, root, _lost(record, moved=found is None), hashes, tuple(record["modes"]["used"]))
 
 
-def _holds(path: Path, text: str) -> bool:
+def _text(path: Path) -> str | None:
     try:
-        return path.read_bytes().decode("utf-8-sig") == text
+        return path.read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError):
-        return False
+        return None
+
+
+def _lost(record: Mapping[str, Any], *, moved: bool) -> Problem:
+    """Say that the case file is gone or another, what cannot be shown without it, and the remedy."""
+    what = "the case file is not where it was" if moved else "the case file has changed since the assessment"
+    way, lacks = record["case_path"], "so mesh, stress histories and spectra are not shown"
+    remedy = "Name it as it was assessed with `fatigue report DIR --case CASE`" + ("" if moved else ", or assess again")
+    return Problem("missing_case", record["case_file"], f"{what} ({way} from the result folder), {lacks}", remedy)

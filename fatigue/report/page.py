@@ -1,5 +1,6 @@
 """The report: one HTML page that needs nothing but itself, made from a finished result folder."""
 
+import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,9 @@ from fatigue.report.inputs import Inputs, find_inputs
 from fatigue.report.result import Result, read_result
 from fatigue.report.weld_page import weld_page
 from fatigue.report.why import read_why
+from fatigue.results import PAGE, enlist
+
+log = logging.getLogger(__name__)
 
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only those of the worst welds are
@@ -29,9 +33,12 @@ WORST_POINTS = 50
 
 
 def write_report(
-    folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
+    folder: Path | str,
+    case_path: Path | str | None = None,
+    verification: Sequence[Mapping[str, Any]] = (),
+    into: Path | None = None,
 ) -> Path:
-    """Write ``report.html`` beside the tables of a finished result.
+    """Write ``report.html`` beside the tables of a finished result, and log what had to be left out.
 
     Parameters
     ----------
@@ -41,6 +48,7 @@ def write_report(
         the page, with the reason.
     verification : checks of the installed program to be shown, each with ``topic, case, quantity, unit, expected,
         found, difference, tolerance, source, passed``
+    into : another folder to write to; the page is not listed among the documents of the result then
 
     The same result and inputs give the same bytes.
 
@@ -48,8 +56,11 @@ def write_report(
     ------
     DataError : no finished result in the folder
     """
-    path = Path(folder) / "report.html"
+    folder = Path(folder)
+    path = (into or folder) / PAGE
     path.write_text(report_page(folder, case_path, verification), encoding="utf-8", newline="\n")
+    if into is None:
+        enlist(folder, path)
     return path
 
 
@@ -65,11 +76,14 @@ def report_page(
     details, steps = _details(result, inputs, missing)
     body = _body(inputs, missing)
     why = read_why(folder, result)
+    for problem in missing:
+        log.warning("the report lacks something: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     figs = Figures()
     context = {
         "title": record["title"],
         "record": record,
+        "result": record.get("result", ""),
         "missing": missing,
         "head": _head(result),
         "assumptions": method.assumptions(record),

@@ -19,8 +19,8 @@ _WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Applicatio
 TIME_LIMIT_S = 300.0
 
 
-def print_pdf(html: Path | str, pdf: Path | str) -> None:
-    """Print a report to PDF: all figures and details, paginated for A4.
+def print_pdf(html: Path | str, pdf: Path | str, remark: str = "") -> None:
+    """Print a report to PDF: all figures and details, paginated for A4; ``remark``: a comment for its last line.
 
     The page draws all its figures before it has finished loading when its address ends in ``#print``.
 
@@ -28,7 +28,7 @@ def print_pdf(html: Path | str, pdf: Path | str) -> None:
     ------
     DataError : no browser is installed, it fails, or there is no such page
     """
-    html = Path(html)
+    html, pdf = Path(html), Path(pdf)
     if not html.is_file():
         raise DataError(Problem("missing_file", str(html), "there is no such page", "Write the report first"))
     browser = find_browser()
@@ -58,6 +58,9 @@ def print_pdf(html: Path | str, pdf: Path | str) -> None:
                 )
             )
         shutil.copyfile(printed, pdf)
+        if remark:  # a comment behind the end marker is allowed (ISO 32000-1, 7.2.4 and 7.5.5)
+            with pdf.open("ab") as file:
+                file.write(f"% {remark}\n".encode("ascii"))
 
 
 def find_browser() -> Path:

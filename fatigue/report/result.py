@@ -10,7 +10,16 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.report.domains import Domains, read_domains
-from fatigue.results import assessed, read_provenance, read_rows, read_table, read_welds, rows_of_welds, worst_toes
+from fatigue.results import (
+    assessed,
+    read_provenance,
+    read_rows,
+    read_table,
+    read_welds,
+    refuse_mixed,
+    rows_of_welds,
+    worst_toes,
+)
 
 POINT = ("weld", "part", "order", "surface")
 _WORST = ("weld", "worst_part", "worst_order", "worst_surface")
@@ -106,9 +115,10 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
 
     Raises
     ------
-    DataError : no finished result there, or a table is damaged
+    DataError : no finished result there, a table is damaged or of another result
     """
     record = read_provenance(folder)
+    refuse_mixed(folder, record)
     domains = read_domains(folder, [event["event"] for event in record["mission"]["events"]])
     toes = int(np.count_nonzero(read_table(folder, "nodes", ["toe"])["toe"].to_numpy()))
     worst = read_rows(folder, "nodes", worst_toes(folder, worst_points)).to_pandas()

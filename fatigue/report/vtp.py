@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.results import NODES, Column, read_codes, read_table
+from fatigue.results import NODES, PICTURE, Column, enlist, marked, read_codes, read_provenance, read_table
 from fatigue.weld.line import WeldLine
 
 STATION = (
@@ -32,12 +32,13 @@ _VTK_TYPE = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}
 _DTYPE = {"float": "f8", "int": "i8", "flag": "u1"}
 
 
-def write_vtp(folder: Path | str) -> Path:
+def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
     """Write ``weld_lines.vtp`` beside the tables of a result.
 
     A point of the file is a node of a weld line. Columns that differ between the faces come twice, with ``_top`` and
     ``_bottom`` at the end of their name; texts are VTK strings, and ``weld_number`` counts the welds in the order of
-    the register, for colouring. Source of the format: VTK file formats, XML PolyData.
+    the register, for colouring; a comment carries the hash of the result. ``into`` is another folder to write to, where
+    it is not listed as a document of the result. Source of the format: VTK file formats, XML PolyData.
 
     Raises
     ------
@@ -48,9 +49,13 @@ def write_vtp(folder: Path | str) -> Path:
     register = read_table(folder, "welds", ["weld", "closed", "parts"]).to_pydict()
     rows = {face: np.flatnonzero(surface == i) for i, face in enumerate(faces)}
     xyz = np.stack([read_table(folder, "nodes", [name])[name].to_numpy()[rows["top"]] for name in _XYZ], axis=1)
-    path = folder / "weld_lines.vtp"
+    path = (into or folder) / PICTURE
+    mark = marked(read_provenance(folder).get("result", ""))
+    data = _point_data(folder, rows, register)
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, _pieces(folder, rows["top"], register), _point_data(folder, rows, register)))
+        file.writelines(_poly_lines(xyz, _pieces(folder, rows["top"], register), data, mark))
+    if into is None:
+        enlist(folder, path)
     return path
 
 
@@ -131,10 +136,11 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
 
 
 def _poly_lines(
-    xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Iterable[str]
+    xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Iterable[str], remark: str = ""
 ) -> Iterator[str]:
-    """Lay out points, poly-lines and the arrays of the points."""
+    """Lay out points, poly-lines and the arrays of the points, behind a comment."""
     yield '<?xml version="1.0"?>\n'
+    yield f"<!-- {remark} -->\n" if remark else ""
     yield '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
     yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(pieces)}">\n'
     yield f"<Points>\n{_data('Points', 'f8', xyz, components=3)}</Points>\n<Lines>\n"

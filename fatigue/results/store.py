@@ -26,6 +26,7 @@ _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
     "flag": pa.bool_(),
     "float": pa.float64(),
 }
+JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.pipeline.folder`
 _CODED_TEXT = pa.dictionary(pa.int32(), pa.string())
 _ROWS_PER_GROUP = dict.fromkeys(TABLES, 65_536) | {"structural_stress": 131_072, "nodes": 16_384, "welds": 2_048}
 """Rows wait in memory until a group of them is full, and what Parquet says of each group until the file is closed.
@@ -114,13 +115,15 @@ def _coded_schema(table: str) -> pa.Schema:
 
 
 @contextmanager
-def table_writer(folder: Path | str, table: str) -> Iterator[TableWriter]:
-    """Open ``<table>.parquet`` in a folder for writing, piece by piece."""
+def table_writer(folder: Path | str, table: str, result: str = "") -> Iterator[TableWriter]:
+    """Open ``<table>.parquet`` in a folder for writing, piece by piece; ``result``: hash of the result it is of."""
     floats = [c.name for c in TABLES[table] if c.type == "float"]
     texts = [c.name for c in TABLES[table] if c.type == "text"]
     # The file says that texts are texts, as its readers shall see them, and not the coded ones that it is made from.
     plain = schema(table)
-    said = {**plain.metadata, "ARROW:schema": base64.b64encode(plain.serialize())}
+    said = {**plain.metadata, "ARROW:schema": base64.b64encode(plain.serialize())} | (
+        {"result": result} if result else {}
+    )
     with pq.ParquetWriter(
         Path(folder) / f"{table}.parquet",
         _coded_schema(table),
@@ -137,11 +140,11 @@ def table_writer(folder: Path | str, table: str) -> Iterator[TableWriter]:
 
 
 @contextmanager
-def result_tables(folder: Path | str) -> Iterator[dict[str, TableWriter]]:
-    """Open all tables of an assessment in a folder for writing, by name."""
+def result_tables(folder: Path | str, result: str = "") -> Iterator[dict[str, TableWriter]]:
+    """Open all tables of an assessment in a folder for writing, by name; ``result``: hash of the result."""
     Path(folder).mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
-        yield {table: stack.enter_context(table_writer(folder, table)) for table in ASSESSED}
+        yield {table: stack.enter_context(table_writer(folder, table, result)) for table in ASSESSED}
 
 
 def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = None) -> pa.Table:
@@ -219,13 +222,11 @@ def read_provenance(folder: Path | str) -> dict[str, Any]:
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        problem = Problem(
-            "no_result",
-            str(folder),
-            "no finished result in this folder",
-            "Run `fatigue assess CASE -o DIR` first and give its DIR",
-        )
-        raise DataError(problem) from None
+        what, remedy = "no finished result in this folder", "Run `fatigue assess CASE -o DIR` first and give its DIR"
+        if (folder / JOURNAL).exists():
+            what = "no finished result in this folder: a new one was being put in place when the program was stopped"
+            remedy = "Run the same `fatigue assess` again, or `fatigue show`, which completes it"
+        raise DataError(Problem("no_result", str(folder), what, remedy)) from None
     except (json.JSONDecodeError, UnicodeDecodeError, OSError) as error:
         problem = Problem("damaged_result", str(path), f"cannot be read ({error})", "Run the assessment again")
         raise DataError(problem) from None
@@ -279,7 +280,8 @@ def json_ready(value: Any) -> Any:
 
 
 def _relative(path: Path, root: Path) -> str:
-    try:
-        return path.resolve().relative_to(root.resolve()).as_posix()
-    except ValueError:  # an input elsewhere on the disk keeps its full path
-        return path.as_posix()
+    """Name a file as its case does, ``root / name`` is where it is: also through links and from another folder."""
+    for path_there, root_there in ((path, root), (path.resolve(), root.resolve())):
+        if path_there.is_relative_to(root_there):
+            return path_there.relative_to(root_there).as_posix()
+    return path.as_posix()  # an input elsewhere on the disk keeps its full path

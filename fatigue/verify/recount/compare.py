@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fatigue.errors import Problem
 from fatigue.results import TABLES
 
 TOLERANCE = 1e-6  # two programs written apart agree to this
@@ -41,18 +42,23 @@ class ColumnCheck:
 
 @dataclass(frozen=True, slots=True)
 class Recount:
-    """What a recount of a result found; ``choice`` says which welds it was made for where not for all of them."""
+    """What a recount of a result found.
+
+    ``choice`` says which welds it was made for where not for all of them; ``strangers`` are the files in the folder
+    that belong to another result.
+    """
 
     folder: Path
     points: int
     points_in_all: int
     columns: tuple[ColumnCheck, ...]
     choice: str = ""
+    strangers: tuple[Problem, ...] = ()
 
     @property
     def passed(self) -> bool:
-        """Whether every column agrees."""
-        return all(column.passed for column in self.columns)
+        """Whether every column agrees and every file belongs to the result."""
+        return not self.strangers and all(column.passed for column in self.columns)
 
     def as_record(self) -> dict[str, Any]:
         """For machines."""
@@ -63,16 +69,21 @@ class Recount:
             "passed": self.passed,
             "columns": [asdict(column) | {"passed": column.passed} for column in self.columns],
             **({"choice": self.choice} if self.choice else {}),
+            "strangers": [asdict(problem) for problem in self.strangers],
         }
 
     def as_text(self) -> str:
         """For people: the columns that differ with their place, else the largest difference of each table."""
         wrong = [column for column in self.columns if not column.passed]
         verdict = "agree with the recount" if not wrong else f"{len(wrong)} of {len(self.columns)} columns differ"
+        if self.strangers:
+            verdict = "" if not self.columns else f"{verdict}; "
+            verdict += f"{len(self.strangers)} files of the folder do not belong to its result"
         lines = [
             f"{self.folder}: {self.points} of {self.points_in_all} points recounted from the input files: {verdict}"
         ]
         lines += [f"  recounted: {self.choice}"] if self.choice else []
+        lines += [f"  {problem}" for problem in self.strangers]
         for column in wrong:
             unit = "" if column.unit == "-" else f" {column.unit}"
             values = f"{_shown(column.found)} where the recount has {_shown(column.expected)}{unit}"

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from fatigue.errors import CaseError, Problem, refuse
-from fatigue.results import TABLES, read_provenance
+from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
 from fatigue.verify.recount.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
 from fatigue.verify.recount.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
@@ -62,6 +62,9 @@ def recount(
 ) -> Recount:
     """Recount points of a finished result from its input files, by other code than the one that made it.
 
+    Files of the folder that belong to another result are named; where they are tables of the assessment nothing is
+    recounted.
+
     Nothing here imports the line solver, the counting or the spectra of the program: dense matrices, the ``rainflow``
     package, a spectrum of each point's own stress, curves from constants copied a second time.
 
@@ -84,13 +87,19 @@ def recount(
     refuse(CaseError, _senseless(sample, seed))
     folder, case_file = Path(folder), None if case_file is None else Path(case_file)
     record = read_provenance(folder)
-    inputs = open_inputs(record, folder, case_file)
+    astray = tuple(strangers(folder, record))
+    if {Path(problem.where).name for problem in astray} & {f"{table}.parquet" for table in ASSESSED}:
+        return Recount(folder, 0, 0, (), strangers=astray)
+    try:
+        inputs = open_inputs(record, folder, case_file)
+    except DataError as error:
+        raise DataError(*astray, *error.problems) from None
     modes, body = read_modes(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
     stored = open_tables(folder, body, events, modes)
     checks = stored.keys
     if not all(check.passed for check in checks):
-        return Recount(folder, 0, body.points, tuple(checks))
+        return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
 
     toe, utilisation = toes_and_utilisation(stored)
     worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(inputs, record)
@@ -127,7 +136,7 @@ def recount(
     checks += merged(found)
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
-    return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what)
+    return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what, astray)
 
 
 def _senseless(sample: object, seed: object) -> Iterator[Problem]:

@@ -12,6 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.results import case_of
 from fatigue.verify.recount.register import WeldEntries, weld_entries
 from fatigue.verify.recount.tables import read_frame
 
@@ -62,12 +63,10 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
     ------
     DataError : inputs are missing or changed; all of them are named
     """
-    path = case_file or result / record["case_path"]
+    path = case_file or case_of(record, result)
     if not path.is_file():
-        problem = Problem(
-            "missing_input", str(path), "the case of this result is not there", "Name the case file, or assess again"
-        )
-        raise DataError(problem)
+        what, remedy = "the case of this result is not there", "Name the case file with --case CASE, or assess again"
+        raise DataError(Problem("missing_input", str(path), what, remedy))
     refuse(DataError, _changes(record, path))
     case, folder = tomllib.loads(path.read_text(encoding="utf-8-sig")), path.parent
     welds = read_frame(folder / case["body"]["welds"])
@@ -84,7 +83,8 @@ def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
             )
         elif _sha256(path) != known["sha256"]:
             what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
-            yield Problem("changed_input", str(path), what, "Assess again, or put the old file back")
+            case = ", or name the case as it was with --case" if path == case_file else ""
+            yield Problem("changed_input", str(path), what, f"Assess again, or put the old file back{case}")
 
 
 def _sha256(path: Path) -> str:

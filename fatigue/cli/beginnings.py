@@ -1,0 +1,64 @@
+"""Commands that write a case to begin with: the shipped one, one of any size, and the schema of case files."""
+
+from pathlib import Path
+
+import click
+
+from fatigue.cli.early import refuse_existing
+from fatigue.cli.main import cli, print_json
+
+_FOLDER = click.Path(path_type=Path, file_okay=False)
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--force", is_flag=True, help="Overwrite files of the same names.")
+def example(folder: Path, force: bool) -> None:
+    """Write the shipped car body, a case in two variants, to DIR.
+
+    \b
+    Example:
+      fatigue example demo && fatigue assess demo/case.toml -o result
+    """
+    from fatigue.example import write_example
+
+    for case_file in write_example(folder, force=force):
+        click.echo(case_file)
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.option("--nodes", type=click.IntRange(min=10), default=10_000, show_default=True, help="Weld nodes.")
+@click.option("--modes", type=click.IntRange(min=2), default=60, show_default=True, help="Modes.")
+@click.option("--events", type=click.IntRange(min=1), default=3, show_default=True, help="Events.")
+@click.option("--seconds", type=float, default=60.0, show_default=True, help="Length of a record [s].")
+@click.option("--rate", type=float, default=250.0, show_default=True, help="Sampling rate [Hz].")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is drawn.")
+@click.option("--force", is_flag=True, help="Overwrite a case that is there already.")
+def synth(
+    folder: Path, nodes: int, modes: int, events: int, seconds: float, rate: float, seed: int, force: bool
+) -> None:
+    """Write a synthetic case of any size, with a realistic spread of stress levels, to try or time the program on.
+
+    \b
+    Example:
+      fatigue synth big --nodes 100000 --modes 100 --events 12
+    """
+    what, remedy = "is there already", "Give another folder, or --force to overwrite it"
+    refuse_existing(folder / "case.toml", force=force, what=what, remedy=remedy)
+    from fatigue.synth import Size, synthesize
+
+    click.echo(synthesize(folder, Size(nodes, modes, events, seconds, rate), seed))
+
+
+@cli.command()
+def schema() -> None:
+    """Print the JSON Schema of case.toml, for editors that complete and check it.
+
+    \b
+    Example:
+      fatigue schema > case.schema.json
+    """
+    from fatigue.case import case_schema
+
+    print_json(case_schema())

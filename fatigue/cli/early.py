@@ -1,0 +1,96 @@
+"""Mistakes in paths and names, told before anything heavy is imported in the words of those who read the files."""
+
+import difflib
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from fatigue.errors import CaseError, DataError, Problem, refuse
+
+
+def refuse_missing_case(path: Path) -> None:
+    """Refuse a case file that is not there, as `fatigue.case.load_case` does."""
+    if path.is_dir():
+        raise CaseError(Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it"))
+    if not path.exists():
+        raise CaseError(Problem("missing_file", str(path), "there is no such file", "Give the path of a case.toml"))
+
+
+def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
+    """Refuse a folder without result, or a case file named for it that is not there; complete a result cut off."""
+    if (folder / ".fatigue-publish").exists():
+        from fatigue.pipeline.checkpoint import settle_folder
+
+        settle_folder(folder)
+    if not (folder / "provenance.json").exists():
+        from fatigue.results.store import read_provenance
+
+        read_provenance(folder)
+    if case_file is not None and not case_file.is_file():
+        what, remedy = "there is no such file", "Correct the path after --case"
+        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+
+
+def missing_foreign(*paths: Path) -> Iterable[Problem]:
+    """Name FE and simulation files that are not there, as `fatigue.readers.formats.recognise` does."""
+    for path in paths:
+        try:
+            path.open("rb").close()
+        except OSError as error:
+            yield Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
+
+
+def missing_tables(*paths: Path | None) -> Iterable[Problem]:
+    """Name tables that are not there, as `fatigue.readers.files.open_columns` does."""
+    for path in paths:
+        if path is not None and path.is_dir():
+            yield Problem("not_a_file", str(path), "this is a folder", "Give a .parquet or .csv file")
+        elif path is not None and not path.exists():
+            yield Problem("missing_file", str(path), "there is no such file", "Correct the path")
+
+
+def refuse_unknown_units(**systems: str) -> None:
+    """Refuse names of unit systems that there are not."""
+    from fatigue.readers.units import unit_system
+
+    for where, name in systems.items():
+        unit_system(name, where.replace("_", " "))
+
+
+def refuse_bad_modes(option: str, text: str) -> None:
+    """Refuse a list of modes that is none, as `fatigue.readers.modal_basis.mode_list` does."""
+    if text and not re.fullmatch(r"\s*\d+(-\d+)?\s*(,\s*\d+(-\d+)?\s*)*", text):
+        part = next(part for part in text.split(",") if not re.fullmatch(r"\s*\d+(-\d+)?\s*", part))
+        raise CaseError(Problem("bad_modes", option, f"{part!r} is no mode or range", "Write 1-6,31-52"))
+
+
+def refuse_unknown_curve(name: str) -> None:
+    """Refuse an S-N curve that is not in the catalogue: a new case has no others."""
+    from fatigue.life.curves import catalogue
+
+    if name not in (known := catalogue()):
+        near = difflib.get_close_matches(name, known, n=1)
+        remedy = f"Write {near[0]!r}" if near else f"Name one of {', '.join(sorted(known))}"
+        raise CaseError(Problem("unknown_curve", "--curve", f"there is no curve {name!r}", remedy))
+
+
+def refuse_foreign_conversion(folder: Path, *, force: bool) -> None:
+    """Refuse a folder to convert into that is a file or holds files of somebody else, as the conversion does later."""
+    if force or not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
+        return
+    from fatigue.readers.neutral_folder import RECORD, check_folder
+
+    tables = ("modes.csv", "nodes.parquet", "elements.parquet", "element_forces.parquet")
+    welds = ("welds.csv", "weld_nodes.csv", "weld_elements.csv")
+    check_folder(folder, [*tables, *welds, "welds_register.csv", "case.toml", RECORD], "welds_register.csv")
+
+
+def refuse_existing(path: Path | None, *, force: bool, what: str, remedy: str) -> None:
+    """Refuse to write over a file that is there already."""
+    if path is not None and path.exists() and not force:
+        raise DataError(Problem("foreign_file", str(path), what, remedy))
+
+
+def refuse_all(problems: Iterable[Problem]) -> None:
+    """Refuse what is bad data, all of it at once."""
+    refuse(DataError, problems)

@@ -1,0 +1,129 @@
+"""The documents of a finished result as a story: page, picture, print, workbook and CSV, put in place together."""
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.pipeline.checkpoint import locked, settle_folder
+from fatigue.pipeline.folder import publish, staging_in
+from fatigue.report.export import refuse_without_xlsxwriter, write_csv, write_xlsx
+from fatigue.report.page import write_report
+from fatigue.report.pdf import find_browser, print_pdf
+from fatigue.report.vtp import write_vtp
+from fatigue.results import (
+    CSV_TABLES,
+    DOCUMENTS,
+    PAGE,
+    PICTURE,
+    PRINT,
+    WORKBOOK,
+    case_of,
+    is_derived,
+    listed_of,
+    marked,
+    named_case,
+    read_provenance,
+    refuse_mixed,
+    write_list,
+)
+from fatigue.stages import stage
+
+AGAIN = (PAGE, PICTURE)  # written again without being asked
+CSV = tuple(f"{table}.csv" for table in CSV_TABLES)
+
+
+@dataclass(frozen=True, slots=True)
+class Documents:
+    """What was written, and why something asked for was not."""
+
+    written: tuple[Path, ...]
+    problems: tuple[Problem, ...]
+
+
+def missing_extras(wanted: Collection[str]) -> dict[str, Problem]:
+    """Name the documents that cannot be written here, and what they lack; quick, before any work is done."""
+    tests: dict[str, Callable[[], object]] = {WORKBOOK: refuse_without_xlsxwriter, PRINT: find_browser}
+    return dict(found for name, test in tests.items() if name in wanted for found in _failed(name, test))
+
+
+def write_documents(
+    folder: Path,
+    wanted: Collection[str] = AGAIN,
+    *,
+    case_file: Path | None = None,
+    verification: Callable[[], Sequence[Mapping[str, Any]]] = tuple,
+    force: bool = False,
+) -> Documents:
+    """Write documents of a finished result, all that can be written; they replace those that are there in one step.
+
+    Parameters
+    ----------
+    folder : the result folder
+    wanted : names of documents, of ``fatigue.results.DOCUMENTS``
+    case_file : the case of the result, by default where its provenance says
+    verification : computes the checks of the program that the page shows
+    force : replace documents that are there already, also those that fatigue did not write
+
+    Raises
+    ------
+    DataError : no finished result, tables of different results, another case, or files in the way
+    """
+    settle_folder(folder)
+    record = read_provenance(folder)
+    refuse_mixed(folder, record)
+    case_file = case_of(record, folder) if case_file is None else named_case(record, case_file)
+    refuse(DataError, _in_the_way(folder, wanted, record, case_file, force=force))
+    missing = missing_extras(wanted)
+    with locked(folder), staging_in(folder) as staging:
+        if read_provenance(folder) != record:
+            what = "the result was replaced by another run just now"
+            raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+        checks = verification() if PAGE in wanted else ()
+        writers: dict[str, Callable[[], object]] = {
+            PAGE: lambda: write_report(folder, case_file, checks, staging),
+            PICTURE: lambda: write_vtp(folder, staging),
+            WORKBOOK: lambda: write_xlsx(folder, staging),
+            CSV[0]: lambda: write_csv(folder, staging),
+            PRINT: lambda: _print(folder, staging, record.get("result", "")),
+        }
+        for name in (name for name in writers if name in wanted and name not in missing):
+            stage("writing %s", "CSV files" if name in CSV else name)
+            missing.update(_failed(name, writers[name]))
+        files = [staging / name for name in DOCUMENTS if (staging / name).exists()]
+        result = record.get("result", "")
+        write_list(staging, files, result, listed_of(folder, result))
+        publish(staging, folder)
+    return Documents(tuple(folder / path.name for path in files), tuple(missing.values()))
+
+
+def _failed(name: str, do: Callable[[], object]) -> Iterator[tuple[str, Problem]]:
+    try:
+        do()
+    except DataError as error:
+        yield name, error.problems[0]
+
+
+def _print(folder: Path, staging: Path, result: str) -> None:
+    page = staging / PAGE if (staging / PAGE).exists() else folder / PAGE
+    print_pdf(page, staging / PRINT, marked(result))
+
+
+def _in_the_way(
+    folder: Path, wanted: Collection[str], record: Mapping[str, Any], case_file: Path, *, force: bool
+) -> Iterator[Problem]:
+    """Name what must not be overwritten: inputs of the case never, other files not without force."""
+    inputs = [path for known in record["inputs"] if (path := case_file.parent / known["file"]).exists()]
+    for name in wanted:
+        path = folder / name
+        if not path.exists():
+            continue
+        if any(path.samefile(given) for given in inputs):
+            remedy = "Assess into a folder of its own, where it is not in the way"
+            yield Problem("input_in_the_way", str(path), "is an input of the case", remedy)
+        elif not force and name not in AGAIN:
+            yield Problem("foreign_files", str(path), "is there already", "Use --force to write it again")
+        elif not force and not is_derived(folder, name, record):
+            what = "was not written by fatigue, or was changed since"
+            yield Problem("foreign_files", str(path), what, "Move it away, or use --force to overwrite it")

@@ -1,0 +1,161 @@
+"""Which result a file belongs to: everything written of a result carries its hash or stands in a list that does.
+
+The hash of a result is that of everything its numbers depend on: case, inputs, program, and what was counted. Equal
+hashes, equal tables. Parquet tables, HTML, PDF, ParaView file and workbook carry it; CSV files cannot without breaking
+their readers, so ``exports.json`` names it once and lists the SHA-256 of every document.
+"""
+
+import json
+import re
+import zipfile
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
+from fatigue.results.store import read_provenance, sha256, write_json
+
+PICTURE, PAGE, PRINT, WORKBOOK = "weld_lines.vtp", "report.html", "report.pdf", "nodes.xlsx"
+CSV_TABLES = ("nodes", "damage", "cycles", "welds")
+DOCUMENTS = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
+LIST = "exports.json"
+MARK = "fatigue-result"  # before the hash in documents that are text; the name of a property in the workbook
+_MARKED = re.compile(rb"fatigue-result.{1,60}?\b([0-9a-f]{32})\b", re.DOTALL)
+_ENDS = 4096  # bytes at either end of a document that are searched for the mark
+_PROPERTIES = "docProps/custom.xml"  # of a workbook
+_EDITED = (WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))  # what people write into and keep
+
+
+def marked(result: str) -> str:
+    """Words that carry the hash of a result in a comment of a document; none for a result without."""
+    return f"{MARK}: {result}" if result else ""
+
+
+def carried(path: Path) -> str | None:
+    """Hash of the result that a table or document carries; None where it carries none."""
+    try:
+        if path.suffix == ".parquet":
+            return (pq.read_metadata(path).metadata or {}).get(b"result", b"").decode() or None
+        if path.suffix == ".xlsx":
+            with zipfile.ZipFile(path) as book:
+                return _mark_in(book.read(_PROPERTIES))
+        with path.open("rb") as file:
+            head = file.read(_ENDS)
+            file.seek(max(0, path.stat().st_size - _ENDS))
+            return _mark_in(head) or _mark_in(file.read())
+    except (OSError, KeyError, UnicodeDecodeError, zipfile.BadZipFile, pa.ArrowException):
+        return None
+
+
+def _mark_in(content: bytes) -> str | None:
+    found = _MARKED.search(content)
+    return found[1].decode() if found else None
+
+
+def listed(folder: Path) -> Mapping[str, str]:
+    """SHA-256 of every document as it was written, by its name, from the list in a result folder."""
+    files: Mapping[str, str] = _list_in(folder).get("files", {})
+    return files
+
+
+def _list_in(folder: Path) -> dict[str, Any]:
+    try:
+        record = json.loads((folder / LIST).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    is_ours = isinstance(record, dict) and record.get("program") == "fatigue" and isinstance(record.get("files"), dict)
+    return record if is_ours else {}
+
+
+def write_list(folder: Path, documents: Iterable[Path], result: str, known: Mapping[str, str] | None = None) -> Path:
+    """Write the list of documents of a result; ``known`` are others, with their SHA-256 when they were written."""
+    files = dict(known or {}) | {path.name: sha256(path) for path in documents}
+    write_json(folder / LIST, {"program": "fatigue", "result": result, "files": dict(sorted(files.items()))})
+    return folder / LIST
+
+
+def enlist(folder: Path, *documents: Path) -> None:
+    """Add documents just written to the list of the result folder they are in."""
+    result = read_provenance(folder).get("result", "")
+    write_list(folder, documents, result, listed_of(folder, result))
+
+
+def listed_of(folder: Path, result: str) -> Mapping[str, str]:
+    """SHA-256 of every document in the list, where that is the list of this result."""
+    return listed(folder) if _list_in(folder).get("result") == result else {}
+
+
+def is_derived(folder: Path, name: str, record: Mapping[str, Any] | None) -> bool:
+    """Tell whether the program wrote a file of a result folder, and nobody has changed it since.
+
+    ``record`` is the provenance of the result in the folder, None without one. What cannot be told is not ours: a
+    document counts when the list has it as it is, page, print and picture also when no list has them and they carry the
+    hash of a result. A table is ours unless it is a sound table of somebody else.
+    """
+    path = folder / name
+    if name in (f"{table}.parquet" for table in TABLES):
+        return _is_ours_or_damaged(path, known=record is not None)
+    if name not in DOCUMENTS:
+        return record is not None
+    known = listed(folder)
+    if name in known:
+        return known[name] == sha256(path)
+    if record is not None and "result" not in record:  # written before documents were listed
+        return name in (PAGE, PICTURE)
+    return name not in _EDITED and carried(path) is not None
+
+
+def _is_ours_or_damaged(path: Path, *, known: bool) -> bool:
+    try:
+        metadata = pq.read_metadata(path).metadata or {}
+    except (OSError, pa.ArrowException):
+        return known
+    return metadata.get(b"program") == b"fatigue" and metadata.get(b"table") == path.stem.encode()
+
+
+def strangers(folder: Path, record: Mapping[str, Any], names: Iterable[str] | None = None) -> list[Problem]:
+    """Name every table and document of a result folder that does not belong to the result of this provenance.
+
+    ``names`` are the files looked at, by default all that the program may have written.
+    """
+    every = (*(f"{table}.parquet" for table in TABLES), *DOCUMENTS)
+    return [problem for name in names or every for problem in _strange(folder, name, record)]
+
+
+def _strange(folder: Path, name: str, record: Mapping[str, Any]) -> Iterator[Problem]:
+    path, result = folder / name, record.get("result")
+    if not path.exists():
+        return
+    remedy = _REMEDY[name]
+    held = carried(path)
+    if held is not None and held != result:
+        ours = str(result)[:12] if result else "which has no hash"
+        what = f"belongs to the result {held[:12]}, not to that of provenance.json, {ours}"
+        yield Problem("other_result", str(path), what, remedy)
+    elif result is None or path.suffix == ".parquet":  # written before there were hashes, or by somebody else's hand:
+        return  # its numbers are checked by the recount
+    elif (known := listed_of(folder, result).get(name)) != sha256(path):
+        what = "was changed since it was written" if known else "was not written of this result"
+        yield Problem("other_result", str(path), what, remedy)
+
+
+_AGAIN = "Run the assessment again"
+_REMEDY = {
+    **{f"{table}.parquet": _AGAIN for table in ASSESSED},
+    **{f"{table}.parquet": "Run `fatigue diagnose` again, or remove it" for table in DIAGNOSED},
+    **dict.fromkeys(DOCUMENTS, "Write it again with `fatigue report`, or remove it"),
+}
+
+
+def refuse_mixed(folder: Path, record: Mapping[str, Any], tables: Iterable[str] = tuple(TABLES)) -> None:
+    """Refuse a folder whose tables are not all of one result.
+
+    Raises
+    ------
+    DataError : every table that is not of the result of this provenance
+    """
+    refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables]))
