@@ -19,6 +19,7 @@ from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import common_modes, simulated_frequencies, simulation_modes, without_modes
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
+from fatigue.readers.shell_rows import without_drilling
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import neutral_forces, to_mid_surface, with_forces_only
@@ -126,6 +127,8 @@ def convert(options: ConvertOptions) -> Conversion:
     force = neutral_forces(results, model, units, options.normalisation)
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
+    if judged.grounded_drilling:
+        force = without_drilling(force, results, model)
     force = to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
         "modes.csv": _modes_table(results, options, table),

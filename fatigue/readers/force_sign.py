@@ -5,27 +5,34 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.fe_results import FeResults
+from fatigue.readers.fe_results import TOTALS, FeResults
 from fatigue.readers.forces import Convention
 
 LOWEST_HZ = 1e-3
 """Below it a frequency is the round-off of a rigid mode."""
 
-_LOADS = ("APP-LOAD", "F-OF-SPC", "F-OF-MPC")
+WORK_TOLERANCE = 2e-3
 
 
 class SignProof(NamedTuple):
-    """What decides the sign: the number, the convention it proves (None: nothing), and the number in words."""
+    """What decides the sign: the number, the convention it proves (None: nothing), and the number in words.
+
+    ``too_much``: the shapes do more work than the modes have energy.
+    """
 
     value: float | None
     convention: Convention | None
     finding: str
+    too_much: bool = False
 
 
-def prove_sign(results: FeResults) -> SignProof:
-    """Find the sign convention from the work of mode shapes, or from the loads of static subcases."""
+def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
+    """Find the sign convention from the work of mode shapes, or from the loads of static subcases.
+
+    ``whole``: (r,) rows of elements that have forces at all their nodes; only their work is a strain energy.
+    """
     if results.shape_node.size:
-        proof = _by_work(results)
+        proof = _by_work(results, whole)
         if proof.convention is not None or results.analysis == "modal":
             return proof
     if results.analysis == "static":
@@ -33,36 +40,49 @@ def prove_sign(results: FeResults) -> SignProof:
     return SignProof(None, None, "the file has no mode shapes")
 
 
-def _by_work(results: FeResults) -> SignProof:
-    """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
-
-    Without a frequency, the signs of the elements' own works decide: a strain energy is never negative.
-    """
-    rows = np.flatnonzero(results.of_element)
+def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Elements of the rows (r',), and the work of each mode's shape on them, (m, r')."""
+    rows = np.flatnonzero(whole)
     at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
-    known = results.shape_node[at] == results.node[rows]
-    rows, at = rows[known], at[known]
+    has_shape = results.shape_node[at] == results.node[rows]
+    rows, at = rows[has_shape], at[has_shape]
     work = np.einsum(
         "mri,mri->mr", results.force[:, rows].astype(np.float64), results.shape[:, at].astype(np.float64), optimize=True
     )
-    elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * results.modal_mass)
+    return results.element[rows], work
+
+
+def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
+    """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
+
+    Without generalised masses work over omega^2 gives them, and its sign is the proof. Without a frequency, the signs
+    of the elements' own works decide: a strain energy is never negative.
+    """
+    elements, work = _element_works(results, whole)
+    known = np.isfinite(results.modal_mass)
+    elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * np.where(known, results.modal_mass, 1.0))
     usable = (results.frequency > LOWEST_HZ) & (elastic > 0)
     if usable.any():
         ratio = work[usable].sum(axis=1) / elastic[usable]
         k = int(np.argmax(np.abs(ratio)))
-        text = f"work over omega^2 m from {ratio.min():.5g} to {ratio.max():.5g} in {usable.sum()} modes"
+        over = "omega^2 m" if known[usable].all() else "omega^2, the generalised mass,"
+        text = f"work over {over} from {ratio.min():.5g} to {ratio.max():.5g} in {usable.sum()} modes"
         if (ratio < 0).all() or (ratio > 0).all():
-            if abs(ratio[k]) < 1 - 2e-3:
+            has_energy = known[usable].all()
+            if has_energy and abs(ratio[k]) < 1 - WORK_TOLERANCE:
                 text += " (the forces cover a part of the model)"
-            return SignProof(float(ratio[k]), "on_node" if ratio[k] < 0 else "on_element", text)
+            too_much = bool(has_energy and abs(ratio[k]) > 1 + WORK_TOLERANCE)
+            return SignProof(float(ratio[k]), "on_node" if ratio[k] < 0 else "on_element", text, too_much)
         return SignProof(float(ratio[k]), None, text)
-    _, element = np.unique(results.element[rows], return_inverse=True)
+    _, element = np.unique(elements, return_inverse=True)
     each = np.stack([np.bincount(element, w) for w in work])
     total = np.abs(each).sum()
     if total == 0:
         return SignProof(None, None, "the mode shapes do no work on the forces")
     balance_of_signs = float(each.sum() / total)
-    text = f"no mode has a frequency; work of the elements is {abs(balance_of_signs):.1%} of one sign"
+    text = f"work of the elements is {abs(balance_of_signs):.1%} of one sign"
+    if results.analysis == "modal":
+        text = f"no mode has a frequency; {text}"
     if abs(balance_of_signs) < 0.8:
         return SignProof(balance_of_signs, None, text)
     return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)
@@ -70,7 +90,7 @@ def _by_work(results: FeResults) -> SignProof:
 
 def _by_loads(results: FeResults) -> SignProof:
     """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements."""
-    is_load = np.isin(results.kind, _LOADS)
+    is_load = ~results.of_element & (results.kind != TOTALS)
     if not is_load.any():
         return SignProof(None, None, "no applied loads or reactions in the file")
     grids, at = np.unique(results.node, return_inverse=True)

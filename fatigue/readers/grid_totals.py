@@ -1,0 +1,107 @@
+"""The total that a file states for every grid: a checksum over all its numbers, where it is one.
+
+MSC Nastran and its kin state the sum of all rows of the grid: loads, reactions and the forces of the elements on it,
+which in a mode leaves the inertia force. MYSTRAN writes the forces on the elements and states loads and reactions less
+these, and in a mode less the inertia force too, for which it writes no row: its totals of modes vanish, and no sum
+of rows can be compared with them.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.readers.fe_results import TOTALS, FeResults
+from fatigue.readers.forces import Convention
+
+TOLERANCE = 1e-3
+"""Of the largest row of the grid, or a thousandth of the mode's largest."""
+
+_VANISHING = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class TotalsCheck:
+    """How well the rows of the grids explain their totals.
+
+    Attributes
+    ----------
+    residual : largest difference, relative to the largest row of its grid
+    grid, mode : where it is
+    rule : how the rows give the totals, in words
+    is_checksum : whether the totals can be expected to follow from the rows at all
+    """
+
+    residual: float
+    grid: int
+    mode: int
+    rule: str
+    is_checksum: bool
+
+    @property
+    def is_met(self) -> bool:
+        """Whether all totals follow from their rows."""
+        return self.residual <= TOLERANCE
+
+
+@dataclass(slots=True)
+class _Tally:
+    """Misses of one rule over all grids and modes."""
+
+    sign: float
+    rule: str
+    misses: int = 0
+    worst: float = 0.0
+    grid: int = 0
+    mode: int = 0
+
+
+def check_totals(results: FeResults, convention: Convention | None) -> TotalsCheck | None:
+    """Compare the totals of every grid with its rows, by the rule that explains them best; None without totals.
+
+    Parameters
+    ----------
+    convention : sign of the element rows, where it is known
+    """
+    is_total = results.kind == TOTALS
+    if not is_total.any():
+        return None
+    of_element = results.of_element
+    groups = [np.flatnonzero(rows) for rows in (~of_element & ~is_total, of_element, is_total)]
+    grids, at = np.unique(results.node, return_inverse=True)
+    stated = np.bincount(at[is_total], minlength=grids.size) > 0
+    added = _Tally(1.0, "add up to")
+    subtracted = _Tally(-1.0, "give, loads less forces on elements,")
+    largest_total = 0.0
+    for mode, force in zip(results.mode.tolist(), results.force, strict=True):
+        for part in (slice(0, 3), slice(3, 6)):
+            values = force[:, part].astype(np.float64)
+            loads, elements, totals = (_sums(values[rows], at[rows], grids.size) for rows in groups)
+            size = np.abs(values).max(axis=1, initial=0.0)
+            largest = np.zeros(grids.size)
+            np.maximum.at(largest, at, size)
+            scale = np.maximum(largest, TOLERANCE * size.max(initial=0.0))
+            largest_total = max(largest_total, float(_relative(totals, scale, stated).max()))
+            for tally in (added, subtracted):
+                residual = _relative(loads + tally.sign * elements - totals, scale, stated)
+                tally.misses += int((residual > TOLERANCE).sum())
+                if residual.max() > tally.worst:
+                    k = int(residual.argmax())
+                    tally.worst, tally.grid, tally.mode = float(residual[k]), int(grids[k]), mode
+    order = (subtracted, added) if convention == "on_element" else (added, subtracted)
+    best = min(order, key=lambda tally: tally.misses)
+    hides_inertia = results.analysis == "modal" and (convention == "on_element" or largest_total <= _VANISHING)
+    return TotalsCheck(best.worst, best.grid, best.mode, best.rule, is_checksum=best.misses == 0 or not hides_inertia)
+
+
+def _sums(values: NDArray[np.float64], at: NDArray[np.int64], size: int) -> NDArray[np.float64]:
+    """Sum of the rows of every grid, (grids, 3)."""
+    return np.stack([np.bincount(at, values[:, c], size) for c in range(3)], axis=1)
+
+
+def _relative(
+    values: NDArray[np.float64], scale: NDArray[np.float64], stated: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Largest component of every grid relative to its scale, 0 where no total is stated."""
+    size = np.abs(values).max(axis=1)
+    return np.asarray(np.divide(size, scale, out=np.zeros(scale.size), where=scale > 0) * stated)

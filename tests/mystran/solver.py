@@ -1,0 +1,25 @@
+"""The MYSTRAN solver: a program whose path the environment variable FATIGUE_MYSTRAN gives; nothing is downloaded."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+PROGRAM = os.environ.get("FATIGUE_MYSTRAN", "")
+
+needs_mystran = pytest.mark.skipif(
+    not os.access(PROGRAM, os.X_OK), reason="no MYSTRAN solver: export FATIGUE_MYSTRAN=$(.ci/mystran FOLDER)"
+)
+
+
+def solve(deck, folder, name):
+    """Run a deck; give the input file, which is the mesh, too, and the OP2 file."""
+    mesh = folder / f"{name}.dat"
+    mesh.write_text(deck.text(), encoding="ascii")
+    done = subprocess.run([PROGRAM, mesh.name], cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    listing = mesh.with_suffix(".F06").read_text(errors="replace")
+    assert done.returncode == 0, done.stdout[-2000:]
+    assert "PROCESSING TERMINATED" not in listing, listing[-2000:]
+    assert "MYSTRAN END" in listing, listing[-2000:]
+    return mesh, Path(mesh.with_suffix(".OP2"))
