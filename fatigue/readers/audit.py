@@ -86,6 +86,7 @@ def audit(
         sign,
         _completeness(results, model),
         *_interface(results, set(interface_modes)),
+        *_unknown_frequencies(results, set(interface_modes)),
         *_masses(results),
         *_frequencies(results, simulated),
     ]
@@ -254,6 +255,27 @@ def _interface(results: FeResults, marked: set[int]) -> list[AuditRow]:
             0.0,
             "no mode is marked as an interface (residual, constraint, attachment) mode",
             "Name them; without them brackets and hangers lose most of their force",
+        )
+    ]
+
+
+def _unknown_frequencies(results: FeResults, marked: set[int]) -> list[AuditRow]:
+    """Modes of vibration have a frequency; static subcases have none by nature."""
+    if results.analysis == "static":
+        return []
+    is_unknown = np.isnan(results.frequency) & ~np.isin(results.mode, sorted(marked))
+    if not is_unknown.any():
+        return []
+    count, first = int(is_unknown.sum()), int(results.mode[is_unknown][0])
+    return [
+        AuditRow(
+            "frequencies",
+            "red",
+            float(count),
+            f"{count} of {results.mode.size} modes have no frequency, mode {first} the first: there is no eigenvalue "
+            "summary, and no eigenvalue stands beside their shapes or forces",
+            "Request DISPLACEMENT(PLOT) or the eigenvalue summary (LAMA) in the same file, or name modes that are "
+            "static by nature as interface modes",
         )
     ]
 

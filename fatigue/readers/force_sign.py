@@ -5,13 +5,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.fe_results import TOTALS, FeResults
+from fatigue.readers.fe_results import FeResults
 from fatigue.readers.forces import Convention
 
 LOWEST_HZ = 1e-3
 """Below it a frequency is the round-off of a rigid mode."""
 
 WORK_TOLERANCE = 2e-3
+_ONE_SIGN = 0.8
+"""Share of the works of all elements that must be left when they are added with their signs."""
 
 
 class SignProof(NamedTuple):
@@ -27,7 +29,7 @@ class SignProof(NamedTuple):
 
 
 def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
-    """Find the sign convention from the work of mode shapes, or from the loads of static subcases.
+    """Find the sign convention from the work of the shapes, or else from loads and reactions.
 
     ``whole``: (r,) rows of elements that have forces at all their nodes; only their work is a strain energy.
     """
@@ -35,13 +37,14 @@ def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
         proof = _by_work(results, whole)
         if proof.convention is not None or results.analysis == "modal":
             return proof
-    if results.analysis == "static":
-        return _by_loads(results)
-    return SignProof(None, None, "the file has no mode shapes")
+    proof = _by_loads(results)
+    if results.analysis == "modal":
+        proof = proof._replace(finding=f"the file has no mode shapes; {proof.finding}")
+    return proof
 
 
-def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Elements of the rows (r',), and the work of each mode's shape on them, (m, r')."""
+def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Work of each mode's shape on the forces of each element that has all its rows, (m, e)."""
     rows = np.flatnonzero(whole)
     at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
     has_shape = results.shape_node[at] == results.node[rows]
@@ -49,54 +52,60 @@ def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> tuple[NDArra
     work = np.einsum(
         "mri,mri->mr", results.force[:, rows].astype(np.float64), results.shape[:, at].astype(np.float64), optimize=True
     )
-    return results.element[rows], work
+    elements, element = np.unique(results.element[rows], return_inverse=True)
+    return np.stack([np.bincount(element, of_mode, elements.size) for of_mode in work])
 
 
 def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
     """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
 
     Without generalised masses work over omega^2 gives them, and its sign is the proof. Without a frequency, the signs
-    of the elements' own works decide: a strain energy is never negative.
+    of the elements' own works decide: a strain energy is never negative. Rigid modes, whatever frequency round-off
+    gives them, have element works of either sign and prove nothing.
     """
-    elements, work = _element_works(results, whole)
+    each = _element_works(results, whole)
+    work, size = each.sum(axis=1), np.abs(each).sum(axis=1)
+    if not size.any():
+        return SignProof(None, None, "the mode shapes do no work on the forces")
     known = np.isfinite(results.modal_mass)
     elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * np.where(known, results.modal_mass, 1.0))
-    usable = (results.frequency > LOWEST_HZ) & (elastic > 0)
+    usable = (results.frequency > LOWEST_HZ) & (elastic > 0) & (np.abs(work) > _ONE_SIGN * size)
     if usable.any():
-        ratio = work[usable].sum(axis=1) / elastic[usable]
-        k = int(np.argmax(np.abs(ratio)))
-        over = "omega^2 m" if known[usable].all() else "omega^2, the generalised mass,"
-        text = f"work over {over} from {ratio.min():.5g} to {ratio.max():.5g} in {usable.sum()} modes"
-        if (ratio < 0).all() or (ratio > 0).all():
-            has_energy = known[usable].all()
-            if has_energy and abs(ratio[k]) < 1 - WORK_TOLERANCE:
-                text += " (the forces cover a part of the model)"
-            too_much = bool(has_energy and abs(ratio[k]) > 1 + WORK_TOLERANCE)
-            return SignProof(float(ratio[k]), "on_node" if ratio[k] < 0 else "on_element", text, too_much)
-        return SignProof(float(ratio[k]), None, text)
-    _, element = np.unique(elements, return_inverse=True)
-    each = np.stack([np.bincount(element, w) for w in work])
-    total = np.abs(each).sum()
-    if total == 0:
-        return SignProof(None, None, "the mode shapes do no work on the forces")
-    balance_of_signs = float(each.sum() / total)
+        return _by_energy(work[usable] / elastic[usable], bool(known[usable].all()))
+    balance_of_signs = float(work.sum() / size.sum())
     text = f"work of the elements is {abs(balance_of_signs):.1%} of one sign"
     if results.analysis == "modal":
-        text = f"no mode has a frequency; {text}"
-    if abs(balance_of_signs) < 0.8:
+        text = f"no elastic mode has a frequency; {text}"
+    if abs(balance_of_signs) < _ONE_SIGN:
         return SignProof(balance_of_signs, None, text)
     return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)
 
 
+def _by_energy(ratio: NDArray[np.float64], has_mass: bool) -> SignProof:
+    """Judge work over omega^2 times the generalised mass; without masses its size tells nothing."""
+    worst = float(ratio[np.argmax(np.abs(ratio))])
+    over = "omega^2 m" if has_mass else "omega^2, the generalised mass,"
+    text = f"work over {over} from {ratio.min():.5g} to {ratio.max():.5g} in {ratio.size} modes"
+    if ratio.min() < 0 < ratio.max():
+        return SignProof(worst, None, text)
+    if has_mass and abs(worst) < 1 - WORK_TOLERANCE:
+        text += " (the forces cover a part of the model)"
+    too_much = has_mass and abs(worst) > 1 + WORK_TOLERANCE
+    return SignProof(worst, "on_node" if worst < 0 else "on_element", text, too_much)
+
+
 def _by_loads(results: FeResults) -> SignProof:
-    """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements."""
-    is_load = ~results.of_element & (results.kind != TOTALS)
+    """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements.
+
+    In a mode that holds, too, where a support keeps the inertia from moving.
+    """
+    is_load = ~results.of_element & ~results.of_total
     if not is_load.any():
         return SignProof(None, None, "no applied loads or reactions in the file")
     grids, at = np.unique(results.node, return_inverse=True)
 
     def sums(rows: NDArray[np.bool_]) -> NDArray[np.float64]:
-        force = results.force[:, rows, :3].astype(np.float64)
+        force = np.nan_to_num(results.force[:, rows, :3].astype(np.float64))  # NaN: not a row of this subcase
         out = np.zeros((results.mode.size, grids.size, 3))
         for total, each in zip(out, force, strict=True):
             np.add.at(total, at[rows], each)

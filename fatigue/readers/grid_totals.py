@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.fe_results import TOTALS, FeResults
+from fatigue.readers.fe_results import FeResults
 from fatigue.readers.forces import Convention
 
 TOLERANCE = 1e-3
@@ -63,19 +63,20 @@ def check_totals(results: FeResults, convention: Convention | None) -> TotalsChe
     ----------
     convention : sign of the element rows, where it is known
     """
-    is_total = results.kind == TOTALS
+    is_total = results.of_total
     if not is_total.any():
         return None
     of_element = results.of_element
     groups = [np.flatnonzero(rows) for rows in (~of_element & ~is_total, of_element, is_total)]
     grids, at = np.unique(results.node, return_inverse=True)
-    stated = np.bincount(at[is_total], minlength=grids.size) > 0
     added = _Tally(1.0, "add up to")
     subtracted = _Tally(-1.0, "give, loads less forces on elements,")
     largest_total = 0.0
     for mode, force in zip(results.mode.tolist(), results.force, strict=True):
+        is_here = ~np.isnan(force[:, 0])  # a row that is no element's may belong to other modes
+        stated = np.bincount(at[is_total & is_here], minlength=grids.size) > 0
         for part in (slice(0, 3), slice(3, 6)):
-            values = force[:, part].astype(np.float64)
+            values = np.where(is_here[:, None], force[:, part], 0.0).astype(np.float64)
             loads, elements, totals = (_sums(values[rows], at[rows], grids.size) for rows in groups)
             size = np.abs(values).max(axis=1, initial=0.0)
             largest = np.zeros(grids.size)

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.readers.fe_assembly import assemble
 from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
-from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, assemble
+from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock
 from fatigue.readers.nastran_frames import FrameCard, Frames
 
 _COMPONENTS = ("F1", "F2", "F3", "M1", "M2", "M3")
@@ -51,8 +52,8 @@ def read_h5(path: Path, subcase: int | None = None) -> FeResults:
             for key, rows in _by_domain(shapes_table)
             if key in domains
         ]
-        eigenvalues = {int(row["MODE"]): Eigenvalue(float(row["FREQ"]), float(row["MASS"])) for row in summary}
-    return assemble(str(path), "MSC Nastran", forces, shapes, eigenvalues, subcase)
+        eigenvalues = [Eigenvalue(0, int(row["MODE"]), float(row["FREQ"]), float(row["MASS"])) for row in summary]
+    return assemble(str(path), "MSC Nastran", forces, shapes, eigenvalues, {}, subcase)
 
 
 def read_h5_model(path: Path) -> FeModel:

@@ -1,5 +1,10 @@
-"""Grid point forces, mode shapes, frequencies and generalised masses from a NASTRAN or OptiStruct OP2 file."""
+"""Grid point forces, mode shapes, frequencies and generalised masses from a NASTRAN or OptiStruct OP2 file.
 
+Only the tables that hold them are decoded; whatever else a solver writes is stepped over.
+"""
+
+import re
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -7,31 +12,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, assemble, is_sound
-from fatigue.readers.op2_records import Op2File, Op2Table, Span, read_records
+from fatigue.readers.fe_assembly import assemble
+from fatigue.readers.fe_results import (
+    REQUEST,
+    Eigenvalue,
+    FeResults,
+    ForceBlock,
+    ShapeBlock,
+    UnusableBlock,
+    frequency_of,
+    is_sound,
+)
+from fatigue.readers.nastran_analysis import ANALYSES, MODES, STATIC, wrong_analysis
+from fatigue.readers.op2_records import Op2File, Op2Table, Record, characters, read_records, text_of
 
 _FORCE_TABLES = ("OGPFB1",)
 _SORT2_TABLES = ("OGPFB2",)
 _SHAPE_TABLES = ("OUGV1", "OUG1")
 _EIGENVALUE_TABLES = ("LAMA", "LAMAS")
-_APPROACHES = {
-    1: "static",
-    2: "real eigenvalues",
-    3: "differential stiffness",
-    4: "differential stiffness",
-    5: "frequency response",
-    6: "transient response",
-    7: "pre-buckling",
-    8: "post-buckling",
-    9: "complex eigenvalues",
-    10: "nonlinear statics",
-    11: "geometric nonlinear statics",
-    12: "contran",
-}
-_STATIC, _MODES = 1, 2
-_GRID_POINT_FORCE, _EIGENVECTOR, _DISPLACEMENT = 19, 7, 1
+_STATES_EIGENVALUE = re.compile(r"B?OUG|OQM?G")
+"""Tables with the eigenvalue in word 6 of their identification: displacements in any frame, reactions."""
+_GRID_POINT_FORCE, _EIGENVECTOR, _DISPLACEMENT, _EIGENVALUE = 19, 7, 1, 6
 _GRID = 1
 _ID_WORDS = 146
+_FIELD_WORDS = 32  # of title, subtitle and label, from word 51 on
+_SUPERELEMENT_AT = 99  # first character in the subtitle
+_SUPERELEMENT = re.compile(r"SUPERELEMENT\s+(\d+)\b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,18 +45,30 @@ class _Identification:
     """The words of an identification record that say what the next record holds."""
 
     approach: int
-    device: int
     table_code: int
     subcase: int
     mode: int
     words_per_row: int
-    text: str
+    is_thermal: bool
+    eigenvalue: float  # word 6
+    own: tuple[float, float]  # words 14 and 16, in force tables of MSC Nastran the eigenvalue and the frequency
+    superelement: int
+
+    @property
+    def key(self) -> tuple[int, int]:
+        """Subcase and mode; word 5 of a static subcase is a load set or nothing."""
+        return self.subcase, self.mode if self.approach == MODES else 0
 
 
-def read_op2(path: Path, subcase: int | None = None) -> FeResults:
+def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
     """Read the grid point forces of a real modal run or of static subcases.
 
     Both word sizes and both byte orders are read.
+
+    Parameters
+    ----------
+    subcase : the one to read, where the file has several that cannot be read together
+    interface : static subcases that are modes of the basis, beside those of a modal subcase
 
     Raises
     ------
@@ -58,19 +76,44 @@ def read_op2(path: Path, subcase: int | None = None) -> FeResults:
     """
     op2 = read_records(path)
     forces: list[ForceBlock] = []
+    unusable: list[UnusableBlock] = []
     shapes: list[ShapeBlock] = []
-    eigenvalues: dict[int, Eigenvalue] = {}
-    for table in op2.tables:
+    stated: dict[tuple[int, int], float] = {}
+    beside_forces: dict[tuple[int, int], float] = {}
+    for table in _tables(op2):
         if table.name in _FORCE_TABLES:
-            forces += [_force_block(op2, table, *pair) for pair in _pairs(op2, table)]
+            for head, body in _blocks(op2, table):
+                if (other := _unusable(op2, table, head)) is not None:
+                    unusable.append(UnusableBlock(head.subcase, other))
+                else:
+                    forces.append(_force_block(op2, table, head, op2.record(body)))
+                    beside_forces[head.key] = _own_eigenvalue(head)
         elif table.name in _SHAPE_TABLES:
-            shapes += [block for pair in _pairs(op2, table) if (block := _shape_block(op2, table, *pair))]
-        elif table.name in _EIGENVALUE_TABLES:
-            for _, record in _pairs(op2, table):
-                eigenvalues |= _eigenvalues(op2, table, record)
-    if not forces:
+            shapes += [block for pair in _blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
+        if _STATES_EIGENVALUE.match(table.name):
+            stated |= {head.key: head.eigenvalue for head in _heads(op2, table) if head.key[1] and head.eigenvalue}
+    summary: list[Eigenvalue] = []
+    if any(block.mode for block in forces) or not (forces or unusable):
+        tables = [table for table in _tables(op2) if table.name in _EIGENVALUE_TABLES]
+        summary = [line for t in tables for pair in _blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
+    if not forces and not unusable:
         raise _without_forces(op2)
-    return assemble(str(path), op2.label, forces, shapes, eigenvalues, subcase)
+    return assemble(str(path), op2.label, forces, shapes, summary, beside_forces | stated, subcase, unusable, interface)
+
+
+def _tables(op2: Op2File) -> tuple[Op2Table, ...]:
+    """Tables of the one run of the file that has forces; a second run may have been appended to the first."""
+    runs = sorted({table.run for table in op2.tables if table.name in _FORCE_TABLES})
+    if len(runs) > 1:
+        raise DataError(
+            Problem(
+                "many_runs",
+                str(op2.path),
+                f"the file holds {len(runs)} runs with grid point forces, one behind the other",
+                "Delete the OP2 file before the run that matters, and repeat it",
+            )
+        )
+    return tuple(table for table in op2.tables if not runs or table.run == runs[0])
 
 
 def _without_forces(op2: Op2File) -> DataError:
@@ -88,12 +131,28 @@ def _without_forces(op2: Op2File) -> DataError:
     )
 
 
-def _pairs(op2: Op2File, table: Op2Table) -> list[tuple[_Identification, NDArray[np.uint8]]]:
-    """Identification and data record of every block of a results table."""
-    if len(table.records) % 2:
-        raise _damaged(op2, table, f"{len(table.records)} records where pairs were expected")
-    pairs = zip(table.records[::2], table.records[1::2], strict=True)
-    return [(_identification(op2, table, head), op2.record(body)) for head, body in pairs]
+def _is_head(op2: Op2File, record: Record) -> bool:
+    """Whether a record has the length of an identification, which no number of whole rows has."""
+    return sum(chunk.length * chunk.number for chunk in record) == _ID_WORDS * op2.word
+
+
+def _heads(op2: Op2File, table: Op2Table) -> Iterator[_Identification]:
+    """Identifications of a table that is not decoded further."""
+    return (_identification(op2, record) for record in table.records if _is_head(op2, record))
+
+
+def _blocks(op2: Op2File, table: Op2Table) -> Iterator[tuple[_Identification, Record]]:
+    """Identification and data of every block of a results table; the data may be cut into several records."""
+    starts = [k for k, record in enumerate(table.records) if _is_head(op2, record)]
+    if table.records and starts[:1] != [0]:
+        words = sum(chunk.length * chunk.number for chunk in table.records[0]) // op2.word
+        raise _damaged(op2, table, f"an identification record of {words} words, not {_ID_WORDS}")
+    for start, end in zip(starts, [*starts[1:], len(table.records)], strict=True):
+        head = _identification(op2, table.records[start])
+        body = tuple(chunk for record in table.records[start + 1 : end] for chunk in record)
+        if end == start + 1:
+            raise _damaged(op2, table, f"no data follow the identification of subcase {head.subcase} mode {head.mode}")
+        yield head, body
 
 
 def _damaged(op2: Op2File, table: Op2Table, found: str) -> DataError:
@@ -108,97 +167,112 @@ def _damaged(op2: Op2File, table: Op2Table, found: str) -> DataError:
     )
 
 
-def _identification(op2: Op2File, table: Op2Table, head: tuple[Span, ...]) -> _Identification:
+def _identification(op2: Op2File, record: Record) -> _Identification:
     """Decode an identification record."""
-    record = op2.record(head)
-    if record.size != _ID_WORDS * op2.word:
-        raise _damaged(op2, table, f"an identification record of {record.size // op2.word} words, not {_ID_WORDS}")
-    words = record.view(f"{op2.order}i{op2.word}")
-    if op2.word == 8:
-        record = record.reshape(-1, 8)[:, :4].ravel()  # four characters in each word
+    raw = op2.record(record)
+    words, reals = raw.view(f"{op2.order}i{op2.word}"), raw.view(f"{op2.order}f{op2.word}")
     return _Identification(
-        approach=int(words[0]) // 10,
-        device=int(words[0]) % 10,
+        approach=int(words[0]) // 10,  # the last digit is the device
         table_code=int(words[1]),
         subcase=int(words[3]),
         mode=int(words[4]),
         words_per_row=int(words[9]),
-        text=record[200:].tobytes().decode("latin-1"),
+        is_thermal=int(words[22]) == 1,
+        eigenvalue=float(reals[5]),
+        own=(float(reals[13]), float(reals[15])),
+        superelement=_superelement(op2, raw),
     )
 
 
-def _force_block(op2: Op2File, table: Op2Table, head: _Identification, record: NDArray[np.uint8]) -> ForceBlock:
-    """Rows of one mode; refuses everything that is not a real SORT1 grid point force balance."""
+def _superelement(op2: Op2File, raw: NDArray[np.uint8]) -> int:
+    """Find the superelement's number behind the subtitle, 0: residual structure; a user's title may hold the word."""
+    size = _FIELD_WORDS * op2.word
+    fields = [raw[at : at + size].tobytes() for at in range(raw.size - 3 * size, raw.size, size)]
+    title, subtitle, label = (text_of(field, op2.word) for field in fields)
+    if found := _SUPERELEMENT.match(characters(fields[1], op2.word)[_SUPERELEMENT_AT:].strip()):
+        return int(found[1])
+    for text in (title, subtitle, label):
+        if found := _SUPERELEMENT.fullmatch(text):
+            return int(found[1])
+    return 0
+
+
+def _own_eigenvalue(head: _Identification) -> float:
+    """Eigenvalue in the identification of forces, if its frequency stands beside it; NaN otherwise."""
+    eigenvalue, frequency = head.own
+    if head.approach != MODES or not 0 < abs(eigenvalue) < np.inf:
+        return np.nan
+    return eigenvalue if np.isclose(frequency_of(eigenvalue), frequency, rtol=1e-4, atol=0) else np.nan
+
+
+def _unusable(op2: Op2File, table: Op2Table, head: _Identification) -> Problem | None:
+    """Why a block is no real SORT1 grid point force balance of the residual structure; None if it is."""
     where = f"{op2.path}, {table.name} subcase {head.subcase}"
-    if head.approach not in (_STATIC, _MODES):
-        raise DataError(
-            Problem(
-                "wrong_analysis",
-                where,
-                f"the forces belong to a solution of type {_APPROACHES.get(head.approach, head.approach)}",
-                REQUEST,
-            )
-        )
+    if head.approach not in (STATIC, MODES):
+        return wrong_analysis(where, head.approach)
     if head.table_code >= 1000 or head.words_per_row == 16:
-        raise DataError(
-            Problem("complex_forces", where, "the forces are complex or sorted by node (SORT2)", "Request REAL, SORT1")
+        return Problem(
+            "complex_forces", where, "the forces are complex or sorted by node (SORT2)", "Request REAL, SORT1"
         )
-    if "SUPERELEMENT" in head.text and not head.text.split("SUPERELEMENT", 1)[1].lstrip().startswith("0"):
-        raise DataError(
-            Problem(
-                "superelement",
-                where,
-                "the forces belong to a superelement: " + " ".join(head.text.split("SUPERELEMENT", 1)[1].split()[:1]),
-                "Run the model without superelements, or give the residual structure that holds the welds",
-            )
+    if head.superelement:
+        return Problem(
+            "superelement",
+            where,
+            f"the forces belong to a superelement: {head.superelement}",
+            "Run the model without superelements, or give the residual structure that holds the welds",
         )
+    return None
+
+
+def _force_block(op2: Op2File, table: Op2Table, head: _Identification, record: NDArray[np.uint8]) -> ForceBlock:
+    """Rows of one mode."""
     if head.table_code != _GRID_POINT_FORCE or head.words_per_row != 10:
         raise _damaged(
             op2, table, f"table code {head.table_code} with {head.words_per_row} words in a row, not 19 with 10"
         )
-    if head.subcase < 1 or (head.approach == _MODES) != (head.mode > 0):
+    if head.subcase < 1 or (head.approach == MODES and head.mode < 1):
         raise _damaged(op2, table, f"subcase {head.subcase} mode {head.mode} is impossible")
     o, w = op2.order, op2.word
     dtype = np.dtype([("key", f"{o}i{w}"), ("element", f"{o}i{w}"), ("kind", f"S{2 * w}"), ("force", f"{o}f{w}", 6)])
     if record.size % dtype.itemsize:
         raise _damaged(op2, table, f"a record of {record.size // w} words is no whole number of rows")
     rows = record.view(dtype)
-    node = _nodes(op2, table, head, rows["key"])
+    subcase, mode = head.key
+    where = f"{op2.path}, {table.name} subcase {subcase}"
     return ForceBlock(
-        f"{where} mode {head.mode}" if head.mode else where,
-        head.subcase,
-        head.mode,
-        node,
+        f"{where} mode {mode}" if mode else where,
+        subcase,
+        mode,
+        _nodes(op2, table, rows["key"]),
         rows["element"].astype(np.int64),
         _kinds(op2, table, rows["kind"]),
         rows["force"].astype(f"=f{w}"),
     )
 
 
-def _nodes(op2: Op2File, table: Op2Table, head: _Identification, key: NDArray[np.signedinteger]) -> NDArray[np.int64]:
-    """Grid ids of keys 10 x grid + device code, the device being that of the identification."""
-    if (key % 10 != head.device).any() or (key < 10).any():
-        bad = key[(key % 10 != head.device) | (key < 10)][0]
-        raise _damaged(op2, table, f"the key {bad} is no grid of device {head.device}, as in superelement results")
+def _nodes(op2: Op2File, table: Op2Table, key: NDArray[np.signedinteger]) -> NDArray[np.int64]:
+    """Grid ids of keys 10 x grid + device code; the code may be another than that of the identification."""
+    if (key < 10).any():
+        raise _damaged(op2, table, f"the key {key[key < 10][0]} is no grid")
     return np.asarray(key // 10, np.int64)
 
 
 def _kinds(op2: Op2File, table: Op2Table, raw: NDArray[np.bytes_]) -> NDArray[np.str_]:
     """Row names, every distinct one decoded once."""
-    distinct, which = np.unique(raw, return_inverse=True)
-    names = []
-    for name in distinct.tolist():
-        text = name if op2.word == 4 else name[:4] + name[8:12]
-        if not (text.isascii() and text.decode("ascii").isprintable()):
-            raise _damaged(op2, table, f"a row is named {text!r}")
-        names.append(text.decode("ascii").strip())
+    raw = np.ascontiguousarray(raw)
+    _, first, which = np.unique(raw.view(np.uint64) if op2.word == 4 else raw, return_index=True, return_inverse=True)
+    names = [characters(name, op2.word).strip(" \0") for name in raw[first].tolist()]
+    for name in names:
+        if not (name.isascii() and name.isprintable()):
+            raise _damaged(op2, table, f"a row is named {name!r}")
     return np.array(names, dtype=np.str_)[which]
 
 
-def _shape_block(op2: Op2File, table: Op2Table, head: _Identification, record: NDArray[np.uint8]) -> ShapeBlock | None:
+def _shape_block(op2: Op2File, table: Op2Table, head: _Identification, body: Record) -> ShapeBlock | None:
     """Mode shape of one mode; None for what the audit has no use for."""
-    if head.approach not in (_STATIC, _MODES) or head.table_code not in (_EIGENVECTOR, _DISPLACEMENT):
+    if head.approach not in (STATIC, MODES) or head.table_code not in (_EIGENVECTOR, _DISPLACEMENT) or head.is_thermal:
         return None
+    record = op2.record(body)
     o, w = op2.order, op2.word
     dtype = np.dtype([("key", f"{o}i{w}"), ("type", f"{o}i{w}"), ("shape", f"{o}f{w}", 6)])
     if head.words_per_row != 8 or record.size % dtype.itemsize:
@@ -207,20 +281,22 @@ def _shape_block(op2: Op2File, table: Op2Table, head: _Identification, record: N
     rows = rows[rows["type"] == _GRID]
     if not is_sound(rows["shape"]).all():
         raise _damaged(op2, table, f"mode {head.mode} holds a value that is no number")
-    node = _nodes(op2, table, head, rows["key"])
+    node = _nodes(op2, table, rows["key"])
     if np.unique(node).size < node.size:
         raise _damaged(op2, table, f"a grid is given twice in mode {head.mode}")
-    mode = head.mode if head.approach == _MODES else 0
-    return ShapeBlock(head.subcase, mode, node, rows["shape"].astype(f"=f{w}"))
+    return ShapeBlock(*head.key, node, rows["shape"].astype(f"=f{w}"))
 
 
-def _eigenvalues(op2: Op2File, table: Op2Table, record: NDArray[np.uint8]) -> dict[int, Eigenvalue]:
-    """Frequencies and generalised masses of the eigenvalue summary: 7 words a mode."""
+def _eigenvalues(op2: Op2File, table: Op2Table, head: _Identification, body: Record) -> list[Eigenvalue]:
+    """Frequencies and generalised masses of the eigenvalue summary, 7 words a mode; none of load factors."""
+    if head.approach in ANALYSES and head.approach not in (STATIC, MODES):
+        return []
+    record = op2.record(body)
     o, w = op2.order, op2.word
     dtype = np.dtype([("mode", f"{o}i{w}"), ("order", f"{o}i{w}"), ("value", f"{o}f{w}", 5)])
     if record.size % dtype.itemsize:
         raise _damaged(op2, table, f"a record of {record.size // w} words is no whole number of 7-word rows")
-    found = {}
+    found = []
     for row in record.view(dtype):
         eigenvalue, omega, frequency, mass, _ = (float(v) for v in row["value"])
         if row["mode"] < 1 or not is_sound(row["value"]).all() or mass < 0:
@@ -231,5 +307,5 @@ def _eigenvalues(op2: Op2File, table: Op2Table, record: NDArray[np.uint8]) -> di
             raise _damaged(
                 op2, table, f"eigenvalue {eigenvalue:g} and {frequency:g} Hz of mode {row['mode']} contradict"
             )
-        found[int(row["mode"])] = Eigenvalue(float(np.sqrt(abs(eigenvalue)) / (2 * np.pi)), mass)
+        found.append(Eigenvalue(head.subcase, int(row["mode"]), frequency_of(eigenvalue), mass))
     return found

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, assemble
+from fatigue.readers.fe_assembly import assemble
+from fatigue.readers.fe_results import REQUEST, FeResults, ForceBlock
 
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
@@ -28,23 +29,21 @@ def read_punch(path: Path, subcase: int | None = None) -> FeResults:
     heads = [k for k, line in enumerate(lines) if line.startswith(_HEADING)]
     if not heads:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
-    eigenvalues: dict[int, Eigenvalue] = {}
-    blocks = [_block(path, lines, head, eigenvalues) for head in heads]
-    return assemble(str(path), "", blocks, [], eigenvalues, subcase)
+    stated: dict[tuple[int, int], float] = {}
+    blocks = [_block(path, lines, head, stated) for head in heads]
+    return assemble(str(path), "", blocks, [], [], stated, subcase)
 
 
-def _block(path: Path, lines: list[str], head: int, eigenvalues: dict[int, Eigenvalue]) -> ForceBlock:
+def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int], float]) -> ForceBlock:
     """One balance: its $ lines, then three lines for each row."""
     where = f"{path}, line {head + 1}"
-    number, mode, at = 0, 0, head + 1
+    number, mode, eigenvalue, at = 0, 0, np.nan, head + 1
     while at < len(lines) and lines[at].startswith("$"):
         line = lines[at][:72]
         if found := _SUBCASE.match(line):
             number = int(found[1])
         if found := _EIGENVALUE.match(line):
-            mode = int(found[2])
-            eigenvalue = _real(path, at, found[1])
-            eigenvalues[mode] = Eigenvalue(float(np.sqrt(abs(eigenvalue)) / (2 * np.pi)), float("nan"))
+            mode, eigenvalue = int(found[2]), _real(path, at, found[1])
         if line.startswith(("$REAL-IMAGINARY", "$MAGNITUDE-PHASE")):
             raise DataError(
                 Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103")
@@ -54,6 +53,7 @@ def _block(path: Path, lines: list[str], head: int, eigenvalues: dict[int, Eigen
         at += 1
     if number < 1:
         raise DataError(Problem("no_subcase", where, "no line $SUBCASE ID follows", "Copy the punch file again"))
+    stated[number, mode] = eigenvalue
     node, element, kind, force = [], [], [], []
     while at < len(lines) and not lines[at].startswith("$"):
         if not lines[at].strip():

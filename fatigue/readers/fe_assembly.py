@@ -1,0 +1,195 @@
+"""Blocks of a result file, one for each mode or subcase, joined into one FE run."""
+
+from collections.abc import Collection, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock, frequency_of
+from fatigue.readers.force_rows import common_rows
+
+_NOT_GIVEN = 1e-37
+"""A smaller eigenvalue is no number a solver computes: the word holds an integer or nothing."""
+
+Key = tuple[int, int]
+"""Subcase and mode; mode 0: a static subcase."""
+
+
+def assemble(
+    source: str,
+    solver: str,
+    forces: list[ForceBlock],
+    shapes: list[ShapeBlock],
+    summary: list[Eigenvalue],
+    stated: Mapping[Key, float],
+    subcase: int | None,
+    unusable: Collection[UnusableBlock] = (),
+    interface: Collection[int] = (),
+) -> FeResults:
+    """Join the blocks of a file into one run.
+
+    Parameters
+    ----------
+    summary : the eigenvalue summaries of the file
+    stated : eigenvalues that stand beside shapes or forces, used for modes of a file without summary
+    subcase : the subcase to take from a file with several modal ones; None if there is only one
+    unusable : blocks that are refused if the choice falls on them
+    interface : static subcases that are modes of the basis, beside the modes of a modal subcase
+
+    Raises
+    ------
+    DataError : no blocks, a choice of subcase is needed, a mode or a row given twice, rows that differ between modes, a
+        value that is no number
+    """
+    chosen, remarks = _choose(source, forces, unusable, subcase, interface)
+    modal = {block.subcase for block in chosen if block.mode > 0}
+    key = np.array([block.mode or block.subcase for block in chosen], np.int64)
+    is_static = np.array([block.mode == 0 for block in chosen])
+    known = _summary_of(summary, modal)
+    rows = common_rows(chosen)
+    modes = set(key[~is_static].tolist())
+    if known and (stray := sorted(modes - set(known))):
+        raise DataError(
+            Problem(
+                "unknown_mode",
+                source,
+                f"mode {stray[0]} has forces and is not in the eigenvalue summary of {len(known)} modes",
+                "Give the results of one run; copy the file again if it was one",
+            )
+        )
+    listed = set(known) or {mode for subcase_of, mode in stated if subcase_of in modal and mode}
+    if modal and (silent := sorted(listed - modes)):
+        remarks.append(
+            Problem(
+                "modes_without_forces",
+                source,
+                f"the file lists {len(listed)} modes, {len(silent)} of them without forces, mode {silent[0]} the first",
+                "Request GPFORCE for all modes that the simulation uses",
+            )
+        )
+    beside = {} if known else _given(stated, [(block.subcase, block.mode) for block in chosen if block.mode])
+    frequency, mass = np.full(key.size, np.nan), np.full(key.size, np.nan)
+    for k, block in enumerate(chosen):
+        if block.mode and known:
+            frequency[k], mass[k] = known[block.mode].frequency, known[block.mode].modal_mass
+        elif block.mode:
+            frequency[k] = frequency_of(beside.get((block.subcase, block.mode), np.nan))
+    shape_node, shape = _shapes([(block.subcase, block.mode) for block in chosen], shapes)
+    return FeResults(
+        source=source,
+        solver=solver,
+        analysis="modal" if modal else "static",
+        mode=key,
+        frequency=frequency,
+        modal_mass=mass,
+        node=rows.node,
+        element=rows.element,
+        kind=rows.kind,
+        force=rows.force,
+        shape_node=shape_node,
+        shape=shape,
+        remarks=tuple(remarks),
+    )
+
+
+def _choose(
+    source: str,
+    blocks: list[ForceBlock],
+    unusable: Collection[UnusableBlock],
+    subcase: int | None,
+    interface: Collection[int],
+) -> tuple[list[ForceBlock], list[Problem]]:
+    """Blocks of the run asked for: all static subcases, or the modes of one subcase and the static ones named."""
+    usable = sorted({block.subcase for block in blocks})
+    if subcase is not None:
+        blocks = [block for block in blocks if block.subcase == subcase or _is_named(block, interface)]
+        unusable = [other for other in unusable if other.subcase == subcase]
+    refuse(DataError, _unusable_problems(unusable, usable))
+    if subcase is not None and not any(block.subcase == subcase for block in blocks):
+        raise DataError(
+            Problem("no_subcase", source, f"subcase {subcase} has no grid point forces", f"Name one of {usable}")
+        )
+    modal = [block for block in blocks if block.mode > 0]
+    subcases = sorted({block.subcase for block in modal})
+    if len(subcases) > 1:
+        raise DataError(
+            Problem("many_subcases", source, f"modes of several subcases: {subcases}", "Name the subcase to use")
+        )
+    modes = {block.mode for block in modal}
+    static = [block for block in blocks if block.mode == 0]
+    beside = [block for block in static if _is_named(block, interface) and block.subcase not in modes]
+    remarks = _left_out(source, [block.subcase for block in static if block not in beside], modes) if modal else []
+    chosen = [*modal, *beside] if modal else static
+    seen: set[Key] = set()
+    for block in chosen:
+        if (block.subcase, block.mode) in seen:
+            raise DataError(
+                Problem(
+                    "block_twice",
+                    block.where,
+                    f"subcase {block.subcase} mode {block.mode} is given more than once, as superelements, restarts, "
+                    "appended runs and design cycles do",
+                    "Give the results of one residual structure and one run",
+                )
+            )
+        seen.add((block.subcase, block.mode))
+    return chosen, remarks
+
+
+def _is_named(block: ForceBlock, interface: Collection[int]) -> bool:
+    return block.mode == 0 and block.subcase in interface
+
+
+def _unusable_problems(unusable: Collection[UnusableBlock], usable: list[int]) -> list[Problem]:
+    """One problem of each kind, with the subcases that could be read instead."""
+    found: dict[str, Problem] = {}
+    for other in unusable:
+        problem = other.problem
+        elsewhere = [number for number in usable if number != other.subcase]
+        remedy = f"{problem.remedy}, or name the subcase to use: {elsewhere[:10]}" if elsewhere else problem.remedy
+        found.setdefault(problem.code, Problem(problem.code, problem.where, problem.what, remedy))
+    return list(found.values())
+
+
+def _left_out(source: str, subcases: list[int], modes: set[int]) -> list[Problem]:
+    """Say which static subcases are not used: a preload is none of the modes, a unit load of an interface is one."""
+    if not subcases:
+        return []
+    some = ", ".join(str(number) for number in subcases[:10]) + (" ..." if len(subcases) > 10 else "")
+    clash = next((number for number in subcases if number in modes), None)
+    remedy = "Name them as interface modes if they are unit loads of the modal basis"
+    if clash is not None:
+        remedy += f"; subcase {clash} has the number of a mode and needs another"
+    return [
+        Problem(
+            "static_left_out", source, f"{len(subcases)} static subcases ({some}) are left out beside the modes", remedy
+        )
+    ]
+
+
+def _summary_of(summary: list[Eigenvalue], modal: set[int]) -> dict[int, Eigenvalue]:
+    """Lines of the chosen subcase by mode; those of any subcase if the file has one summary only."""
+    own = [line for line in summary if line.subcase in modal]
+    if not own and len({line.subcase for line in summary}) == 1 and modal:
+        own = summary
+    found = {line.mode: line for line in own}
+    is_one = all(found[line.mode].frequency == line.frequency for line in own)
+    return found if is_one else {}
+
+
+def _given(stated: Mapping[Key, float], wanted: list[Key]) -> dict[Key, float]:
+    """Eigenvalues that are numbers; zero counts only beside others, as that of a rigid mode."""
+    found = {key: stated[key] for key in wanted if key in stated and np.isfinite(stated[key])}
+    found = {key: value if abs(value) > _NOT_GIVEN else 0.0 for key, value in found.items()}
+    return found if any(found.values()) else {}
+
+
+def _shapes(keys: list[Key], blocks: list[ShapeBlock]) -> tuple[NDArray[np.int64], NDArray[np.floating]]:
+    """Mode shapes of all modes, or none if one is missing or their grids differ."""
+    found = {(block.subcase, block.mode): block for block in blocks}
+    wanted = [found.get(key) for key in keys]
+    complete = [block for block in wanted if block is not None]
+    if len(complete) < len(wanted) or any(not np.array_equal(block.node, complete[0].node) for block in complete):
+        return np.empty(0, np.int64), np.empty((len(keys), 0, 6))
+    return complete[0].node, np.stack([block.shape for block in complete])
