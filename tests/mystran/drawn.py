@@ -6,18 +6,24 @@ import numpy as np
 
 from fatigue.readers.units import SYSTEMS
 from tests.mystran import plates as joints
-from tests.mystran.decks import Deck
+from tests.mystran.decks import Deck, plain
 
 JOINTS = (joints.tee, joints.cruciform, joints.lap, joints.bracket, joints.box)
+_MODES = 4
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """The static and the modal run of one model, and what was drawn for it."""
+    """One model: its static and its modal run, what was drawn for it, and the same runs of its plain twin.
+
+    The twin is not turned; its ids count from 1, its frames are basic, its units mm, t, s.
+    """
 
     static: Deck
     modal: Deck
     story: str
+    static_twin: Deck
+    modal_twin: Deck
 
 
 def drawn(seed: int) -> Drawn:
@@ -37,6 +43,9 @@ def drawn(seed: int) -> Drawn:
         plates = joints.with_triangles(plates, rng)
     if chance(0.4, "bars and spiders"):
         plates = joints.with_bars_and_spiders(plates, rng)
+    quad = str(rng.choice(["MIN4", "MIN4T", "MITC4"]))
+    story.append(quad)
+    twins = [plain(plates, sol, modes=_MODES, quad=quad) for sol in (101, 103)]
     if chance(0.4, "turned"):
         plates = joints.turned(plates, rng)
     n, e = len(plates.xyz), len(plates.shells)
@@ -46,7 +55,10 @@ def drawn(seed: int) -> Drawn:
     frames = np.zeros(n, int)
     if chance(0.6, "frames"):
         frames = rng.choice([0, 7, 8], n)
+        for card, head, nodes in plates.spiders:
+            if card == "RBE3":  # MYSTRAN's depends on the displacement frames of its nodes
+                frames[[head, *nodes]] = 0
     units = str(rng.choice(list(SYSTEMS)))
     story.append(units)
-    runs = [Deck(plates, sol, node_ids, shell_ids, frames, modes=4, units=units) for sol in (101, 103)]
-    return Drawn(*runs, " ".join(story))
+    runs = [Deck(plates, sol, node_ids, shell_ids, frames, modes=_MODES, units=units, quad=quad) for sol in (101, 103)]
+    return Drawn(*runs, " ".join(story), *twins)

@@ -147,7 +147,11 @@ def with_bars_and_spiders(plates, rng):
     ground, head = len(xyz) - 2, len(xyz) - 1
     fixed += [True, False]
     bars.append((first[0], ground))
-    spiders.append((str(rng.choice(["RBE2", "RBE3"])), head, first[1:]))
+    if rng.random() < 0.5:
+        spiders.append(("RBE2", head, first[1:]))
+    else:  # the means of nodes on a line would leave the rotation about it free
+        around = {n for nodes in plates.shells if set(nodes) & set(first[1:]) for n in nodes}
+        spiders.append(("RBE3", head, sorted(n for n in around if not plates.fixed[n])))
     loads[0] = {head: _force(rng)}
     return replace(plates, xyz=xyz, fixed=np.array(fixed), loads=loads, bars=bars, spiders=spiders)
 

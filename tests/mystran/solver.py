@@ -23,3 +23,16 @@ def solve(deck, folder, name):
     assert "PROCESSING TERMINATED" not in listing, listing[-2000:]
     assert "MYSTRAN END" in listing, listing[-2000:]
     return mesh, Path(mesh.with_suffix(".OP2"))
+
+
+def listed_modes(op2):
+    """Frequencies [Hz] by mode as the solver prints them."""
+    lines = op2.with_suffix(".F06").read_text(errors="replace").splitlines()
+    start = next(k for k, line in enumerate(lines) if "R E A L   E I G E N V A L U E S" in line)
+    found = {}
+    for line in lines[start + 4 :]:
+        words = line.split()
+        if len(words) != 7:
+            break
+        found[int(words[0])] = float(words[4])
+    return found
