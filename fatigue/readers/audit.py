@@ -86,7 +86,7 @@ def audit(
         sign,
         _completeness(results, model),
         *_interface(results, set(interface_modes)),
-        *_unknown_frequencies(results, set(interface_modes)),
+        *_unknown_frequencies(results, {*interface_modes, *results.static_modes}),
         *_masses(results),
         *_frequencies(results, simulated),
     ]

@@ -22,7 +22,7 @@ from fatigue.readers.neutral_tables import elements_table, forces_table, history
 from fatigue.readers.shell_rows import without_drilling
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, unit_system
-from fatigue.readers.weld_forces import neutral_forces, to_mid_surface, with_forces_only
+from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import WeldSources, find_welds
 from fatigue.readers.weld_register import REGISTER, RegisterRow, register_text
 
@@ -42,7 +42,7 @@ class ConvertOptions:
     subcase : which one, where the force file has several
     force_units, coordinate_units : unit systems of the FE files and of the coordinates
     normalisation : whether modes have unit generalised mass or unit displacement (for the conversion of units)
-    interface_modes : modes that are residual, constraint or attachment modes
+    interface_modes : modes that are residual, constraint or attachment modes; static subcases among them are read, too
     ignore_modes : modes to leave out on either side
     match : how columns find their modes
     columns : table of the columns ``column, mode``
@@ -102,8 +102,8 @@ def convert(options: ConvertOptions) -> Conversion:
     CaseError : an unknown unit system, an undecided sign convention
     """
     units = unit_system(options.force_units, "force units")
-    coordinate_units = unit_system(options.coordinate_units, "coordinate units")
-    results, model = read_forces(options.forces, options.subcase), read_model(options.mesh)
+    history_units = unit_system(options.coordinate_units, "coordinate units")
+    results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
     results = without_modes(results, options.ignore_modes)
     table = simulation_modes(options.simulation_modes)
     histories = [_history(path, options, results, table) for path in options.coordinates]
@@ -138,7 +138,7 @@ def convert(options: ConvertOptions) -> Conversion:
         **weld_tables(found),
         REGISTER: register_text(found.rows),
     }
-    factor = coordinate_units.modal_coordinate(options.normalisation) if results.analysis == "modal" else 1.0
+    factor = coordinate_units(results, history_units, options.normalisation)
     events = []
     for history in histories:
         name = _unused(f"q_{_slug(Path(history.source).stem)}.parquet", files)

@@ -90,6 +90,7 @@ def assemble(
         shape_node=shape_node,
         shape=shape,
         remarks=tuple(remarks),
+        static_modes=tuple(key[is_static].tolist()) if modal else (),
     )
 
 

@@ -35,6 +35,7 @@ class FeResults:
     shape_node : (n,) grids of the mode shapes, empty without eigenvectors
     shape : (m, n, 6) mode shapes, in the displacement frame of the node
     remarks : doubts met while reading
+    static_modes : modes that are static subcases beside modes of vibration
     """
 
     source: str
@@ -50,6 +51,7 @@ class FeResults:
     shape_node: NDArray[np.int64]
     shape: NDArray[np.floating]
     remarks: tuple[Problem, ...] = field(default=())
+    static_modes: tuple[int, ...] = ()
 
     @property
     def of_element(self) -> NDArray[np.bool_]:

@@ -26,6 +26,5 @@ def wrong_analysis(where: str, number: int) -> Problem:
     remedy = REQUEST
     if number in _BUCKLING:
         remedy = "Buckling shapes (SOL 105) are no modes of vibration: give the modal run, SOL 103 with GPFORCE"
-    return Problem(
-        "wrong_analysis", where, f"the forces belong to a solution of type {ANALYSES.get(number, number)}", remedy
-    )
+    name = f"{ANALYSES[number]} (analysis type {number})" if number in ANALYSES else f"analysis type {number}"
+    return Problem("wrong_analysis", where, f"the forces belong to a solution of {name}", remedy)

@@ -5,7 +5,7 @@ Only the tables that hold them are decoded; whatever else a solver writes is ste
 
 import re
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +32,7 @@ _SHAPE_TABLES = ("OUGV1", "OUG1")
 _EIGENVALUE_TABLES = ("LAMA", "LAMAS")
 _STATES_EIGENVALUE = re.compile(r"B?OUG|OQM?G")
 """Tables with the eigenvalue in word 6 of their identification: displacements in any frame, reactions."""
-_GRID_POINT_FORCE, _EIGENVECTOR, _DISPLACEMENT, _EIGENVALUE = 19, 7, 1, 6
+_GRID_POINT_FORCE, _EIGENVECTOR, _DISPLACEMENT = 19, 7, 1
 _GRID = 1
 _ID_WORDS = 146
 _FIELD_WORDS = 32  # of title, subtitle and label, from word 51 on
@@ -58,6 +58,11 @@ class _Identification:
     def key(self) -> tuple[int, int]:
         """Subcase and mode; word 5 of a static subcase is a load set or nothing."""
         return self.subcase, self.mode if self.approach == MODES else 0
+
+    @property
+    def is_modal(self) -> bool:
+        """Whether the block is that of a mode, sorted by mode."""
+        return self.approach == MODES and self.mode > 0 and self.table_code < 1000
 
 
 def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
@@ -91,14 +96,16 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
         elif table.name in _SHAPE_TABLES:
             shapes += [block for pair in _blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
         if _STATES_EIGENVALUE.match(table.name):
-            stated |= {head.key: head.eigenvalue for head in _heads(op2, table) if head.key[1] and head.eigenvalue}
+            stated |= {head.key: head.eigenvalue for head in _heads(op2, table) if head.is_modal}
     summary: list[Eigenvalue] = []
     if any(block.mode for block in forces) or not (forces or unusable):
         tables = [table for table in _tables(op2) if table.name in _EIGENVALUE_TABLES]
         summary = [line for t in tables for pair in _blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
     if not forces and not unusable:
         raise _without_forces(op2)
-    return assemble(str(path), op2.label, forces, shapes, summary, beside_forces | stated, subcase, unusable, interface)
+    stated = beside_forces | stated
+    results = assemble(str(path), op2.label, forces, shapes, summary, stated, subcase, unusable, interface)
+    return results if op2.is_closed else replace(results, remarks=(*results.remarks, _unclosed(op2)))
 
 
 def _tables(op2: Op2File) -> tuple[Op2Table, ...]:
@@ -114,6 +121,16 @@ def _tables(op2: Op2File) -> tuple[Op2Table, ...]:
             )
         )
     return tuple(table for table in op2.tables if not runs or table.run == runs[0])
+
+
+def _unclosed(op2: Op2File) -> Problem:
+    """Doubt about a file that ends with a whole table and without an end mark."""
+    return Problem(
+        "no_end_mark",
+        str(op2.path),
+        f"the file has no end mark: tables behind the last one, {op2.tables[-1].name}, may be missing",
+        "Copy the file again, or repeat the run, if it was cut",
+    )
 
 
 def _without_forces(op2: Op2File) -> DataError:
@@ -230,7 +247,7 @@ def _force_block(op2: Op2File, table: Op2Table, head: _Identification, record: N
         raise _damaged(
             op2, table, f"table code {head.table_code} with {head.words_per_row} words in a row, not 19 with 10"
         )
-    if head.subcase < 1 or (head.approach == MODES and head.mode < 1):
+    if head.subcase < (0 if head.approach == MODES else 1) or (head.approach == MODES and head.mode < 1):
         raise _damaged(op2, table, f"subcase {head.subcase} mode {head.mode} is impossible")
     o, w = op2.order, op2.word
     dtype = np.dtype([("key", f"{o}i{w}"), ("element", f"{o}i{w}"), ("kind", f"S{2 * w}"), ("force", f"{o}f{w}", 6)])
@@ -303,7 +320,9 @@ def _eigenvalues(op2: Op2File, table: Op2Table, head: _Identification, body: Rec
             raise _damaged(
                 op2, table, f"mode {row['mode']} with eigenvalue {eigenvalue:g} and mass {mass:g} is impossible"
             )
-        if not np.allclose([omega, 2 * np.pi * frequency], np.sqrt(abs(eigenvalue)), rtol=1e-3, atol=1e-6):
+        is_zero = eigenvalue < 0 and omega == frequency == 0  # what some solvers state for rigid modes
+        size = np.sqrt(abs(eigenvalue))
+        if not is_zero and not np.allclose(np.abs([omega, 2 * np.pi * frequency]), size, rtol=1e-3, atol=1e-6):
             raise _damaged(
                 op2, table, f"eigenvalue {eigenvalue:g} and {frequency:g} Hz of mode {row['mode']} contradict"
             )

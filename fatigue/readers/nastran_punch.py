@@ -1,6 +1,7 @@
 """Grid point forces from a NASTRAN punch file (``GPFORCE(PUNCH)``): text lines of four fields of 18 characters."""
 
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +13,17 @@ from fatigue.readers.fe_results import REQUEST, FeResults, ForceBlock
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
 _SUBCASE = re.compile(r"\$SUBCASE ID\s*=\s*(\d{1,9})", re.ASCII)
+_OTHER_SOLUTIONS = ("$TIME", "$FREQUENCY", "$LOAD FACTOR", "$LOAD STEP", "$COMPLEX EIGENVALUE")
 _SORT2 = ("$POINT ID", "$ELEMENT ID")
 
 
-def read_punch(path: Path, subcase: int | None = None) -> FeResults:
+def read_punch(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
     """Read the grid point force balances of a punch file; it holds no mode shapes and no generalised masses.
+
+    Parameters
+    ----------
+    subcase : the one to read, where the file has several that cannot be read together
+    interface : static subcases that are modes of the basis, beside those of a modal subcase
 
     Raises
     ------
@@ -31,7 +38,7 @@ def read_punch(path: Path, subcase: int | None = None) -> FeResults:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
     stated: dict[tuple[int, int], float] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
-    return assemble(str(path), "", blocks, [], [], stated, subcase)
+    return assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
 
 
 def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int], float]) -> ForceBlock:
@@ -47,6 +54,11 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         if line.startswith(("$REAL-IMAGINARY", "$MAGNITUDE-PHASE")):
             raise DataError(
                 Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103")
+            )
+        if line.startswith(_OTHER_SOLUTIONS):
+            other = line[1:].split("=")[0].strip().lower()
+            raise DataError(
+                Problem("wrong_analysis", where, f"the forces belong to a {other}, to no mode or load", REQUEST)
             )
         if line.startswith(_SORT2):
             raise DataError(Problem("sort2", where, "the forces are sorted by grid (SORT2)", "Request SORT1"))
