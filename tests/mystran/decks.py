@@ -7,7 +7,7 @@ import numpy as np
 from fatigue.readers.units import SYSTEMS
 from tests.mystran.plates import Plates
 
-YOUNG_MPA, DENSITY = 210_000.0, 7.85e-9
+YOUNG_MPA = 210_000.0
 FRAMES = ("CORD2R,7,,0.,0.,0.,1.,2.,3.", ",3.,-1.,0.5", "CORD2C,8,,-500.,-400.,0.,-500.,-300.,700.", ",9.,9.,9.")
 
 
@@ -24,7 +24,7 @@ class Deck:
     modes : how many normal modes
     units : unit system to write in
     extra : more lines of bulk data
-    poisson : ratio of lateral contraction
+    poisson, density : ratio of lateral contraction; mass per volume [t/mm^3]
     quad : formulation of four-node shells: MIN4, MIN4T or MITC4
     """
 
@@ -37,6 +37,7 @@ class Deck:
     units: str = "mm-t-s"
     extra: tuple[str, ...] = ()
     poisson: float = 0.3
+    density: float = 7.85e-9
     quad: str = "MIN4"
 
     def text(self) -> str:
@@ -47,7 +48,9 @@ class Deck:
         )
 
     def _control(self):
-        yield from (f"SOL {self.sol}", "CEND", "TITLE = JOINT", "GPFORCE(PLOT) = ALL", "DISP(PLOT) = ALL", "SPC = 1")
+        yield from (f"SOL {self.sol}", "CEND", "TITLE = JOINT", "GPFORCE(PLOT) = ALL", "DISP(PLOT) = ALL")
+        if self.plates.fixed.any():
+            yield "SPC = 1"
         if self.sol == 103:
             yield "METHOD = 1"
         else:
@@ -59,7 +62,7 @@ class Deck:
         p, ids, system = self.plates, self.node_ids, SYSTEMS[self.units]
         pressure, density = system.force / system.length**2, system.mass / system.length**3
         yield from FRAMES if self.frames.any() else ()
-        yield large("MAT1", 1, YOUNG_MPA / pressure, "", self.poisson, DENSITY / density)
+        yield large("MAT1", 1, YOUNG_MPA / pressure, "", self.poisson, self.density / density)
         for k, t in enumerate(p.thickness, start=1):
             yield large("PSHELL", k, 1, float(t) / system.length, 1, "", 1)
         for n, xyz, frame in zip(ids, p.xyz, self.frames, strict=True):
