@@ -37,6 +37,12 @@ def weld_sources(command: Any) -> Any:
 @click.option("--forces", type=_FILE, required=True, help="Grid point forces: OP2, MSC .h5, or punch.")
 @click.option("--mesh", type=_FILE, required=True, help="Geometry: BDF, or the same MSC .h5.")
 @click.option(
+    "--unit-loads",
+    type=_FILE,
+    multiple=True,
+    help="Forces of static unit loads in a file of their own: interface modes.",
+)
+@click.option(
     "--coordinates", type=_FILE, multiple=True, help="Modal coordinates: CSV, text or .mcf; one file per event."
 )
 @click.option(
@@ -90,6 +96,7 @@ def weld_sources(command: Any) -> Any:
 def convert(
     forces: Path,
     mesh: Path,
+    unit_loads: tuple[Path, ...],
     coordinates: tuple[Path, ...],
     output: Path,
     convention: Any,
@@ -138,6 +145,7 @@ def convert(
             forces=forces,
             mesh=mesh,
             out=output,
+            unit_loads=unit_loads,
             coordinates=coordinates,
             convention=convention,
             subcase=subcase,

@@ -21,6 +21,7 @@ from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_f
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.shell_rows import without_drilling
 from fatigue.readers.tables import open_table
+from fatigue.readers.unit_loads import with_unit_loads
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import WeldSources, find_welds
@@ -37,6 +38,7 @@ class ConvertOptions:
     ----------
     forces, mesh : grid point forces and geometry; an MSC .h5 holds both
     out : folder to write
+    unit_loads : grid point forces of static subcases in files of their own; each is an interface mode
     coordinates : modal coordinates, one file for each event
     convention : sign of the forces; None: as the audit proves it
     subcase : which one, where the force file has several
@@ -57,6 +59,7 @@ class ConvertOptions:
     forces: Path
     mesh: Path
     out: Path
+    unit_loads: tuple[Path, ...] = ()
     coordinates: tuple[Path, ...] = ()
     convention: Convention | None = None
     subcase: int | None = None
@@ -104,6 +107,10 @@ def convert(options: ConvertOptions) -> Conversion:
     units = unit_system(options.force_units, "force units")
     history_units = unit_system(options.coordinate_units, "coordinate units")
     results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
+    for path in options.unit_loads:
+        loads = read_forces(path, None)
+        results = with_unit_loads(results, loads)
+        options = replace(options, interface_modes=(*options.interface_modes, *loads.mode.tolist()))
     results = without_modes(results, options.ignore_modes)
     table = simulation_modes(options.simulation_modes)
     histories = [_history(path, options, results, table) for path in options.coordinates]
@@ -157,7 +164,9 @@ def convert(options: ConvertOptions) -> Conversion:
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
     record = {
-        "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *options.coordinates)},
+        "inputs": {
+            str(p): sha256(p) for p in (options.forces, options.mesh, *options.unit_loads, *options.coordinates)
+        },
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in (*results.remarks, *found.remarks, *remarks)],

@@ -69,9 +69,16 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
         return SignProof(None, None, "the mode shapes do no work on the forces")
     known = np.isfinite(results.modal_mass)
     elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * np.where(known, results.modal_mass, 1.0))
-    usable = (results.frequency > LOWEST_HZ) & (elastic > 0) & (np.abs(work) > _ONE_SIGN * size)
+    is_clear = np.abs(work) > _ONE_SIGN * size
+    usable = (results.frequency > LOWEST_HZ) & (elastic > 0) & is_clear
     if usable.any():
-        return _by_energy(work[usable] / elastic[usable], bool(known[usable].all()))
+        proof = _by_energy(work[usable] / elastic[usable], bool(known[usable].all()))
+        static = is_clear & np.isin(results.mode, results.static_modes)
+        other = static & (np.sign(work) != np.sign(proof.value or 0.0))
+        if other.any():
+            finding = f"{proof.finding}; the forces of mode {results.mode[other][0]} have the other sign"
+            return SignProof(proof.value, None, finding)
+        return proof
     balance_of_signs = float(work.sum() / size.sum())
     text = f"work of the elements is {abs(balance_of_signs):.1%} of one sign"
     if results.analysis == "modal":

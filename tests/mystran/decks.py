@@ -25,6 +25,7 @@ class Deck:
     units : unit system to write in
     extra : more lines of bulk data
     poisson, density : ratio of lateral contraction; mass per volume [t/mm^3]
+    first_subcase : number of the first static load case
     quad : formulation of four-node shells: MIN4, MIN4T or MITC4
     """
 
@@ -38,6 +39,7 @@ class Deck:
     extra: tuple[str, ...] = ()
     poisson: float = 0.3
     density: float = 7.85e-9
+    first_subcase: int = 1
     quad: str = "MIN4"
 
     def text(self) -> str:
@@ -54,8 +56,8 @@ class Deck:
         if self.sol == 103:
             yield "METHOD = 1"
         else:
-            for k in range(1, 1 + len(self.plates.loads)):
-                yield from (f"SUBCASE {k}", f"LOAD = {100 + k}")
+            for k in range(len(self.plates.loads)):
+                yield from (f"SUBCASE {self.first_subcase + k}", f"LOAD = {101 + k}")
 
     def _model(self):
         """Material, frames, grids, shells and supports."""
