@@ -48,6 +48,15 @@ def assemble(
     is_static = np.array([block.mode == 0 for block in chosen])
     known = _summary_of(summary, modal)
     rows = common_rows(chosen)
+    if absent := sorted(set(interface) - set(key.tolist())):
+        remarks.append(
+            Problem(
+                "no_such_interface",
+                source,
+                f"of the interface modes named, {len(absent)} have no forces, {absent[0]} the first",
+                "Name modes, or static subcases that are not left out",
+            )
+        )
     modes = set(key[~is_static].tolist())
     if known and (stray := sorted(modes - set(known))):
         raise DataError(

@@ -62,7 +62,8 @@ def _by_work(results: FeResults) -> SignProof:
         return SignProof(None, None, "the mode shapes do no work on the forces")
     balance_of_signs = float(each.sum() / total)
     lack = "frequency" if not (results.frequency > LOWEST_HZ).any() else "generalised mass"
-    text = f"no mode has a {lack}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
+    given = "static subcases" if results.analysis == "static" else f"no mode has a {lack}"
+    text = f"{given}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
     if abs(balance_of_signs) < 0.8:
         return SignProof(balance_of_signs, None, text)
     return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)

@@ -252,6 +252,13 @@ def test_a_unit_load_with_the_number_of_a_mode(tmp_path):
     assert "subcase 5 has the number of a mode and needs another" in found.remarks[0].remedy
 
 
+def test_interface_modes_that_are_not_there(tmp_path):
+    """Names of interface modes that are neither a mode nor a static subcase are told."""
+    found = read_op2(both(tmp_path / "both.op2"), interface=(4, 21, 22, 23, 24, 25))
+    assert found.mode.tolist() == [1, 2, 3, 4, 5, 21, 22, 23]
+    assert [remark.what for remark in found.remarks] == ["of the interface modes named, 2 have no forces, 24 the first"]
+
+
 @pytest.mark.parametrize(("units", "length", "force"), [("mm-t-s", 1.0, 1.0), ("m-kg-s", 1000.0, 1.0)])
 def test_unit_loads_in_the_neutral_folder(tmp_path, model, units, length, force):
     """Modes and unit loads from convert: kinds, frequencies, and forces and coordinates in the units of each."""
