@@ -80,9 +80,8 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
             return SignProof(proof.value, None, finding)
         return proof
     balance_of_signs = float(work.sum() / size.sum())
-    text = f"work of the elements is {abs(balance_of_signs):.1%} of one sign"
-    if results.analysis == "modal":
-        text = f"no elastic mode has a frequency; {text}"
+    given = "static subcases" if results.analysis == "static" else "no elastic mode has a frequency"
+    text = f"{given}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
     if abs(balance_of_signs) < _ONE_SIGN:
         return SignProof(balance_of_signs, None, text)
     return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)

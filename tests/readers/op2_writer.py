@@ -130,7 +130,11 @@ class Op2Writer:
 
 def modal_op2(results, word=4, order="<", dialect=PLAIN):
     """An OP2 file of FeResults: eigenvalues, mode shapes and forces of all modes."""
-    writer = Op2Writer(word, order, dialect=dialect)
+    return modal_tables(Op2Writer(word, order, dialect=dialect), results).close()
+
+
+def modal_tables(writer, results):
+    """Add tables of FeResults: eigenvalues, mode shapes and forces of all modes."""
     lama = b""
     for k, mode in enumerate(results.mode.tolist()):
         omega = 2 * 3.141592653589793 * float(results.frequency[k])
@@ -154,4 +158,4 @@ def modal_op2(results, word=4, order="<", dialect=PLAIN):
     if results.shape_node.size:
         writer.table("OUGV1", shapes)
     writer.table("OGPFB1", forces)
-    return writer.close()
+    return writer
