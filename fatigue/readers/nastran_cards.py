@@ -35,6 +35,8 @@ class Card:
     def integer(self, at: int, default: int | None = None) -> int:
         """Whole number in field ``at``; an empty field takes the default."""
         text = self.fields[at] if at < len(self.fields) else ""
+        if text.isdigit() and len(text) < 9 and text.isascii():  # nearly all of them
+            return int(text)
         if (value := integer(text)) is not None:
             return value
         if not text and default is not None:
@@ -43,7 +45,7 @@ class Card:
 
     def real(self, at: int, default: float | None = None) -> float:
         """Real number in field ``at``, in any NASTRAN spelling such as ``2.9+7``; an empty field takes the default."""
-        text = self.text(at)
+        text = self.fields[at] if at < len(self.fields) else ""
         if not text and default is not None:
             return default
         try:
