@@ -24,7 +24,10 @@ _BINARY: dict[Format, tuple[bytes, ...]] = {
     "op2": (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
 }
 _PUNCH_STARTS = ("$TITLE", "$SUBTITLE", "$LABEL", "$SUBCASE ID", "$GRID POINT")
-_BULK_STARTS = ("GRID", "BEGIN BULK", "CEND", "INCLUDE ", "CQUAD4", "CTRIA3", "SOL ")
+_BULK_STARTS = (
+    *("GRID", "GRDSET", "BEGIN BULK", "BEGIN,BULK", "CEND", "CQUAD", "CTRIA", "CORD1", "CORD2", "PSHELL", "SOL "),
+    *(f"INCLUDE{sign}" for sign in " '\"=,"),
+)
 
 
 def recognise(path: Path) -> Format:
@@ -46,7 +49,9 @@ def recognise(path: Path) -> Format:
     for form, starts in _BINARY.items():
         if head.startswith(starts):
             return form
-    if b"\0" in head:
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return _text_format(head.decode("utf-16", errors="replace"))
+    if b"\0" in head.rstrip(b"\0\x1a"):  # which may end a text
         raise DataError(
             Problem(
                 "unknown_binary",
