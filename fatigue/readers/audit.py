@@ -6,7 +6,7 @@ force balance add up to the total that the file states.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -17,12 +17,14 @@ from fatigue.readers.fe_results import REQUEST, FeResults
 from fatigue.readers.force_sign import LOWEST_HZ, prove_sign
 from fatigue.readers.forces import Convention
 from fatigue.readers.grid_totals import check_totals
-from fatigue.readers.shell_rows import own_rows, shell_rows, whole_rows, without_drilling
+from fatigue.readers.shell_rows import elastic_modes, own_rows, shell_rows, whole_rows, without_drilling
 from fatigue.weld.element_forces import ElementForces, balance
 
 Light = Literal["green", "amber", "red"]
 
-SHELL_KINDS = frozenset({"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "QUAD144", "QUAD4LC"})
+SHELL_KINDS = frozenset(
+    {"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "QUAD144", "QUAD4LC", "QUAD4K", "TRIA3K"}
+)
 """Names of shell elements in force rows."""
 
 BALANCE_GREEN, BALANCE_RED = 1e-3, 1e-2
@@ -109,6 +111,8 @@ def _worst_balance(results: FeResults, model: FeModel, force: NDArray[np.floatin
     rows = shell_rows(results, model)
     if not rows.any():
         return np.nan, 0, 0, 0
+    elastic = elastic_modes(results)
+    results, force = replace(results, mode=results.mode[elastic]), force[elastic]
     xyz = dict(zip(model.mesh.node.tolist(), model.mesh.xyz, strict=True))
     found = balance(element_forces(results, force, rows), xyz)
     k = found.worst
@@ -175,6 +179,16 @@ def _nodal_totals(results: FeResults, convention: Convention | None) -> AuditRow
             "Rely on the element balance",
         )
     value = found.residual
+    if not found.is_in_balance and (found.is_met or not found.is_checksum):
+        return AuditRow(
+            "grid totals",
+            "red" if convention == "on_element" else "amber",
+            found.rest,
+            f"the solver states a rest of {found.rest:.2g} of the largest row at grid {found.rest_grid} in mode "
+            f"{found.rest_mode}: its forces on the elements do not balance loads and reactions",
+            "Look for elements that write no forces, inertia relief, modes that have not converged, reduced degrees of "
+            "freedom; in MYSTRAN for plates with offsets (ZOFFS), whose forces it recovers wrongly",
+        )
     if found.is_met:
         return AuditRow(
             "grid totals", "green", value, f"the rows of every grid {found.rule} its total within {value:.2g}"

@@ -19,7 +19,7 @@ from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import common_modes, simulated_frequencies, simulation_modes, without_modes
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
-from fatigue.readers.shell_rows import without_drilling
+from fatigue.readers.shell_rows import elastic_modes, without_drilling
 from fatigue.readers.tables import open_table
 from fatigue.readers.unit_loads import with_unit_loads
 from fatigue.readers.units import Normalisation, unit_system
@@ -226,7 +226,8 @@ def _history(
 def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, tuple[float, float]]) -> pa.Table:
     is_static = results.analysis == "static"
     interface = np.isin(results.mode, np.array(options.interface_modes, np.int64))
-    kind = np.where(interface | is_static, "interface", np.where(results.frequency <= LOWEST_HZ, "rigid", "normal"))
+    rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
+    kind = np.where(interface | is_static, "interface", np.where(rigid, "rigid", "normal"))
     mass = np.where(results.modal_mass > 0, results.modal_mass, 1.0)
     simulated = np.array([table.get(int(m), (np.nan, np.nan))[1] for m in results.mode])
     scale = np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)

@@ -31,8 +31,10 @@ class _Layout:
 SHELLS = {
     "CQUAD4": _Layout(4, 0, 7, 9, 10, 14),
     "CQUADR": _Layout(4, 0, 7, 9, 10, 14),
+    "CQUAD4K": _Layout(4, 0, 7, 9, 10, 14),  # MYSTRAN: thin plates
     "CTRIA3": _Layout(3, 0, 6, 9, 10, 13),
     "CTRIAR": _Layout(3, 0, 6, 9, 10, 13),
+    "CTRIA3K": _Layout(3, 0, 6, 9, 10, 13),
     "CQUAD8": _Layout(4, 4, 15, 16, 10, 17),
     "CTRIA6": _Layout(3, 3, 9, 13, 10, 14),
 }

@@ -10,7 +10,11 @@ from numpy.typing import NDArray
 
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
+from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.weld.mesh import NONE, normals
+
+_ROUND_OFF = 1e-9
+"""Of the largest force in any mode: rigid modes carry no more."""
 
 
 def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
@@ -27,6 +31,16 @@ def whole_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
     _, element, count = np.unique(results.element, return_inverse=True, return_counts=True)
     others = results.of_element & ~np.isin(results.element, model.mesh.element) & (count[element.ravel()] > 1)
     return shell_rows(results, model) | others
+
+
+def elastic_modes(results: FeResults) -> NDArray[np.bool_]:
+    """Modes that have more than the round-off of a rigid one, (m,); all of them if none has."""
+    rows = np.flatnonzero(results.of_element)
+    size = np.array([np.abs(force[rows]).max(initial=0.0) for force in results.force])
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    floor = _ROUND_OFF * size[~is_static].max(initial=0.0)
+    found = np.asarray(is_static | (~(results.frequency <= LOWEST_HZ) & (size > floor)))
+    return found if found.any() else np.ones(size.size, bool)
 
 
 def own_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

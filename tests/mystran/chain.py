@@ -9,7 +9,7 @@ import pandas as pd
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.readers.convert import Conversion, ConvertOptions, convert
-from tests.mystran.solver import solve
+from tests.mystran.solver import solve_text
 
 STEP_S, STEPS = 0.005, 400
 
@@ -33,9 +33,9 @@ class Chain:
         return pd.read_parquet(self.result / "structural_stress.parquet")
 
 
-def chain(deck, folder, name, modes=None, report=False, **options):
-    """Solve a deck, convert its results with waves as modal coordinates, and assess them."""
-    mesh, op2 = solve(deck, folder, name)
+def chain(deck, folder, name, modes=None, text=None, **options):
+    """Solve a deck, or its edited text, convert its results with waves as modal coordinates, and assess them."""
+    mesh, op2 = solve_text(text or deck.text(), folder, name)
     modes = modes or range(1, 1 + (deck.modes if deck.sol == 103 else len(deck.plates.loads)))
     waves = waves_file(folder / f"{name}.csv", modes, 1.0 if deck.sol == 101 else 1e-3)
     done = convert(
@@ -43,7 +43,7 @@ def chain(deck, folder, name, modes=None, report=False, **options):
             forces=op2, mesh=mesh, out=folder / f"{name}_body", coordinates=(waves,), force_units=deck.units, **options
         )
     )
-    assess(load_case(done.folder / "case.toml"), folder / f"{name}_result", report=report)
+    assess(load_case(done.folder / "case.toml"), folder / f"{name}_result", report=False)
     return Chain(mesh, op2, done, folder / f"{name}_result")
 
 

@@ -1,8 +1,10 @@
 """What users ask of MYSTRAN, and what it does not do: sets, missing shapes, thermal loads, drilling springs, stops."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from fatigue.errors import DataError
@@ -78,14 +80,34 @@ def test_modes_of_another_normalisation(tee, tmp_path):
     assert "the generalised mass, from" in rows["sign"].finding
 
 
+def free_modes(tee, shift):
+    """Modes of a joint that nothing holds."""
+    free = plain(replace(tee, fixed=np.zeros(len(tee.xyz), bool)), 103, modes=9)
+    return free, free.text().replace("EIGRL,1,,,9", f"EIGRL,1,,,9,,,{shift}")
+
+
 def test_free_body(tee, tmp_path):
-    """Rigid modes prove no sign; the elastic ones beside them do (their values are no better than the solver's)."""
-    free = replace(tee, fixed=np.zeros(len(tee.xyz), bool))
-    results, rows = judged(plain(free, 103, modes=9).text(), tmp_path)
-    assert (results.frequency < 1).sum() == 6
-    assert rows["sign"].light == "green"
-    assert "forces on_element" in rows["sign"].finding
-    assert not [row for row in rows.values() if row.light == "red"]
+    """Rigid modes carry round-off: they prove no sign and are no imbalance, in the audit and in the assessment."""
+    deck, text = free_modes(tee, -1.0e5)
+    done = chain(deck, tmp_path, "free", text=text)
+    results = read_forces(done.op2, None)
+    assert (results.frequency < 1e-2).sum() == 6
+    assert {name for name, row in done.lights.items() if row.light == "red"} == set()
+    assert done.lights["element balance"].value < 1e-5
+    assert done.lights["sign"].value == pytest.approx(1, abs=1e-3)
+    assert "in 3 modes" in done.lights["sign"].finding
+    kinds = pd.read_csv(done.conversion.folder / "modes.csv").kind
+    assert kinds.tolist() == ["rigid"] * 6 + ["normal"] * 3
+
+
+def test_modes_that_have_not_converged_are_red(tee, tmp_path):
+    """With its default shift the solver misses modes of a free body by a fifth; its totals do not vanish."""
+    deck, text = free_modes(tee, -1.0e5)
+    good, _ = judged(text, tmp_path)
+    bad, rows = judged(deck.text(), tmp_path)
+    assert abs(bad.frequency.max() / good.frequency.max() - 1) > 0.05
+    assert rows["grid totals"].light == "red"
+    assert "not converged" in rows["grid totals"].remedy
 
 
 def test_a_damaged_number_is_red(tee, tmp_path):
@@ -114,6 +136,49 @@ def test_drilling_springs_tied_to_the_ground(tee, tmp_path):
     for column in ("membrane_MPa", "bending_MPa"):
         wanted = plainly.stress()[column].to_numpy()
         assert np.allclose(sprung.stress()[column], wanted, rtol=0, atol=1e-2 * np.abs(wanted).max())
+
+
+def test_warped_quads_are_assessed_with_a_doubt(tee, tmp_path):
+    """Flat elements over warped corners miss their balance a little: amber, and a warning in the result, no refusal."""
+    rng = np.random.default_rng(0)
+    warped = replace(tee, xyz=tee.xyz + 0.3 * rng.normal(size=tee.xyz.shape))
+    done = chain(plain(warped, 101), tmp_path, "warped")
+    row = done.lights["element balance"]
+    assert (row.light, done.conversion.audit.grounded_drilling) == ("amber", False)
+    assert 1e-3 < row.value < 1e-2
+    record = json.loads((done.result / "provenance.json").read_text())
+    assert "imbalance" in {warning["code"] for warning in record["warnings"]}
+    corrected = chain(plain(warped, 101, quad="MITC4"), tmp_path, "corrected")
+    assert corrected.lights["element balance"].value < 1e-5
+
+
+def test_thin_shells_and_line_elements_at_the_weld(tee, tmp_path):
+    """Thin plates have cards of their own; springs, rods and bushes at the line are no part of a plate."""
+    extra = (
+        "CBUSH,900,91,27,40,,,,0", "PBUSH,91,K,1000.,1000.,1000.,1.E6,1.E6,1.E6",
+        "CELAS1,901,92,28,1,29,1", "PELAS,92,500.", "CELAS2,904,100.,33,3,38,3",
+        "CROD,902,93,30,45", "PROD,93,1,20.", "CONROD,905,27,50,1,10.", "CONM2,903,31,,0.001",
+    )  # fmt: skip
+    for name, model in (("quads", tee), ("triangles", joints.with_triangles(tee, np.random.default_rng(1), 1.0))):
+        deck = plain(model, 101, extra=extra)
+        thin = deck.text().replace("CQUAD4  ", "CQUAD4K ").replace("CTRIA3  ", "CTRIA3K ")
+        done = chain(deck, tmp_path, name, text=thin)
+        assert {row.light for row in done.lights.values()} == {"green"}
+        assert {row.status for row in done.conversion.welds} == {"assess"}
+
+
+@pytest.mark.parametrize("sol", [101, 103])
+def test_forces_of_offset_plates_are_refused(tee, tmp_path, sol):
+    """MYSTRAN recovers the forces of plates with ZOFFS wrongly; shells balance, but its own totals do not vanish."""
+    lines = [
+        f"{line:<64}3.0" if line.startswith("CQUAD4") and line.split()[2] == "1" else line
+        for line in plain(tee, sol).text().splitlines()
+    ]
+    _, rows = judged("\n".join(lines), tmp_path)
+    assert rows["element balance"].light == "green"
+    assert rows["grid totals"].light == "red"
+    assert rows["grid totals"].value > 0.1
+    assert "ZOFFS" in rows["grid totals"].remedy
 
 
 def test_runs_without_forces_say_so(tee, tmp_path):

@@ -270,6 +270,11 @@ def test_rigid_modes_prove_no_sign(model):
     found = rows(rigid, model)["sign"]
     assert (found.light, found.value) == ("green", pytest.approx(-1))
     assert "in 4 modes" in found.finding
+    assert rows(rigid, model)["element balance"].light == "red"
+    still = replace(rigid, force=np.concatenate([1e-5 * noise, results.force[1:]]))
+    assert rows(still, model)["element balance"].light == "green"
+    slow = replace(rigid, frequency=np.concatenate([[1e-4], results.frequency[1:]]))
+    assert rows(slow, model)["element balance"].light == "green"
 
 
 def test_reactions_prove_the_sign_of_modes_without_shapes(model):

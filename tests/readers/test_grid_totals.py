@@ -58,6 +58,30 @@ def test_a_spoiled_number_is_found_where_it_is(row):
         assert (found.grid, found.mode) == (results.node[row], 3)
 
 
+def test_static_totals_must_vanish():
+    """A rest at one grid means that the solver's forces do not balance its loads, although rows and totals agree."""
+    hidden = replace(as_on_element(tee().results, hides_inertia=True), analysis="static")
+    assert check_totals(hidden, "on_element").is_in_balance
+    open_ = replace(as_on_element(tee().results, hides_inertia=False), analysis="static")
+    found = check_totals(open_, "on_element")
+    assert found.is_met
+    assert not found.is_in_balance
+    assert check_totals(tee().results, "on_node").is_in_balance  # in a mode it is the inertia force
+
+
+def test_totals_with_inertia_must_vanish_but_for_round_off():
+    """Modes of forces on elements; a rigid mode, which is all round-off, tells nothing."""
+    hidden = as_on_element(tee().results, hides_inertia=True)
+    at = np.flatnonzero(hidden.kind == TOTALS)[20]
+    for mode, factor, is_balanced in ((2, 1.0, False), (0, 1e-9, True)):
+        force = hidden.force.copy()
+        force[mode] *= factor
+        force[mode, at, 1] = 0.1 * np.abs(force[mode]).max()
+        found = check_totals(replace(hidden, force=force), "on_element")
+        assert found.is_in_balance == is_balanced
+        assert is_balanced or (found.rest_grid, found.rest_mode) == (hidden.node[at], mode + 1)
+
+
 def test_rows_of_other_modes_count_nothing():
     """A load that only one mode has, and a total that another lacks."""
     results = tee().results
