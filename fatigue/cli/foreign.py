@@ -48,6 +48,12 @@ def weld_sources(command: Any) -> Any:
 @click.option("--forces", type=_FILE, required=True, help="Grid point forces: OP2, MSC .h5, or punch.")
 @click.option("--mesh", type=_FILE, required=True, help="Geometry: BDF, or the same MSC .h5.")
 @click.option(
+    "--unit-loads",
+    type=_FILE,
+    multiple=True,
+    help="Forces of static unit loads in a file of their own: interface modes.",
+)
+@click.option(
     "--coordinates", type=_FILE, multiple=True, help="Modal coordinates: CSV, text or .mcf; one file per event."
 )
 @click.option(
@@ -86,7 +92,11 @@ def weld_sources(command: Any) -> Any:
     "--resample", type=ABOVE_ZERO, metavar="STEP_S", help="Interpolate records with uneven steps onto this step [s]."
 )
 @click.option("--simulation-modes", type=_FILE, help="CSV mode,frequency_hz,modal_mass of the simulation's modes.")
-@click.option("--interface-modes", default="", help="Residual, constraint or attachment modes, as 31-52.")
+@click.option(
+    "--interface-modes",
+    default="",
+    help="Residual, constraint or attachment modes, and static subcases that are such, as 31-52.",
+)
 @click.option("--ignore-modes", default="", help="Modes to leave out on either side, as 1-6.")
 @click.option(
     "--displacement",
@@ -113,6 +123,7 @@ def weld_sources(command: Any) -> Any:
 def convert(
     forces: Path,
     mesh: Path,
+    unit_loads: tuple[Path, ...],
     coordinates: tuple[Path, ...],
     output: Path,
     convention: Any,
@@ -172,6 +183,7 @@ def convert(
             forces=forces,
             mesh=mesh,
             out=output,
+            unit_loads=unit_loads,
             coordinates=coordinates,
             convention=convention,
             subcase=subcase,

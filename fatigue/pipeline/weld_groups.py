@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.body import Body
 from fatigue.pipeline.side_by_side import in_order
+from fatigue.readers.audit import BALANCE_RED
 from fatigue.readers.body import Mesh, Modes
 from fatigue.readers.force_check import NotRegular
 from fatigue.readers.force_pieces import ForcePieces
@@ -25,7 +26,7 @@ from fatigue.weld.line_geometry import split_at_kinks
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
 PORTION = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
-IMBALANCE = {"error": 1e-3, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
+IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,7 +173,7 @@ def _side_forces(body: Body) -> SideForces:
     weld_elements, needed = case.resolve(files.weld_elements), body.register.names
     of_tables, doubts = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
     sides = registered_sides(of_tables, forces, body.register, body.joints)
-    warnings += doubts + _checked_balance(path, forces, body.mesh)
+    warnings += doubts + _checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh)
     return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
 
 
@@ -186,6 +187,14 @@ def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[L
         where = f"{sides.file}: weld {line.weld}"
         summed += side_forces(split, sides.elements[line.weld], sides.forces, modes.mode, where)
     return stacked(parts), np.concatenate(summed)
+
+
+def _of_elastic_modes(forces: ElementForces, modes: Modes) -> ElementForces:
+    """Leave out rigid modes, whose forces are round-off, unless there are no others."""
+    is_rigid = np.array([kind == "rigid" for kind in modes.kind])
+    if not is_rigid.any() or is_rigid.all():
+        return forces
+    return forces.rows(~np.isin(forces.mode, modes.mode[is_rigid]))
 
 
 def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> list[Problem]:

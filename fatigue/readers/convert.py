@@ -30,6 +30,8 @@ from fatigue.readers.modal_basis import (
 )
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
+from fatigue.readers.shell_rows import elastic_modes, without_drilling
+from fatigue.readers.unit_loads import with_unit_loads
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds, no_welds
@@ -49,6 +51,7 @@ class ConvertOptions:
     ----------
     forces, mesh : grid point forces and geometry; an MSC .h5 holds both
     out : folder to write
+    unit_loads : grid point forces of static subcases in files of their own; each is an interface mode
     coordinates : modal coordinates, one file for each event
     convention : sign of the forces; None: as the audit proves it
     subcase : which one, where the force file has several
@@ -71,6 +74,7 @@ class ConvertOptions:
     forces: Path
     mesh: Path
     out: Path
+    unit_loads: tuple[Path, ...] = ()
     coordinates: tuple[Path, ...] = ()
     convention: Convention | None = None
     subcase: int | None = None
@@ -128,6 +132,10 @@ def convert(options: ConvertOptions) -> Conversion:
     units = unit_system(options.force_units, "force units")
     history_units = unit_system(options.coordinate_units, "coordinate units")
     results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
+    for path in options.unit_loads:
+        loads = read_forces(path, None)
+        results = with_unit_loads(results, loads)
+        options = replace(options, interface_modes=(*options.interface_modes, *loads.mode.tolist()))
     results = without_modes(results, options.ignore_modes)
     table = simulation_modes(options.simulation_modes)
     histories = [_history(path, options, results, table) for path in options.coordinates]
@@ -167,6 +175,8 @@ def convert(options: ConvertOptions) -> Conversion:
     force = neutral_forces(results, model, units, options.normalisation)
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
+    if judged.grounded_drilling:
+        force = without_drilling(force, results, model)
     force = to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
         "modes.csv": _modes_table(results, options, table),
@@ -271,7 +281,8 @@ def _history(
 def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, tuple[float, float]]) -> pa.Table:
     is_static = results.analysis == "static"
     interface = np.isin(results.mode, np.array(options.interface_modes, np.int64))
-    kind = np.where(interface | is_static, "interface", np.where(results.frequency <= LOWEST_HZ, "rigid", "normal"))
+    rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
+    kind = np.where(interface | is_static, "interface", np.where(rigid, "rigid", "normal"))
     mass, simulated = _masses(results, table)
     return pa.table(
         {
@@ -298,7 +309,8 @@ def _scale(results: FeResults, table: dict[int, tuple[float, float]]) -> Floats:
 
 def _inputs(options: ConvertOptions) -> tuple[Path, ...]:
     """Files whose hashes the record keeps."""
-    return (options.forces, options.mesh, *options.coordinates, *(asked.file for asked in options.displacements))
+    displacements = (asked.file for asked in options.displacements)
+    return (options.forces, options.mesh, *options.unit_loads, *options.coordinates, *displacements)
 
 
 def _slug(name: str) -> str:

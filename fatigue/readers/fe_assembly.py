@@ -48,6 +48,15 @@ def assemble(
     is_static = np.array([block.mode == 0 for block in chosen])
     known = _summary_of(summary, modal)
     rows = common_rows(chosen)
+    if absent := sorted(set(interface) - set(key.tolist())):
+        remarks.append(
+            Problem(
+                "no_such_interface",
+                source,
+                f"of the interface modes named, {len(absent)} have no forces, {absent[0]} the first",
+                "Name modes, or static subcases that are not left out",
+            )
+        )
     modes = set(key[~is_static].tolist())
     if known and (stray := sorted(modes - set(known))):
         raise DataError(
@@ -103,6 +112,9 @@ def _choose(
 ) -> tuple[list[ForceBlock], list[Problem]]:
     """Blocks of the run asked for: all static subcases, or the modes of one subcase and the static ones named."""
     usable = sorted({block.subcase for block in blocks})
+    remarks = _superelements(source, unusable) if blocks else []
+    if blocks:
+        unusable = [other for other in unusable if other.problem.code != "superelement"]
     if subcase is not None:
         blocks = [block for block in blocks if block.subcase == subcase or _is_named(block, interface)]
         unusable = [other for other in unusable if other.subcase == subcase]
@@ -120,7 +132,8 @@ def _choose(
     modes = {block.mode for block in modal}
     static = [block for block in blocks if block.mode == 0]
     beside = [block for block in static if _is_named(block, interface) and block.subcase not in modes]
-    remarks = _left_out(source, [block.subcase for block in static if block not in beside], modes) if modal else []
+    if modal:
+        remarks += _left_out(source, [block.subcase for block in static if block not in beside], modes)
     chosen = [*modal, *beside] if modal else static
     seen: set[Key] = set()
     for block in chosen:
@@ -151,6 +164,18 @@ def _unusable_problems(unusable: Collection[UnusableBlock], usable: list[int]) -
         remedy = f"{problem.remedy}, or name the subcase to use: {elsewhere[:10]}" if elsewhere else problem.remedy
         found.setdefault(problem.code, Problem(problem.code, problem.where, problem.what, remedy))
     return list(found.values())
+
+
+def _superelements(source: str, unusable: Collection[UnusableBlock]) -> list[Problem]:
+    """Say that the results of superelements beside those of the residual structure are not used."""
+    found = [other.problem for other in unusable if other.problem.code == "superelement"]
+    if not found:
+        return []
+    what = (
+        f"{len(found)} blocks of superelements are left out beside the residual structure; the first: {found[0].what}"
+    )
+    remedy = "Welds at their elements are left out; run the model without superelements if they matter"
+    return [Problem("superelements_left_out", source, what, remedy)]
 
 
 def _left_out(source: str, subcases: list[int], modes: set[int]) -> list[Problem]:

@@ -133,9 +133,13 @@ def _problems(blocks: list[ForceBlock], is_element: list[NDArray[np.bool_]]) -> 
 
 
 def _clashes(block: ForceBlock, rows: NDArray[np.int64]) -> Iterator[Problem]:
-    """Element rows, sorted, that are given twice or name an element in two ways."""
+    """Rows of elements, sorted, that are given twice or name an element in two ways.
+
+    Springs between two directions of one grid, fasteners and collapsed solids may have several rows at a grid.
+    """
     node, element, kind = block.node[rows], block.element[rows], block.kind[rows]
-    twice = np.flatnonzero((np.diff(node) == 0) & (np.diff(element) == 0))
+    is_plate = np.strings.startswith(kind, "QUAD") | np.strings.startswith(kind, "TRIA")
+    twice = np.flatnonzero((np.diff(node) == 0) & (np.diff(element) == 0) & is_plate[1:])
     if twice.size:
         yield Problem(
             "row_twice",

@@ -11,65 +11,100 @@ from fatigue.readers.forces import Convention
 LOWEST_HZ = 1e-3
 """Below it a frequency is the round-off of a rigid mode."""
 
+WORK_TOLERANCE = 2e-3
+_ONE_SIGN = 0.8
+"""Share of the works of all elements that must be left when they are added with their signs."""
+
 
 class SignProof(NamedTuple):
-    """What decides the sign: the number, the convention it proves (None: nothing), and the number in words."""
+    """What decides the sign: the number, the convention it proves (None: nothing), and the number in words.
+
+    ``too_much``: the shapes do more work than the modes have energy.
+    """
 
     value: float | None
     convention: Convention | None
     finding: str
+    too_much: bool = False
 
 
-def prove_sign(results: FeResults) -> SignProof:
-    """Find the sign convention from the work of mode shapes, or from the loads of static subcases."""
+def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
+    """Find the sign convention from the work of the shapes, or else from loads and reactions.
+
+    ``whole``: (r,) rows of elements that have forces at all their nodes; only their work is a strain energy.
+    """
     if results.shape_node.size:
-        proof = _by_work(results)
+        proof = _by_work(results, whole)
         if proof.convention is not None or results.analysis == "modal":
             return proof
-    if results.analysis == "static":
-        return _by_loads(results)
-    return SignProof(None, None, "the file has no mode shapes")
+    proof = _by_loads(results)
+    if results.analysis == "modal":
+        proof = proof._replace(finding=f"the file has no mode shapes; {proof.finding}")
+    return proof
 
 
-def _by_work(results: FeResults) -> SignProof:
-    """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
-
-    Without a frequency and a generalised mass, the signs of the elements' own works decide: a strain energy is never
-    negative.
-    """
-    rows = np.flatnonzero(results.of_element)
+def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Work of each mode's shape on the forces of each element that has all its rows, (m, e)."""
+    rows = np.flatnonzero(whole)
     at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
-    known = results.shape_node[at] == results.node[rows]
-    rows, at = rows[known], at[known]
+    has_shape = results.shape_node[at] == results.node[rows]
+    rows, at = rows[has_shape], at[has_shape]
     work = np.einsum(
         "mri,mri->mr", results.force[:, rows].astype(np.float64), results.shape[:, at].astype(np.float64), optimize=True
     )
-    elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * results.modal_mass)
-    usable = (results.frequency > LOWEST_HZ) & (elastic > 0)
-    if usable.any():
-        ratio = work[usable].sum(axis=1) / elastic[usable]
-        k = int(np.argmax(np.abs(ratio)))
-        text = f"work over omega^2 m from {ratio.min():.5g} to {ratio.max():.5g} in {usable.sum()} modes"
-        if (ratio < 0).all() or (ratio > 0).all():
-            if abs(ratio[k]) < 1 - 2e-3:
-                text += " (the forces cover a part of the model)"
-            return SignProof(float(ratio[k]), "on_node" if ratio[k] < 0 else "on_element", text)
-        return SignProof(float(ratio[k]), None, text)
-    _, element = np.unique(results.element[rows], return_inverse=True)
-    each = np.stack([np.bincount(element, w) for w in work])
-    total = np.abs(each).sum()
-    if total == 0:
+    elements, element = np.unique(results.element[rows], return_inverse=True)
+    return np.stack([np.bincount(element, of_mode, elements.size) for of_mode in work])
+
+
+def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
+    """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
+
+    Without generalised masses work over omega^2 gives them, and its sign is the proof. Without a frequency, the signs
+    of the elements' own works decide: a strain energy is never negative. Rigid modes, whatever frequency round-off
+    gives them, have element works of either sign and prove nothing.
+    """
+    each = _element_works(results, whole)
+    work, size = each.sum(axis=1), np.abs(each).sum(axis=1)
+    if not size.any():
         return SignProof(None, None, "the mode shapes do no work on the forces")
-    balance_of_signs = float(each.sum() / total)
-    lack = "frequency" if not (results.frequency > LOWEST_HZ).any() else "generalised mass"
-    text = f"no mode has a {lack}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
-    if abs(balance_of_signs) < 0.8:
+    known = np.isfinite(results.modal_mass)
+    elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * np.where(known, results.modal_mass, 1.0))
+    is_clear = np.abs(work) > _ONE_SIGN * size
+    usable = (results.frequency > LOWEST_HZ) & (elastic > 0) & is_clear
+    if usable.any():
+        proof = _by_energy(work[usable] / elastic[usable], bool(known[usable].all()))
+        static = is_clear & np.isin(results.mode, results.static_modes)
+        other = static & (np.sign(work) != np.sign(proof.value or 0.0))
+        if other.any():
+            finding = f"{proof.finding}; the forces of mode {results.mode[other][0]} have the other sign"
+            return SignProof(proof.value, None, finding)
+        return proof
+    balance_of_signs = float(work.sum() / size.sum())
+    given = "static subcases" if results.analysis == "static" else "no elastic mode has a frequency"
+    text = f"{given}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
+    if abs(balance_of_signs) < _ONE_SIGN:
         return SignProof(balance_of_signs, None, text)
     return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)
 
 
+def _by_energy(ratio: NDArray[np.float64], has_mass: bool) -> SignProof:
+    """Judge work over omega^2 times the generalised mass; without masses its size tells nothing."""
+    worst = float(ratio[np.argmax(np.abs(ratio))])
+    over = "omega^2 m" if has_mass else "omega^2, the generalised mass,"
+    text = f"work over {over} from {ratio.min():.5g} to {ratio.max():.5g} in {ratio.size} modes"
+    if ratio.min() < 0 < ratio.max():
+        return SignProof(worst, None, text)
+    if has_mass and abs(worst) < 1 - WORK_TOLERANCE:
+        text += " (the forces cover a part of the model)"
+    too_much = has_mass and abs(worst) > 1 + WORK_TOLERANCE
+    return SignProof(worst, "on_node" if worst < 0 else "on_element", text, too_much)
+
+
 def _by_loads(results: FeResults) -> SignProof:
-    """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements."""
+    """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements.
+
+    In a mode that holds, too, where a support keeps the inertia from moving.
+    """
     is_load = ~results.of_element & ~results.of_total
     if not is_load.any():
         return SignProof(None, None, "no applied loads or reactions in the file")

@@ -152,6 +152,10 @@ def _remarks(bulk: _Bulk, left_out: LeftOut) -> list[Problem]:
         remarks.append(
             Problem("twice", bulk.again[0][1].where, f"{what}; each is taken once", "Nothing to do", len(bulk.again))
         )
+    if left_out.unread:
+        what = f"{len(left_out.unread)} lines hold text behind column 72 that is no continuation mark; it is not read"
+        remedy = "Nothing to do if it is no data"
+        remarks.append(Problem("unread_text", left_out.unread[0], what, remedy, len(left_out.unread)))
     if left_out.count:
         folder = f"{Path(bulk.source).parent}/"
         listed = ", ".join(

@@ -3,17 +3,15 @@
 import re
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from fatigue.errors import DataError, Problem
+from fatigue.readers.nastran_fields import FREE, ROW, Split, split_commas, split_line
 from fatigue.readers.nastran_lines import Line, place
+from fatigue.readers.nastran_numbers import integer, real
+from fatigue.readers.nastran_replication import repeats, replicated
 
-_REAL = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[ED]?[+-]?\d+)?\Z", re.ASCII)
-_EXPONENT = re.compile(r"(?<=[\d.])[ED]?([+-]\d+)\Z|(?<=[\d.])[ED](\d+)\Z", re.ASCII)
 _NAME = re.compile(r"[A-Z][A-Z0-9_]*\Z", re.ASCII)
 _WORDS = ("THRU", "BY", "EXCEPT", "ENDTHRU", "ALL", "YES", "NO", "SYM")  # may begin a line after one that goes on
-_FREE = 10  # a comma in these columns makes a line free-field
-_ROW = 8  # data fields in a line of small fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,31 +35,23 @@ class Card:
     def integer(self, at: int, default: int | None = None) -> int:
         """Whole number in field ``at``; an empty field takes the default."""
         text = self.fields[at] if at < len(self.fields) else ""
-        digits = text[1:] if text[:1] in ("+", "-") else text
-        if digits.isdigit() and digits.isascii() and len(digits) < 17:
+        if text.isdigit() and len(text) < 9 and text.isascii():  # nearly all of them
             return int(text)
+        if (value := integer(text)) is not None:
+            return value
         if not text and default is not None:
             return default
         raise self._bad(at, text, "a whole number")
 
     def real(self, at: int, default: float | None = None) -> float:
         """Real number in field ``at``, in any NASTRAN spelling such as ``2.9+7``; an empty field takes the default."""
-        text = self.text(at)
+        text = self.fields[at] if at < len(self.fields) else ""
         if not text and default is not None:
             return default
         try:
-            value = float(text)
-        except ValueError:
-            value = self._nastran_real(at, text.upper())
-        if not abs(value) < 1e100 or "_" in text or not text.isascii():
-            raise self._bad(at, text, "a number of sensible size")
-        return value
-
-    def _nastran_real(self, at: int, text: str) -> float:
-        """Read ``2.9+7`` and ``1.D3``, which only FORTRAN understands."""
-        if not _REAL.match(text):
-            raise self._bad(at, text, "a number")
-        return float(_EXPONENT.sub(lambda m: "E" + (m[1] or m[2]), text))
+            return real(text)
+        except ValueError as error:
+            raise self._bad(at, text.upper(), str(error)) from None
 
     def no_more_than(self, count: int) -> None:
         """Refuse data in fields that the card does not have.
@@ -82,21 +72,23 @@ class Card:
                 )
 
     def _bad(self, at: int, text: str, wanted: str) -> DataError:
-        found = (
-            f"{self.name} field {at + 2} is {text!r}, not {wanted}" if text else f"{self.name} field {at + 2} is empty"
-        )
+        found = f"is {text!r}, not {wanted}" if text else "is empty"
         remedy = "Correct the card"
         if "," in text:
-            remedy += f"; only a comma in the first {_FREE} columns separates fields"
-        return DataError(Problem("bad_field", self.where, found, remedy))
+            remedy += f"; only a comma in the first {FREE} columns separates fields"
+        return DataError(Problem("bad_field", self.where, f"{self.name} field {at + 2} {found}", remedy))
 
 
 @dataclass(slots=True)
 class LeftOut:
-    """Cards nobody asked for: how many there are of each name, and the place of the first."""
+    """Cards nobody asked for: how many there are of each name, and the place of the first.
+
+    ``unread`` has the places of lines with text in columns 73 to 80 that is no continuation mark, or beyond.
+    """
 
     count: dict[str, int] = field(default_factory=dict)
     first: dict[str, str] = field(default_factory=dict)
+    unread: list[str] = field(default_factory=list)
 
     def add(self, name: str, source: str, number: int) -> None:
         """Count one more."""
@@ -112,7 +104,7 @@ class _Open:
 
     ``announced`` is the mark of field 10; ``doubtful`` a number such as ``+1.`` in its place, which is data unless a
     continuation follows; ``flows`` tells that the last line ended in a comma, ``start`` and ``width`` where the fields
-    of the last line begin and how many its form has.
+    of the last line begin and how many its form has. ``pattern`` is the replicating line that made the card.
     """
 
     name: str
@@ -122,10 +114,12 @@ class _Open:
     fields: list[str] = field(default_factory=list)
     announced: str = ""
     doubtful: str = ""
+    unread: str = ""
     flows: bool = False
     start: int = 0
-    width: int = _ROW
-    lines: list["_Split"] = field(default_factory=list)
+    width: int = ROW
+    pattern: list[str] | None = None
+    lines: list[Split] = field(default_factory=list)
 
     def card(self) -> Card:
         """Close the card."""
@@ -139,14 +133,41 @@ class _Open:
         self.doubtful = ""
 
 
-class _Split(NamedTuple):
-    """A line in fields: the data, the mark of field 10, and the number of data fields its form has in a line."""
+@dataclass(slots=True)
+class _Joining:
+    """Cards on their way: the one that may go on, those that wait for continuations, stray continuations, done ones."""
 
-    data: list[str]
-    mark: str
-    width: int
-    doubtful: str = ""
-    flows: bool = False
+    wanted: Container[str]
+    left_out: LeftOut
+    problems: list[Problem]
+    now: _Open | None = None
+    waiting: dict[str, list[_Open]] = field(default_factory=dict)
+    strays: dict[str, list[tuple[_Open, Problem | None]]] = field(default_factory=dict)
+    done: list[Card] = field(default_factory=list)
+
+    def open(self, card: _Open) -> None:
+        """Close the card before, and begin one."""
+        self.close()
+        self.now = card
+        if not card.wanted:
+            self.left_out.add(card.name, card.source, card.line)
+
+    def close(self) -> None:
+        """Give the card, unless it announces a continuation that must be looked for."""
+        now = self.now
+        if now is None or not now.name:
+            return
+        self.leave_unread(now)
+        if now.announced[1:]:
+            self.waiting.setdefault(now.announced[1:], []).extend([now] if now.wanted else [])
+        elif now.wanted:
+            self.done.append(now.card())
+
+    def leave_unread(self, now: _Open) -> None:
+        """Note text behind the fields of a line that turned out to be no mark."""
+        if now.unread and now.wanted:
+            self.left_out.unread.append(place(now.source, now.line))
+        now.unread = ""
 
 
 def cards(lines: Iterable[Line], wanted: Container[str], left_out: LeftOut, problems: list[Problem]) -> Iterator[Card]:
@@ -154,48 +175,61 @@ def cards(lines: Iterable[Line], wanted: Container[str], left_out: LeftOut, prob
 
     Named continuations may stand anywhere, as NASTRAN allows. What cannot be read goes to ``problems``.
     """
-    now: _Open | None = None
-    waiting: dict[str, list[_Open]] = {}  # cards whose announced continuation does not follow them
-    strays: dict[str, list[tuple[_Open, Problem | None]]] = {}  # continuations that follow another card
+    joining = _Joining(wanted, left_out, problems)
     for source, number, text in lines:
         line = text.expandtabs(8) if "\t" in text else text
-        head = (line.split(",", 1)[0] if "," in line[:_FREE] else line[:8]).strip().upper()
+        head = (line.split(",", 1)[0] if "," in line[:FREE] else line[:8]).strip().upper()
+        now = joining.now
         if not head or head[0] in "+*":
-            if now is None or _is_stray(head[1:], now.announced[1:], waiting):
-                problem = _stray(head, now, place(source, number))
-                if now:
-                    yield from _closed(now, waiting)
-                now = _Open("", source, number, wanted=True)
-                strays.setdefault(head[1:], []).append((now, problem))
-            _go_on(now, _split(line), problems)
-            continue
-        name = head.rstrip("* ")
-        if now is not None and now.flows and (not _NAME.match(name) or name in _WORDS):
+            _continuation(joining, head, line, (source, number))
+        elif head[0] == "=" and now is not None and now.name:
+            _replication(joining, now, head, split_line(line), (source, number))
+        elif now is not None and now.flows and (not _NAME.match(head.rstrip("* ")) or head in _WORDS):
             _flow(now, line)
-            continue
-        if not _NAME.match(name):
-            first = name.split()[0] if name else ""
-            if first in wanted or not _NAME.match(first):
-                if now is not None and not now.wanted and first not in wanted:
-                    left_out.add(now.name, source, number)  # another line of a card nobody needs
-                else:
-                    problems.append(_no_name(head, place(source, number)))
-                continue
-            name = first
-        if now:
-            yield from _closed(now, waiting)
-        now = _Open(name, source, number, name in wanted)
-        if not now.wanted:
-            left_out.add(name, source, number)
-        _begin(now, _split(line))
-    if now:
-        yield from _closed(now, waiting)
-    yield from _rejoined(waiting, strays, problems)
+        elif name := _name(joining, head, source, number):
+            card = _Open(name, source, number, name in wanted)
+            joining.open(card)
+            _begin(card, split_line(line))
+        if joining.done:
+            yield from joining.done
+            joining.done.clear()
+    joining.close()
+    _rejoin(joining)
+    yield from joining.done
 
 
-def _is_stray(name: str, announced: str, waiting: Container[str]) -> bool:
-    """Tell whether a named continuation belongs elsewhere; after a card without mark it belongs to that card."""
-    return bool(name) and name != announced and (bool(announced) or name in waiting)
+def _name(joining: _Joining, head: str, source: str, number: int) -> str:
+    """Name the card that begins here, or none, which is a problem unless the line belongs to a card nobody needs."""
+    name = head.rstrip("* ")
+    if _NAME.match(name):
+        return name
+    first, now = (name.split() or [""])[0], joining.now
+    if first not in joining.wanted and _NAME.match(first):
+        return first
+    if now is not None and not now.wanted and first not in joining.wanted:
+        joining.left_out.add(now.name, source, number)
+    else:
+        remedy = "Write fields in columns of 8 or 16, or with commas; a line after a comma at the end goes on"
+        joining.problems.append(Problem("bad_card", place(source, number), f"{head!r} is no card name", remedy))
+    return ""
+
+
+def _continuation(joining: _Joining, head: str, line: str, at: tuple[str, int]) -> None:
+    """Add a line to its card, or keep it until its card is found.
+
+    One with a name belongs to the card that announces it, and after a card that announces none to that card.
+    """
+    now, name = joining.now, head[1:]
+    if now is None or (name and name != now.announced[1:] and (now.announced[1:] or name in joining.waiting)):
+        joining.close()
+        stray = _Open("", *at, wanted=True)
+        joining.strays.setdefault(name, []).append((stray, _stray(head, now, place(*at))))
+        joining.now = now = stray
+    elif now.unread:
+        if name and now.unread[1:8].upper() == name:
+            now.unread = ""  # a mark without its +
+        joining.leave_unread(now)
+    _go_on(now, split_line(line), joining.problems)
 
 
 def _stray(head: str, now: _Open | None, where: str) -> Problem | None:
@@ -208,20 +242,20 @@ def _stray(head: str, now: _Open | None, where: str) -> Problem | None:
     return Problem("continuation_order", where, what, "Write every continuation straight after its card")
 
 
-def _begin(now: _Open, split: _Split) -> None:
+def _begin(now: _Open, split: Split) -> None:
     if now.wanted:
-        now.fields, now.width, now.doubtful = split.data, split.width, split.doubtful
+        now.fields, now.width, now.doubtful, now.unread = split.data, split.width, split.doubtful, split.unread
     now.announced, now.flows = split.mark, split.flows
 
 
-def _go_on(now: _Open, split: _Split, problems: list[Problem]) -> None:
+def _go_on(now: _Open, split: Split, problems: list[Problem]) -> None:
     """Add a continuation line; half a line of large fields must be followed by its other half."""
     if not now.name:
         now.lines.append(split)
     elif now.wanted:
         now.complete()
-        now.start, now.width, now.doubtful = len(now.fields), split.width, split.doubtful
-        if split.width == _ROW and now.start % _ROW and any(split.data):
+        now.start, now.width, now.doubtful, now.unread = len(now.fields), split.width, split.doubtful, split.unread
+        if split.width == ROW and now.start % ROW and any(split.data):
             where = place(now.source, now.line)
             what = f"a line of small fields follows half a line of large ones of this {now.name}"
             problems.append(Problem("half_line", where, what, "Begin the other half with *"))
@@ -231,7 +265,7 @@ def _go_on(now: _Open, split: _Split, problems: list[Problem]) -> None:
 
 def _flow(now: _Open, line: str) -> None:
     """Add a line that follows one with a comma at its end: its first field is data, too."""
-    split = _free(["", *line.split(",")])
+    split = split_commas(["", *line.split(",")])
     if not now.name:
         before = now.lines.pop()
         now.lines.append(split._replace(data=before.data + split.data, width=before.width))
@@ -241,18 +275,30 @@ def _flow(now: _Open, line: str) -> None:
     now.announced, now.flows = split.mark, split.flows
 
 
-def _closed(now: _Open, waiting: dict[str, list[_Open]]) -> Iterator[Card]:
-    """Give the card, unless it announces a continuation that must be looked for."""
-    if now.name and now.announced[1:]:
-        waiting.setdefault(now.announced[1:], []).extend([now] if now.wanted else [])
-    elif now.name and now.wanted:
-        yield now.card()
+def _replication(joining: _Joining, before: _Open, head: str, split: Split, at: tuple[str, int]) -> None:
+    """Open the cards that a replicating line makes of the card before it."""
+    count = repeats(head)
+    times = 1 if count is None else count
+    if not before.wanted:
+        for _ in range(times):
+            joining.open(_Open(before.name, *at, wanted=False))
+        return
+    pattern = split.data if count is None else before.pattern
+    try:
+        if pattern is None or before.announced[1:]:
+            what = "repeats no line with =" if pattern is None else "the card before has several lines"
+            raise DataError(Problem("replication", place(*at), f"{head!r}: {what}", "Write the cards out"))
+        for _ in range(times):
+            before = _Open(before.name, *at, wanted=True, fields=replicated(before.fields, pattern, place(*at)))
+            before.pattern = pattern
+            joining.open(before)
+    except DataError as error:
+        joining.problems += error.problems
 
 
-def _rejoined(
-    waiting: dict[str, list[_Open]], strays: dict[str, list[tuple[_Open, Problem | None]]], problems: list[Problem]
-) -> Iterator[Card]:
+def _rejoin(joining: _Joining) -> None:
     """Give the cards whose continuations stand elsewhere, or nowhere."""
+    waiting, strays, problems = joining.waiting, joining.strays, joining.problems
     for name, opened in waiting.items():
         for now in opened:
             mark = name
@@ -265,52 +311,6 @@ def _rejoined(
                 for split in found[0][0].lines:
                     _go_on(now, split, problems)
                 mark = now.announced[1:]
-            yield now.card()
+            joining.leave_unread(now)
+            joining.done.append(now.card())
     problems += [problem for found in strays.values() for _, problem in found if problem]
-
-
-def _no_name(head: str, where: str) -> Problem:
-    if head[0] == "=":
-        what = f"{head!r} is no card name; it repeats the card before it"
-        return Problem("replication", where, what, "Write the cards out, without replication")
-    remedy = "Write fields in columns of 8 or 16, or with commas; a line after a comma at the end goes on"
-    return Problem("bad_card", where, f"{head!r} is no card name", remedy)
-
-
-def _split(line: str) -> _Split:
-    """Cut a line in fields: 8 of 8 columns, 4 of 16 if its first field has a ``*``, or with commas."""
-    if "," in line[:_FREE]:
-        return _free(line.split(","))
-    size = 16 if "*" in line[:8] else 8
-    data = [line[k : k + size].strip() for k in range(8, min(len(line), 72), size)]
-    mark = line[72:80].strip().upper()
-    return _Split(data, mark if mark[:1] in ("+", "*") else "", 64 // size)
-
-
-def _free(parts: list[str]) -> _Split:
-    """Cut a comma line in fields; NASTRAN reads on where it holds more than a line has, without a mark in field 10.
-
-    A mark between them (``..,+A,+A,..``) is field 10 and field 1 of the next line; a comma at the end is none.
-    """
-    head = parts[0].strip()
-    width = 4 if head.startswith("*") or head.endswith("*") else _ROW
-    body = [part.strip() for part in parts[1:]]
-    flows = bool(body) and not body[-1]
-    if flows:
-        body.pop()
-    mark = doubtful = ""
-    if body and _is_mark(body[-1]):
-        mark, flows = body.pop().upper(), False
-    elif len(body) == width + 1 and body[-1][:1] == "+" and not flows:
-        mark = body.pop().upper()
-        doubtful = "" if mark[1:].isdigit() else mark
-    at = width
-    while at < len(body):
-        if at + 1 < len(body) and _is_mark(body[at]) and (not body[at + 1] or _is_mark(body[at + 1])):
-            del body[at : at + 2]
-        at += width
-    return _Split(body, mark, width, doubtful, flows)
-
-
-def _is_mark(text: str) -> bool:
-    return text[:1] in ("+", "*") and not _REAL.match(text.upper())

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isnan
 
 import numpy as np
 
@@ -30,8 +31,10 @@ class _Layout:
 SHELLS = {
     "CQUAD4": _Layout(4, 0, 7, 9, 10, 14),
     "CQUADR": _Layout(4, 0, 7, 9, 10, 14),
+    "CQUAD4K": _Layout(4, 0, 7, 9, 10, 14),  # MYSTRAN: thin plates
     "CTRIA3": _Layout(3, 0, 6, 9, 10, 13),
     "CTRIAR": _Layout(3, 0, 6, 9, 10, 13),
+    "CTRIA3K": _Layout(3, 0, 6, 9, 10, 13),
     "CQUAD8": _Layout(4, 4, 15, 16, 10, 17),
     "CTRIA6": _Layout(3, 3, 9, 13, 10, 14),
 }
@@ -56,22 +59,23 @@ def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
     layout = SHELLS[card.name]
     n = layout.corners
     card.no_more_than(layout.fields)
-    pid = card.integer(1, card.integer(0))
+    element = card.integer(0)
+    pid = card.integer(1, element)
     prop = properties.get(pid, Property(Section(np.nan)))
     base = prop.section.thickness
     given = [card.real(layout.thickness + k, np.nan) for k in range(n)] if len(card.fields) > layout.thickness else []
     thickness, doubt = None, ""
-    if not np.isnan(given).all():
+    if not all(isnan(t) for t in given):
         scale = base if card.integer(layout.flag, 0) == 1 else 1.0
-        corner = [base if np.isnan(t) else t * scale for t in given]
+        corner = [base if isnan(t) else t * scale for t in given]
         thickness = float(np.mean(corner))
         if not np.ptp(corner) <= _THICKNESS_SPREAD * thickness:
             doubt = f"{card.name} {card.text(0)} has unequal corner thicknesses"
     return Shell(
-        card.integer(0),
+        element,
         pid,
-        tuple(card.integer(2 + k) for k in range(n)),
-        tuple(card.integer(2 + n + k, 0) for k in range(layout.mids)),
+        tuple([card.integer(2 + k) for k in range(n)]),
+        tuple([card.integer(2 + n + k, 0) for k in range(layout.mids)]),
         thickness,
         _offset(card, layout.offset, prop, base if thickness is None else thickness),
         doubt,

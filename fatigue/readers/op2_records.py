@@ -257,8 +257,7 @@ def _table(cursor: _Cursor, run: int) -> Op2Table:
         level = cursor.marker()
     if level != -1:
         raise cursor.broken(f"marker {level} where the table's trailer, -1, was expected")
-    cursor.expect(7)
-    cursor.words(7)
+    cursor.words(cursor.marker())  # seven words in every file seen
     records: list[Record] = []
     key = cursor.marker()
     while True:

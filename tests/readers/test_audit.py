@@ -235,3 +235,80 @@ def test_real_files():
         assert found.convention == "on_node"
         assert values["element balance"] < 1e-6
         assert values["grid totals"] < 1e-6
+
+
+def test_parts_of_elements_prove_no_sign(model):
+    """Rows at some grids of an element do work of any sign; only whole elements count."""
+    results = tee().results
+    keep = np.isin(results.node, np.arange(30, 60)) | (results.element == 50)
+    part = only(results, keep)
+    found = rows(part, model)["sign"]
+    assert found.light == "green"
+    assert -1 < found.value < 0
+    whole = only(results, np.isin(results.element, np.unique(part.element[part.element > 0])))
+    assert abs(found.value) < abs(rows(whole, model)["sign"].value)
+
+
+def test_generalised_mass_from_work(model):
+    """Without masses the work over omega^2 is the mass, and its size no alarm."""
+    results = replace(tee().results, modal_mass=np.full(5, np.nan))
+    assert rows(results, model)["sign"].value == pytest.approx(-1)
+    doubled = rows(replace(results, shape=2 * results.shape), model)["sign"]
+    assert (doubled.light, doubled.value) == ("green", pytest.approx(-2))
+    assert "the generalised mass, from -2 to -2" in doubled.finding
+
+
+def test_rigid_modes_prove_no_sign(model):
+    """Round-off of a rigid mode has works of both signs, whatever frequency round-off gives it."""
+    results = tee().results
+    noise = np.random.default_rng(1).normal(size=results.force[:1].shape)
+    rigid = replace(
+        results,
+        force=np.concatenate([noise, results.force[1:]]),
+        frequency=np.concatenate([[0.02], results.frequency[1:]]),
+    )
+    found = rows(rigid, model)["sign"]
+    assert (found.light, found.value) == ("green", pytest.approx(-1))
+    assert "in 4 modes" in found.finding
+    assert rows(rigid, model)["element balance"].light == "red"
+    still = replace(rigid, force=np.concatenate([1e-5 * noise, results.force[1:]]))
+    assert rows(still, model)["element balance"].light == "green"
+    slow = replace(rigid, frequency=np.concatenate([[1e-4], results.frequency[1:]]))
+    assert rows(slow, model)["element balance"].light == "green"
+
+
+def test_reactions_prove_the_sign_of_modes_without_shapes(model):
+    """At a support the force on the elements is the reaction, in a mode as in a static case."""
+    results = tee().results
+    held = np.flatnonzero(tee().model.xyz[:, 0] < 1) + 1
+    reaction = np.stack(
+        [[-results.force[k][(results.node == n) & (results.element > 0)].sum(axis=0) for n in held] for k in range(5)]
+    )
+    with_reactions = replace(
+        results,
+        node=np.append(results.node, held),
+        element=np.append(results.element, np.zeros(len(held), np.int64)),
+        kind=np.append(results.kind, ["F-OF-SPC"] * len(held)),
+        force=np.concatenate([results.force, reaction], axis=1),
+        shape_node=np.empty(0, np.int64),
+        shape=np.empty((5, 0, 6)),
+    )
+    found = audit(with_reactions, model)
+    assert found.convention == "on_node"
+    assert "no mode shapes" in next(row for row in found.rows if row.check == "sign").finding
+
+
+def test_drilling_springs_tied_to_the_ground(tmp_path):
+    """A shell out of balance by nothing but moments about its own normal is told as such; any other moment is red."""
+    path = tmp_path / "patch.bdf"
+    path.write_text(DECK)
+    results, model = static_results(1), read_bdf(path)
+    assert not audit(results, model).grounded_drilling
+    for component, light in ((5, "amber"), (4, "red"), (0, "red")):
+        force = results.force.copy()
+        force[:, :4, component] += 30.0
+        found = audit(replace(results, force=force), model)
+        row = next(r for r in found.rows if r.check == "element balance")
+        assert (row.light, found.grounded_drilling) == (light, component == 5)
+        assert row.value > 0.1
+        assert ("K6ROT" in row.remedy) == (component == 5)

@@ -80,9 +80,7 @@ def test_genuine_file_without_summary():
     assert found.shape.shape == (3, 25, 6)
     rows = {row.check: row for row in audit(found, read_bdf(GENUINE / "mode_solid_shell_bar.bdf")).rows}
     assert "red" not in {row.light for row in rows.values()}
-    assert rows["sign"].finding == (
-        "no mode has a generalised mass; work of the elements is 100.0% of one sign: forces on_node"
-    )
+    assert rows["sign"].finding == "work over omega^2, the generalised mass, from -1 to -1 in 3 modes: forces on_node"
 
 
 def test_forces_of_the_genuine_file_state_their_eigenvalue(tmp_path):
@@ -250,6 +248,13 @@ def test_a_unit_load_with_the_number_of_a_mode(tmp_path):
     found = read_op2(both(tmp_path / "both.op2", (5, 21, 22)), interface=(5, 21, 22))
     assert found.mode.tolist() == [1, 2, 3, 4, 5, 21, 22]
     assert "subcase 5 has the number of a mode and needs another" in found.remarks[0].remedy
+
+
+def test_interface_modes_that_are_not_there(tmp_path):
+    """Names of interface modes that are neither a mode nor a static subcase are told."""
+    found = read_op2(both(tmp_path / "both.op2"), interface=(4, 21, 22, 23, 24, 25))
+    assert found.mode.tolist() == [1, 2, 3, 4, 5, 21, 22, 23]
+    assert [remark.what for remark in found.remarks] == ["of the interface modes named, 2 have no forces, 24 the first"]
 
 
 @pytest.mark.parametrize(("units", "length", "force"), [("mm-t-s", 1.0, 1.0), ("m-kg-s", 1000.0, 1.0)])

@@ -81,6 +81,15 @@ def test_rows_that_are_no_elements_differ():
     assert (found.element[3:] == 0).all()
 
 
+def test_springs_may_have_several_rows_at_a_grid():
+    """A spring between two directions of one grid has two rows there, in the order of the file; a plate has one."""
+    rows = [*PLATE, (4, 9, "ELAS2", 5.0), (4, 9, "ELAS2", -6.0)]
+    found = common_rows([block(rows), block([*rows[3:], *PLATE, (1, 0, "APP-LOAD", 1.0)], 2)])
+    assert found.force[:, 3:5, 0].tolist() == [[5.0, -6.0]] * 2
+    with pytest.raises(DataError, match="element 7 node 1 the first"):
+        common_rows([block([*PLATE, PLATE[0]])])
+
+
 def test_any_order_and_any_loads():
     """Random blocks: every row of every block is found again, elements in the order of the first block."""
     rng = random.Random(3)

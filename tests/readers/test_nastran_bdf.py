@@ -281,7 +281,8 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
         (QUAD + "CORD1R,5,1,2,77\nGRID,9,5\n", "grid 77 of a coordinate system"),
         ("+,1,2\n" + QUAD, "continuation without a card"),
         (QUAD + "GRID    9" + " " * 63 + "+A\n+B      1\n", "follows a card that announces"),
-        (QUAD + "=,*1,=,*1.\n", "no card name"),
+        ("=,*1,=,*1.\n" + QUAD, "no card name"),
+        (QUAD + "=,*1,=,*1.\n", "CQUAD4 field 4 is '2.0', not a whole number"),
         ("\0" + QUAD, "binary file"),
     ],
 )

@@ -73,7 +73,13 @@ def test_where_a_line_goes_on(text, expected):
         ("GRID*,1,,2.,3.\n+,4.", ["half_line"]),
         ("GRID 1     2.", ["bad_card"]),
         ("GRID,1\n1.0,2.0", ["bad_card"]),
-        ("GRID,1\n=,*1,=,*1.\n=3", ["replication", "replication"]),
+        ("GRID,1\n=3", ["replication"]),
+        ("GRID,1,x\n=,*1,*1", ["replication"]),
+        ("GRID,1,1.\n=,*1,*1", []),
+        ("GRID,1,1.\n=,*1,%2.", ["replication"]),
+        ("CHEXA,1,2,3,4,5,6,7,8\n,9,10\n=,*1,==", ["replication"]),
+        ("CHEXA,1,2,3,4,5,6,7,8,+A\n=,*1,==\n+A,9", ["replication"]),
+        ("=,*1,=", ["bad_card"]),
         ("MAT1,1\n=,*1,=,*1.\n=3", []),
         ("MAT1,1\n??,\n+Z,3\nPARAM POST -1\nINP= 5", []),
         ("MAT1,1,+A\n+B,1", []),
@@ -109,6 +115,34 @@ def test_continuations_in_any_order():
         "25",
     )
     assert (grid.name, grid.text(8)) == ("GRID", "9")
+
+
+def test_replicated_cards():
+    """The manual's example in free and in fixed fields, with the increments of whole and of real numbers."""
+    free = "GRID, 101, 17, 1.0, 10.5,,17,3456\n=,*1,=,*0.2, *(0.1), ==\n=3\nMAT1,1\n=,*1\n=(4)\n"
+    fixed = (
+        "GRID         101      17     1.0    10.5              17    3456\n"
+        "=             *1       =    *0.2  *(0.1)      ==\n=(3)\n"
+    )
+    for text in (free, fixed):
+        found, _, problems = split(text)
+        assert not problems
+        assert [card.integer(0) for card in found] == [101, 102, 103, 104, 105]
+        assert [card.real(2) for card in found] == pytest.approx([1.0, 1.2, 1.4, 1.6, 1.8])
+        assert [card.real(3) for card in found] == pytest.approx([10.5, 10.6, 10.7, 10.8, 10.9])
+        assert {card.fields[4:] for card in found} == {("", "17", "3456")}
+    assert split(free)[1].count == {"MAT1": 6}
+    (_, second), _, _ = split("GRID,1,,3.,4.\n=,*1,=,,*-1.5-1")
+    assert (second.integer(0), second.text(2), second.real(3)) == (2, "", 3.85)
+
+
+def test_text_behind_the_fields_is_counted():
+    """Sequence numbers, and data that slipped behind column 72, are not read; marks of all kinds are no such text."""
+    row = "GRID           1              1.      2.      3.".ljust(72)
+    _, left_out, _ = split(
+        f"{row}0000001\n{row}+A      5.\n+A      \n{row}OLD\n+LD     \n{row}+B\n+B\n{row}\nMAT1".ljust(90) + "7"
+    )
+    assert left_out.unread == ["a, line 1", "a, line 2"]
 
 
 def random_model(rng: random.Random) -> list[Fields]:

@@ -395,6 +395,15 @@ def test_superelements_are_told_from_titles(tmp_path, word, label, superelement)
             read_op2(path)
 
 
+def test_superelements_beside_the_residual_structure(tmp_path):
+    """The residual structure is read, and a remark says that superelements are left out."""
+    label = "T".ljust(128) + SUBTITLE + "SUPERELEMENT {}"
+    tables = [lambda w, s=s: one_mode(w, label=label.format(s)) for s in (0, 10, 20)]
+    found = read_back(tmp_path / "a.op2", *tables)
+    assert found.force.shape == (1, 1, 6)
+    assert found.remarks[0].what.startswith("2 blocks of superelements are left out")
+
+
 def test_several_force_tables(tmp_path):
     """Modes spread over several tables are one run, in the order of the file."""
     tables = [lambda w, m=m: one_mode(w, mode=m) for m in (4, 2, 9)]
