@@ -1,6 +1,6 @@
 """Blocks of a result file, one for each mode or subcase, joined into one FE run."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,9 +8,13 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock, frequency_of
 from fatigue.readers.force_rows import common_rows
+from fatigue.readers.force_sign import LOWEST_HZ
 
 _NOT_GIVEN = 1e-37
 """A smaller eigenvalue is no number a solver computes: the word holds an integer or nothing."""
+
+_AGREE = 1.001
+"""Frequencies of one mode by two tables differ by less."""
 
 Key = tuple[int, int]
 """Subcase and mode; mode 0: a static subcase."""
@@ -22,7 +26,7 @@ def assemble(
     forces: list[ForceBlock],
     shapes: list[ShapeBlock],
     summary: list[Eigenvalue],
-    stated: Mapping[Key, float],
+    stated: Mapping[Key, Sequence[float]],
     subcase: int | None,
     unusable: Collection[UnusableBlock] = (),
     interface: Collection[int] = (),
@@ -32,7 +36,7 @@ def assemble(
     Parameters
     ----------
     summary : the eigenvalue summaries of the file
-    stated : eigenvalues that stand beside shapes or forces, used for modes of a file without summary
+    stated : eigenvalues beside shapes, reactions and forces, used for modes of a file without summary
     subcase : the subcase to take from a file with several modal ones; None if there is only one
     unusable : blocks that are refused if the choice falls on them
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
@@ -40,7 +44,7 @@ def assemble(
     Raises
     ------
     DataError : no blocks, a choice of subcase is needed, a mode or a row given twice, rows that differ between modes, a
-        value that is no number
+        value that is no number, eigenvalues that contradict each other
     """
     chosen, remarks = _choose(source, forces, unusable, subcase, interface)
     modal = {block.subcase for block in chosen if block.mode > 0}
@@ -77,7 +81,7 @@ def assemble(
                 "Request GPFORCE for all modes that the simulation uses",
             )
         )
-    beside = {} if known else _given(stated, [(block.subcase, block.mode) for block in chosen if block.mode])
+    beside = {} if known else _given(source, stated, [(block.subcase, block.mode) for block in chosen if block.mode])
     frequency, mass = np.full(key.size, np.nan), np.full(key.size, np.nan)
     for k, block in enumerate(chosen):
         if block.mode and known:
@@ -204,11 +208,23 @@ def _summary_of(summary: list[Eigenvalue], modal: set[int]) -> dict[int, Eigenva
     return found if is_one else {}
 
 
-def _given(stated: Mapping[Key, float], wanted: list[Key]) -> dict[Key, float]:
+def _given(source: str, stated: Mapping[Key, Sequence[float]], wanted: list[Key]) -> dict[Key, float]:
     """Eigenvalues that are numbers; zero counts only beside others, as that of a rigid mode."""
-    found = {key: stated[key] for key in wanted if key in stated and np.isfinite(stated[key])}
-    found = {key: value if abs(value) > _NOT_GIVEN else 0.0 for key, value in found.items()}
-    return found if any(found.values()) else {}
+    found = {}
+    for key in wanted:
+        values = [v if abs(v) > _NOT_GIVEN else 0.0 for v in stated.get(key, ()) if np.isfinite(v)]
+        found[key] = max(values, key=abs, default=np.nan)
+        given = [frequency_of(v) for v in values if v]
+        if given and max(given) > _AGREE * min(given) and max(given) > LOWEST_HZ:
+            raise DataError(
+                Problem(
+                    "eigenvalues_contradict",
+                    source,
+                    f"mode {key[1]} of subcase {key[0]} is given with {min(given):.6g} and {max(given):.6g} Hz",
+                    "Copy the file again in binary mode, or give the results of one run",
+                )
+            )
+    return found if any(value for value in found.values() if np.isfinite(value)) else {}
 
 
 def _shapes(keys: list[Key], blocks: list[ShapeBlock]) -> tuple[NDArray[np.int64], NDArray[np.floating]]:

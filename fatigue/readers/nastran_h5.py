@@ -48,7 +48,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
         domains = {int(d["ID"]): d for d in read("NASTRAN/RESULT/DOMAINS", required=False)}
         forces: list[ForceBlock] = []
         unusable: list[UnusableBlock] = []
-        stated: dict[tuple[int, int], float] = {}
+        stated: dict[tuple[int, int], list[float]] = {}
         for key, rows in _by_domain(forces_table):
             if (domain := domains.get(key)) is None:
                 raise DataError(
@@ -61,7 +61,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
                 unusable.append(UnusableBlock(int(domain["SUBCASE"]), other))
                 continue
             forces.append(_force_block(domain, rows, where))
-            stated[_key(domain)] = float(domain["TIME_FREQ_EIGR"])
+            stated[_key(domain)] = [float(domain["TIME_FREQ_EIGR"])]
         shapes = [
             ShapeBlock(*_key(domains[key]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE))
             for name in ("EIGENVECTOR", "DISPLACEMENT")

@@ -4,6 +4,7 @@ Only the tables that hold them are decoded; whatever else a solver writes is ste
 """
 
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -83,8 +84,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
     forces: list[ForceBlock] = []
     unusable: list[UnusableBlock] = []
     shapes: list[ShapeBlock] = []
-    stated: dict[tuple[int, int], float] = {}
-    beside_forces: dict[tuple[int, int], float] = {}
+    stated: defaultdict[tuple[int, int], list[float]] = defaultdict(list)
     for table in _tables(op2):
         if table.name in _FORCE_TABLES:
             for head, body in _blocks(op2, table):
@@ -92,18 +92,19 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
                     unusable.append(UnusableBlock(head.subcase, other))
                 else:
                     forces.append(_force_block(op2, table, head, op2.record(body)))
-                    beside_forces[head.key] = _own_eigenvalue(head)
+                    stated[head.key].append(_own_eigenvalue(head))
         elif table.name in _SHAPE_TABLES:
             shapes += [block for pair in _blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
         if _STATES_EIGENVALUE.match(table.name):
-            stated |= {head.key: head.eigenvalue for head in _heads(op2, table) if head.is_modal}
+            for head in _heads(op2, table):
+                if head.is_modal:
+                    stated[head.key].append(head.eigenvalue)
     summary: list[Eigenvalue] = []
     if any(block.mode for block in forces) or not (forces or unusable):
         tables = [table for table in _tables(op2) if table.name in _EIGENVALUE_TABLES]
         summary = [line for t in tables for pair in _blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
     if not forces and not unusable:
         raise _without_forces(op2)
-    stated = beside_forces | stated
     results = assemble(str(path), op2.label, forces, shapes, summary, stated, subcase, unusable, interface)
     return results if op2.is_closed else replace(results, remarks=(*results.remarks, _unclosed(op2)))
 

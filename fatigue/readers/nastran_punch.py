@@ -36,12 +36,12 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
     heads = [k for k, line in enumerate(lines) if line.startswith(_HEADING)]
     if not heads:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
-    stated: dict[tuple[int, int], float] = {}
+    stated: dict[tuple[int, int], list[float]] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
     return assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
 
 
-def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int], float]) -> ForceBlock:
+def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int], list[float]]) -> ForceBlock:
     """One balance: its $ lines, then three lines for each row."""
     where = f"{path}, line {head + 1}"
     number, mode, eigenvalue, at = 0, 0, np.nan, head + 1
@@ -65,7 +65,7 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         at += 1
     if number < 1:
         raise DataError(Problem("no_subcase", where, "no line $SUBCASE ID follows", "Copy the punch file again"))
-    stated[number, mode] = eigenvalue
+    stated[number, mode] = [eigenvalue]
     node, element, kind, force = [], [], [], []
     while at < len(lines) and not lines[at].startswith("$"):
         if not lines[at].strip():

@@ -144,7 +144,7 @@ def test_modes_without_frequency_are_red(tmp_path, model):
 
 
 def test_own_words_of_forces_must_agree(tmp_path):
-    """Words 14 and 16 of the forces count if they are an eigenvalue and its frequency, and after all other sources."""
+    """Words 14 and 16 of the forces count if they are an eigenvalue and its frequency; none may contradict."""
     own = ((LAMBDA[0], 3.0), (LAMBDA[1], 8.0))
     assert read_op2(written(tmp_path / "a.op2", lambda w: two_modes(w, own=own))).frequency == pytest.approx([3, 8])
     own = ((LAMBDA[0], 3.1), (LAMBDA[1], 8.0))
@@ -153,7 +153,8 @@ def test_own_words_of_forces_must_agree(tmp_path):
     path = written(
         tmp_path / "a.op2", lambda w: beside(w, "OQG1", [4 * v for v in LAMBDA]), lambda w: two_modes(w, own=own)
     )
-    assert read_op2(path).frequency == pytest.approx([6.0, 16.0])
+    with pytest.raises(DataError, match="mode 2 of subcase 1 is given with 8 and 16 Hz"):
+        read_op2(path)
     path = written(path, lambda w: summary(w, LAMBDA), lambda w: beside(w, "OQG1", [1.0, 1.0]), two_modes)
     assert read_op2(path).frequency == pytest.approx([3.0, 8.0])
 
