@@ -36,8 +36,10 @@ def common_rows(blocks: list[ForceBlock]) -> CommonRows:
     is_element = [block.of_element for block in blocks]
     refuse(DataError, _problems(blocks, is_element))
     first = blocks[0]
-    element = np.where(is_element[0], first.element, 0)
-    if all(_is_alike(block, which, first, element) for block, which in zip(blocks, is_element, strict=True)):
+    own = np.where(is_element[0], first.element, 0)
+    if all(_is_alike(block, which, first, own) for block, which in zip(blocks, is_element, strict=True)):
+        is_same = all(np.array_equal(block.element, first.element) for block in blocks)
+        element = first.element if is_same else own  # ids left over from elements may differ
         return CommonRows(first.node, element, first.kind, np.stack([block.force for block in blocks]))
     rows = np.flatnonzero(is_element[0])
     order = _order(first, rows)
