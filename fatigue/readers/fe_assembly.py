@@ -50,7 +50,7 @@ def assemble(
     modal = {block.subcase for block in chosen if block.mode > 0}
     key = np.array([block.mode or block.subcase for block in chosen], np.int64)
     is_static = np.array([block.mode == 0 for block in chosen])
-    known = _summary_of(summary, modal)
+    known = _summary_of(summary, stated, modal)
     rows = common_rows(chosen)
     if absent := sorted(set(interface) - set(key.tolist())):
         remarks.append(
@@ -198,14 +198,21 @@ def _left_out(source: str, subcases: list[int], modes: set[int]) -> list[Problem
     ]
 
 
-def _summary_of(summary: list[Eigenvalue], modal: set[int]) -> dict[int, Eigenvalue]:
-    """Lines of the chosen subcase by mode; those of any subcase if the file has one summary only."""
-    own = [line for line in summary if line.subcase in modal]
-    if not own and len({line.subcase for line in summary}) == 1 and modal:
-        own = summary
-    found = {line.mode: line for line in own}
-    is_one = all(found[line.mode].frequency == line.frequency for line in own)
-    return found if is_one else {}
+def _summary_of(
+    summary: list[Eigenvalue], stated: Mapping[Key, Sequence[float]], modal: set[int]
+) -> dict[int, Eigenvalue]:
+    """Lines of the chosen subcase by mode; where several summaries do not tell theirs, those that agree with shapes."""
+    own = [line for line in summary if line.subcase in modal] or (summary if modal else [])
+    found: dict[int, Eigenvalue] = {}
+    for mode in {line.mode for line in own}:
+        lines = [line for line in own if line.mode == mode]
+        if len({line.frequency for line in lines}) > 1:
+            beside = [frequency_of(v) for subcase in modal for v in stated.get((subcase, mode), ()) if v]
+            lines = [line for line in lines if any(np.isclose(line.frequency, f, rtol=1e-3) for f in beside)]
+        if not lines:
+            return {}
+        found[mode] = lines[0]
+    return found
 
 
 def _given(source: str, stated: Mapping[Key, Sequence[float]], wanted: list[Key]) -> dict[Key, float]:

@@ -24,7 +24,7 @@ from fatigue.readers.fe_results import (
     frequency_of,
     is_sound,
 )
-from fatigue.readers.nastran_analysis import ANALYSES, MODES, STATIC, wrong_analysis
+from fatigue.readers.nastran_analysis import ANALYSES, BUCKLING, MODES, STATIC, wrong_analysis
 from fatigue.readers.op2_records import Op2File, Op2Table, Record, characters, read_records, text_of
 
 _FORCE_TABLES = ("OGPFB1",)
@@ -144,6 +144,9 @@ def _without_forces(op2: Op2File) -> DataError:
                 "sort2", str(op2.path), "the grid point forces are sorted by node (OGPFB2)", "Request SORT1 results"
             )
         )
+    shapes = [head for t in op2.tables if _STATES_EIGENVALUE.match(t.name) for head in _heads(op2, t)]
+    if buckling := next((head for head in shapes if head.approach in BUCKLING), None):
+        return DataError(wrong_analysis(str(op2.path), buckling.approach, "shapes"))
     return DataError(
         Problem("no_forces", str(op2.path), f"no grid point forces (table OGPFB1); tables found: {found}", REQUEST)
     )

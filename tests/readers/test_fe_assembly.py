@@ -171,6 +171,14 @@ def test_summaries_of_several_subcases(tmp_path):
     )
     assert read_op2(path, 1).frequency == pytest.approx([3.0, 8.0])
     assert read_op2(path, 2).frequency == pytest.approx([6.0, 16.0])
+    path = written(
+        path,
+        *(lambda w, v=v: summary(w, v, 0) for v in (LAMBDA, four)),
+        lambda w: beside(w, "OUGV1", four),
+        two_modes,
+    )
+    assert read_op2(path).frequency == pytest.approx([6.0, 16.0])
+    assert read_op2(path).modal_mass.tolist() == [2.0, 2.0]
     path = written(path, lambda w: summary(w, LAMBDA, 9), two_modes)
     assert read_op2(path).frequency == pytest.approx([3.0, 8.0])
     path = written(path, lambda w: summary(w, LAMBDA, 8), lambda w: summary(w, four, 9), two_modes)
@@ -192,6 +200,11 @@ def test_buckling_shapes_are_refused_as_such(tmp_path):
     def static(writer):
         writer.table("OGPFB1", [writer.identification(1, 19, 0, 10), writer.forces([ROW])])
 
+    def shapes(writer):
+        writer.table("OUGV1", [writer.identification(7, 7, 1, 8), writer.shape([(1, [0.0] * 6)])])
+
+    with pytest.raises(DataError, match=r"the shapes belong to a solution of buckling"):
+        read_op2(written(tmp_path / "a.op2", shapes))
     with pytest.raises(DataError, match=r"solution of buckling.*no modes of vibration") as caught:
         read_op2(written(tmp_path / "a.op2", buckling))
     assert [problem.code for problem in caught.value.problems] == ["wrong_analysis"]
