@@ -13,6 +13,7 @@ from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.readers.fe_assembly import assemble
 from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock
+from fatigue.readers.force_rows import sharing_rows
 from fatigue.readers.nastran_analysis import MODES, STATIC, wrong_analysis
 from fatigue.readers.nastran_frames import FrameCard, Frames
 
@@ -60,7 +61,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
             if (other := _unusable(domain, where)) is not None:
                 unusable.append(UnusableBlock(int(domain["SUBCASE"]), other))
                 continue
-            forces.append(_force_block(domain, rows, where))
+            forces.append(sharing_rows(_force_block(domain, rows, where), forces))
             stated[_key(domain)] = [float(domain["TIME_FREQ_EIGR"])]
         shapes = [
             ShapeBlock(*_key(domains[key]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE))

@@ -24,6 +24,7 @@ from fatigue.readers.fe_results import (
     frequency_of,
     is_sound,
 )
+from fatigue.readers.force_rows import sharing_rows
 from fatigue.readers.nastran_analysis import ANALYSES, BUCKLING, MODES, STATIC, wrong_analysis
 from fatigue.readers.op2_blocks import Identification, blocks, damaged, heads
 from fatigue.readers.op2_records import Op2File, Op2Table, Record, characters, read_records
@@ -63,7 +64,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
                 if (other := _unusable(op2, table, head)) is not None:
                     unusable.append(UnusableBlock(head.subcase, other))
                 else:
-                    forces.append(_force_block(op2, table, head, op2.record(body)))
+                    forces.append(sharing_rows(_force_block(op2, table, head, op2.record(body)), forces))
                     stated[head.key].append(_own_eigenvalue(head))
         elif table.name in _SHAPE_TABLES:
             shapes += [block for pair in blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
