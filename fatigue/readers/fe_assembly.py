@@ -1,6 +1,7 @@
 """Blocks of a result file, one for each mode or subcase, joined into one FE run."""
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -235,10 +236,23 @@ def _given(source: str, stated: Mapping[Key, Sequence[float]], wanted: list[Key]
 
 
 def _shapes(keys: list[Key], blocks: list[ShapeBlock]) -> tuple[NDArray[np.int64], NDArray[np.floating]]:
-    """Mode shapes of all modes, or none if one is missing or their grids differ."""
+    """Shapes of all modes by ascending grid, or none if one is missing or their grids differ.
+
+    A static subcase beside modes may lack its displacements: they are zero then, and prove nothing.
+    """
     found = {(block.subcase, block.mode): block for block in blocks}
+    is_mixed = any(mode for _, mode in keys)
     wanted = [found.get(key) for key in keys]
-    complete = [block for block in wanted if block is not None]
-    if len(complete) < len(wanted) or any(not np.array_equal(block.node, complete[0].node) for block in complete):
+    given = [_by_grid(block) for block in wanted if block is not None]
+    is_missing = any(block is None and (mode or not is_mixed) for block, (_, mode) in zip(wanted, keys, strict=True))
+    if is_missing or any(not np.array_equal(block.node, given[0].node) for block in given):
         return np.empty(0, np.int64), np.empty((len(keys), 0, 6))
-    return complete[0].node, np.stack([block.shape for block in complete])
+    shape = np.zeros((len(keys), *given[0].shape.shape), np.result_type(*(block.shape for block in given)))
+    shape[[block is not None for block in wanted]] = [block.shape for block in given]
+    return given[0].node, shape
+
+
+def _by_grid(block: ShapeBlock) -> ShapeBlock:
+    """Shape by ascending grid."""
+    order = np.argsort(block.node, kind="stable")
+    return block if (np.diff(order) > 0).all() else replace(block, node=block.node[order], shape=block.shape[order])

@@ -1,5 +1,6 @@
 """Blocks joined into a run: which subcases, which frequencies, static subcases beside modes."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -257,6 +258,21 @@ def test_unit_loads_beside_modes(tmp_path, model):
     assert set(lights(found, model, interface_modes=(21, 23)).values()) == {"green"}
     assert read_op2(path, subcase=1, interface=(21,)).mode.tolist() == [1, 2, 3, 4, 5, 21]
     assert read_op2(path, subcase=22).mode.tolist() == [22]
+
+
+def test_shapes_in_any_order_of_grids(tmp_path, model):
+    """Shapes whose grids do not ascend prove the sign as well; unit loads without displacements do not disturb it."""
+    case = tee().results
+    order = np.random.default_rng(2).permutation(case.shape_node.size)
+    turned = replace(case, shape_node=case.shape_node[order], shape=case.shape[:, order])
+    writer = modal_tables(Op2Writer(8), turned)
+    path = tmp_path / "a.op2"
+    path.write_bytes(unit_load_op2(writer, shapes=False).close())
+    found = read_op2(path, interface=SUBCASES)
+    assert np.array_equal(found.shape_node, case.shape_node)
+    assert np.array_equal(found.shape[:5], case.shape)
+    assert not found.shape[5:].any()
+    assert lights(found, model, interface_modes=SUBCASES)["sign"] == "green"
 
 
 def test_a_unit_load_with_the_number_of_a_mode(tmp_path):
