@@ -13,12 +13,12 @@ from fatigue.readers.body import read_modes
 from fatigue.readers.convert import ConvertOptions, convert
 from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_op2 import read_op2
+from tests.readers.op2_files import ROW
 from tests.readers.op2_writer import OPTISTRUCT, Op2Writer, modal_op2, modal_tables
 from tests.readers.tee_model import bulk, tee
 from tests.readers.unit_loads import SUBCASES, unit_load_op2, unit_loads
 
 GENUINE = Path(__file__).parents[1] / "data" / "nastran"
-ROW = (1, 1, "QUAD4", [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
 LAMBDA = [(2 * np.pi * f) ** 2 for f in (3.0, 8.0)]
 
 
