@@ -96,6 +96,11 @@ def contradictions(rows: Iterable[RegisterRow], where: str) -> Iterator[Problem]
             yield Problem("contradiction", where, what, "Give them one, or give the lines two names")
 
 
+def kind_of(reason: str) -> str:
+    """Leave the numbers out of a reason."""
+    return re.sub(r"\d+(\.\d+)?", "0", reason)
+
+
 def reasons(rows: Iterable[RegisterRow]) -> list[tuple[int, str]]:
     """Count the kinds of reasons why lines are not assessed, most frequent first, each told by its first line.
 
@@ -105,7 +110,7 @@ def reasons(rows: Iterable[RegisterRow]) -> list[tuple[int, str]]:
     for row in rows:
         if row.status != "assess":
             reason = row.reason or row.status
-            kinds.setdefault(re.sub(r"\d+", "0", reason), []).append(f"{reason} (line {row.key})")
+            kinds.setdefault(kind_of(reason), []).append(f"{reason} (line {row.key})")
     return sorted(((len(some), some[0]) for some in kinds.values()), key=lambda kind: -kind[0])
 
 
