@@ -76,7 +76,6 @@ def test_the_cases_are_what_they_say(result):
 def test_the_page_lists_them_with_their_reason(result):
     """No number is made up, none has a decimal point it should not have, no name becomes markup."""
     page = Page((result / "report.html").read_text(encoding="utf-8"))
-    assert page.html == report_page(result, verification=()) or "Known answers" in page.html
     assessed_rows, left_out = welds_of(result)
     head, *rows = page.tables["weld-register"]
     by_name = {row[0]: dict(zip(head, row, strict=True)) for row in rows}
@@ -147,11 +146,12 @@ def test_a_diagnosis_and_its_page(copy):
     assert NAME in " ".join(Page(report_page(copy)).text)
 
 
-def test_printed(copy):
+def test_printed(tmp_path):
     """The page prints, the reasons included."""
     try:
         find_browser()
     except DataError:
         pytest.skip("no browser")
-    print_pdf(copy / "report.html", copy / "report.pdf")
-    assert (copy / "report.pdf").read_bytes().startswith(b"%PDF")
+    folder = assessed(tmp_path, *CASES["all but one"])
+    print_pdf(folder / "report.html", folder / "report.pdf")
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
