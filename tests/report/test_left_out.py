@@ -82,7 +82,7 @@ def test_the_page_lists_them_with_their_reason(result):
     assert set(by_name) == {*assessed_rows.weld, *left_out.weld}
     for row in left_out.itertuples():
         shown = [cell for name, cell in by_name[row.weld].items() if name not in ("weld", "description", "status")]
-        assert by_name[row.weld]["status"] == f"excluded: {row.reason}"
+        assert by_name[row.weld]["status"] == ("" if row.reason == "candidate" else "excluded: ") + row.reason
         assert set(shown[4:]) == {"–"}
     nodes = {by_name[name]["nodes"] for name in assessed_rows.weld}
     assert nodes == {"7"}
