@@ -46,6 +46,8 @@ def read_cells(path: Path, numbers: Collection[str]) -> tuple[tuple[str, ...], l
 
 def _decoded(content: bytes) -> str:
     """Text of a file that a program on any system may have written."""
+    if content.startswith((b"PK\x03\x04", b"PAR1", b"\x1f\x8b")):
+        raise UnicodeError("it is a workbook or another binary file, no text")
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return content.decode("utf-16")
     try:

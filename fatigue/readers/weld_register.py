@@ -39,7 +39,8 @@ _COLUMNS = [
 class RegisterRow:
     """One cut in the register; ``thickness`` NaN where the model gives none [mm].
 
-    ``surface`` is empty where the register leaves it open; ``number`` is that of the row in its file, from 1.
+    ``surface`` is empty where the register leaves it open; ``number`` is that of the row in its file, from 1;
+    ``others`` are the cells of columns that nothing reads, kept for the user.
     """
 
     weld: str
@@ -58,6 +59,7 @@ class RegisterRow:
     end_length: str = ""
     description: str = ""
     number: int = field(default=0, compare=False)
+    others: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
     def key(self) -> str:
@@ -144,6 +146,7 @@ def merged(rows: Iterable[RegisterRow], register: Register) -> tuple[list[Regist
             replace(
                 row,
                 number=old.number,
+                others=old.others,
                 weld=old.weld,
                 status=old.status,
                 reason=old.reason,
@@ -174,7 +177,9 @@ def register_text(rows: Iterable[RegisterRow]) -> str:
     """Register as CSV text."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
+    rows = list(rows)
+    others = list(dict.fromkeys(name for row in rows for name in row.others))
+    writer.writerow([*_COLUMNS, *others])
     for row in sorted(rows, key=lambda r: (STATUSES.index(r.status), r.weld)):
         writer.writerow(
             [
@@ -193,6 +198,7 @@ def register_text(rows: Iterable[RegisterRow]) -> str:
                 row.curve,
                 row.end_length,
                 row.description,
+                *(row.others.get(name, "") for name in others),
             ]
         )
     return text.getvalue()
@@ -249,7 +255,7 @@ def _unknown_columns(path: Path, names: Iterable[str]) -> Iterable[Problem]:
     for name in names:
         if name and name not in _COLUMNS:
             near = difflib.get_close_matches(name, _COLUMNS, n=1)
-            remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
+            remedy = f"Rename it to {near[0]!r}" if near else "Remove it if it is not for yourself"
             what = "the column is unknown and not read"
             yield Problem("unknown_column", f"{path.name}: column {name}", what, remedy)
 
@@ -281,9 +287,10 @@ def _row(cells: Mapping[str, str], number: int) -> RegisterRow:
         confirmed=confirmed,
         surface=cells.get("surface", "").lower(),
         curve=cells.get("curve", ""),
-        end_length=cells.get("end_length_mm", ""),
+        end_length="" if np.isnan(end_length) else f"{end_length:.12g}",
         description=cells.get("description", ""),
         number=number,
+        others={name: value for name, value in cells.items() if name and name not in _COLUMNS},
     )
 
 

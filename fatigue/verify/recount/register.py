@@ -118,10 +118,10 @@ def _rows(path: Path) -> list[dict[str, str]]:
             break
         except UnicodeDecodeError:
             continue
-    lines = [line for line in text.splitlines() if line.strip(" ;,\t")]
-    mark = max(";\t,", key=lines[0].count)
-    cells = [[cell.strip() for cell in row] for row in csv.reader(StringIO("\n".join(lines)), delimiter=mark)]
-    rows = [dict(zip(cells[0], row, strict=False)) for row in cells[1:]]
+    mark = max(";\t,", key=text.strip().partition("\n")[0].count)
+    cells = [[cell.strip() for cell in row] for row in csv.reader(StringIO(text), delimiter=mark)]
+    names, *others = [row for row in cells if any(row)]
+    rows = [dict(zip(names, row, strict=False)) for row in others]
     for row in rows if mark != "," else []:
         row |= {name: row[name].replace(",", ".") for name in ("thickness_mm", "end_length_mm") if name in row}
     return rows
