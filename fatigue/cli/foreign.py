@@ -244,7 +244,8 @@ def welds(
     if vtp is not None:
         write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
     if as_json:
-        print_json([asdict(row) for row in rows])
+        of_the_file = ("number", "others")
+        print_json([{k: v for k, v in asdict(row).items() if k not in of_the_file} for row in rows])
         return
     for row in rows:
         reason = f"  {row.reason}" if row.reason else ""
