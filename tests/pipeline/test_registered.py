@@ -392,3 +392,13 @@ def test_a_folder_converted_before_lines_were_recorded(body):
     assert next(w.name for w in read_model(case_of(body.out), strict=True).welds) == "mine"
     edited(body.out, {"line": "tee_1_2_p3a"}, {"status": "excluded"})
     assert f"Convert the files of {body.out} again with --register" in refusal(body.out)
+
+
+def test_relative_paths(tmp_path, monkeypatch):
+    """A register that no key names is found beside the welds from where the command runs, by the recount, too."""
+    path = small_case().write(tmp_path / "case")
+    (tmp_path / "case" / REGISTER).write_text("weld,status\nA,assess\nB,excluded\n")
+    monkeypatch.chdir(tmp_path)
+    assess(load_case(path.relative_to(tmp_path)), tmp_path.relative_to(tmp_path) / "result", threads=1, report=False)
+    found = recount(tmp_path.relative_to(tmp_path) / "result", sample=3)
+    assert found.passed, found.as_text()

@@ -43,7 +43,8 @@ def weld_entries(case: Mapping[str, Any], folder: Path, table: pd.DataFrame) -> 
     """Read the register of a case, if it has one, over its table of welds."""
     of_table = {name: _of_table(row) for name, row in zip(table["weld"], table.to_dict("records"), strict=True)}
     beside = (folder / case["body"]["welds"]).parent
-    path = folder / case["body"].get("register", beside / "welds_register.csv")
+    named = case["body"].get("register")
+    path = beside / "welds_register.csv" if named is None else folder / named
     if not path.is_file():
         return WeldEntries(of_table, ())
     rows = _rows(path)
