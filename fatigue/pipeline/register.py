@@ -12,7 +12,7 @@ from fatigue.pipeline.group import GroupResult
 from fatigue.pipeline.mission_block import MissionBlock
 from fatigue.pipeline.model import Model, toe_faces
 from fatigue.pipeline.rows import FACES
-from fatigue.readers.weld_register import RegisterRow
+from fatigue.readers.weld_register import RegisterRow, description_of
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
 
@@ -98,7 +98,7 @@ def excluded_rows(excluded: Sequence[RegisterRow]) -> dict[str, Any]:
         "weld": [row.weld for row in excluded],
         "status": ["excluded"] * len(excluded),
         "reason": [_reason(row) for row in excluded],
-        "description": [row.description for row in excluded],
+        "description": [description_of([row]) for row in excluded],
         "nodes": [row.nodes or None for row in excluded],
         "length_mm": [row.length for row in excluded],
     }

@@ -5,6 +5,7 @@ knows the name it has in the tables. In tables written by hand ``line`` is the n
 empty where ``weld`` is. So a weld can be renamed again and again, and its row is found.
 """
 
+import difflib
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
@@ -135,7 +136,9 @@ def _absent(register: Register, rows: Sequence[RegisterRow], welds: Sequence[Wel
     for row in rows:
         if row.status == "assess":
             what = f"line {row.key} is to be assessed, and the tables have no forces for it"
-            remedy = f"Add it to the tables of the case (welds there: {_some(welds)}), or give it another status"
+            near = difflib.get_close_matches(row.key, [weld.name for weld in welds], n=1)
+            meant = f"meant is perhaps {near[0]}" if near else f"welds there: {_some(welds)}"
+            remedy = f"Add it to the tables of the case ({meant}), or give it another status"
             yield Problem("no_forces", register.where(row), what, again or remedy)
 
 

@@ -13,7 +13,7 @@ from fatigue.readers.formats import read_model
 from fatigue.readers.joined_cuts import joined_cuts
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import unit_system
-from fatigue.readers.weld_register import RegisterRow, merged, open_register, proposed, register_text
+from fatigue.readers.weld_register import RegisterRow, kind_of, merged, open_register, proposed, register_text
 from fatigue.weld.cuts import WeldCut, trace
 from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
@@ -168,8 +168,11 @@ def _element_doubts(model: FeModel) -> dict[int, str]:
 
 
 def _doubt(cut: WeldCut, doubts: dict[int, str]) -> str:
-    """First doubt about the section of a cut's elements."""
-    return next((doubts[int(e)] for e in cut.elements if int(e) in doubts), "")
+    """Say what is doubtful about the sections of a cut's elements: of each kind the first, and how many more."""
+    kinds: dict[str, list[str]] = {}
+    for doubt in dict.fromkeys(doubts[e] for e in cut.elements.tolist() if e in doubts):
+        kinds.setdefault(kind_of(doubt), []).append(doubt)
+    return "; ".join(some[0] + (f" (and {len(some) - 1} more)" if len(some) > 1 else "") for some in kinds.values())
 
 
 def _settled(row: RegisterRow, cut: WeldCut | None, doubt: str) -> RegisterRow:
@@ -185,7 +188,7 @@ def _settled(row: RegisterRow, cut: WeldCut | None, doubt: str) -> RegisterRow:
     try:
         check_line(_as_registered(cut, row).line, row.line)
     except DataError as error:
-        return replace(row, status="excluded", reason=error.problems[0].what)
+        return replace(row, status="excluded", reason="; ".join(problem.what for problem in error.problems))
     return row
 
 

@@ -39,7 +39,8 @@ _COLUMNS = [
 class RegisterRow:
     """One cut in the register; ``thickness`` NaN where the model gives none [mm].
 
-    ``surface`` is empty where the register leaves it open; ``number`` is that of the row in its file, from 1.
+    ``surface`` is empty where the register leaves it open; ``number`` is that of the row in its file, from 1;
+    ``others`` are the cells of columns that nothing reads, kept for the user.
     """
 
     weld: str
@@ -58,6 +59,7 @@ class RegisterRow:
     end_length: str = ""
     description: str = ""
     number: int = field(default=0, compare=False)
+    others: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
     def key(self) -> str:
@@ -96,6 +98,11 @@ def contradictions(rows: Iterable[RegisterRow], where: str) -> Iterator[Problem]
             yield Problem("contradiction", where, what, "Give them one, or give the lines two names")
 
 
+def kind_of(reason: str) -> str:
+    """Leave the numbers out of a reason."""
+    return re.sub(r"\d+(\.\d+)?", "0", reason)
+
+
 def reasons(rows: Iterable[RegisterRow]) -> list[tuple[int, str]]:
     """Count the kinds of reasons why lines are not assessed, most frequent first, each told by its first line.
 
@@ -105,7 +112,7 @@ def reasons(rows: Iterable[RegisterRow]) -> list[tuple[int, str]]:
     for row in rows:
         if row.status != "assess":
             reason = row.reason or row.status
-            kinds.setdefault(re.sub(r"\d+", "0", reason), []).append(f"{reason} (line {row.key})")
+            kinds.setdefault(kind_of(reason), []).append(f"{reason} (line {row.key})")
     return sorted(((len(some), some[0]) for some in kinds.values()), key=lambda kind: -kind[0])
 
 
@@ -139,6 +146,7 @@ def merged(rows: Iterable[RegisterRow], register: Register) -> tuple[list[Regist
             replace(
                 row,
                 number=old.number,
+                others=old.others,
                 weld=old.weld,
                 status=old.status,
                 reason=old.reason,
@@ -169,7 +177,9 @@ def register_text(rows: Iterable[RegisterRow]) -> str:
     """Register as CSV text."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
+    rows = list(rows)
+    others = list(dict.fromkeys(name for row in rows for name in row.others))
+    writer.writerow([*_COLUMNS, *others])
     for row in sorted(rows, key=lambda r: (STATUSES.index(r.status), r.weld)):
         writer.writerow(
             [
@@ -188,6 +198,7 @@ def register_text(rows: Iterable[RegisterRow]) -> str:
                 row.curve,
                 row.end_length,
                 row.description,
+                *(row.others.get(name, "") for name in others),
             ]
         )
     return text.getvalue()
@@ -244,7 +255,7 @@ def _unknown_columns(path: Path, names: Iterable[str]) -> Iterable[Problem]:
     for name in names:
         if name and name not in _COLUMNS:
             near = difflib.get_close_matches(name, _COLUMNS, n=1)
-            remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
+            remedy = f"Rename it to {near[0]!r}" if near else "Remove it if it is not for yourself"
             what = "the column is unknown and not read"
             yield Problem("unknown_column", f"{path.name}: column {name}", what, remedy)
 
@@ -276,9 +287,10 @@ def _row(cells: Mapping[str, str], number: int) -> RegisterRow:
         confirmed=confirmed,
         surface=cells.get("surface", "").lower(),
         curve=cells.get("curve", ""),
-        end_length=cells.get("end_length_mm", ""),
+        end_length="" if np.isnan(end_length) else f"{end_length:.12g}",
         description=cells.get("description", ""),
         number=number,
+        others={name: value for name, value in cells.items() if name and name not in _COLUMNS},
     )
 
 

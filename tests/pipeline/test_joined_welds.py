@@ -4,11 +4,13 @@ import csv
 from dataclasses import fields, replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.check import check_case
+from fatigue.errors import DataError
 from fatigue.pipeline.model import read_model
 from fatigue.readers.convert import ConvertOptions, convert
 from fatigue.readers.weld_lines import WeldSources
@@ -160,3 +162,55 @@ def test_lines_turned_and_in_any_order_join_alike(pieces):
     for a, b in zip(before, after, strict=True):
         assert np.allclose(a, b, rtol=0, atol=1e-12 * max(1.0, np.abs(a).max()))
     assert check_case(load_case(pieces.out / "case.toml"), strict=True).welds == 2 + sum(r["pid"] == "2" for r in rows)
+
+
+def test_a_gap_in_the_plate_at_a_joint_names_the_command(pieces):
+    """Elements round the corner that neither line has cannot be known from the tables: refused, never left out."""
+    write_register(pieces.out, named_by_side(pieces.out))
+    sides = pd.read_csv(pieces.out / "weld_elements.csv")
+    outer = [row["line"] for row in register_rows(pieces.out) if row["weld"] == "outer"]
+    mesh = pd.read_parquet(pieces.out / "elements.parquet").set_index("element")[["n1", "n2", "n3", "n4"]]
+    corner = corner_nodes(len(outer))[0][-1]
+    on_line = set(pd.read_csv(pieces.out / "weld_nodes.csv").node)
+    only_there = [e for e, nodes in mesh.iterrows() if set(nodes) & on_line == {corner}]
+    assert only_there
+    sides[~(sides.weld.isin(outer) & sides.element.isin(only_there))].to_csv(
+        pieces.out / "weld_elements.csv", index=False
+    )
+    with pytest.raises(DataError) as caught:
+        check_case(load_case(pieces.out / "case.toml"), strict=True)
+    (problem,) = caught.value.problems
+    assert problem.where == "welds_register.csv: weld outer"
+    assert f"join at node {corner} do not make one plate round it" in problem.what
+    assert problem.remedy.startswith("Run `fatigue convert --forces ")
+    assert f"--register {pieces.out / 'welds_register.csv'} --keep-case`" in problem.remedy
+
+
+def test_a_weld_converted_as_one_is_not_parted_by_the_tables(pieces):
+    """Two names for the lines of one converted weld: the command is named, and does it."""
+    rows = named_by_side(pieces.out)
+    write_register(pieces.out, rows)
+    convert(pieces)
+    assert {w.name for w in model(pieces.out).welds} >= {"inner", "outer"}
+    again = register_rows(pieces.out)
+    next(row for row in again if row["weld"] == "outer")["weld"] = "outer, first"
+    write_register(pieces.out, again)
+    with pytest.raises(DataError, match=r"were converted as one weld and are to be parted. Run `fatigue convert"):
+        model(pieces.out)
+    convert(pieces)
+    assert {w.name for w in model(pieces.out).welds} >= {"inner", "outer", "outer, first"}
+
+
+def test_lines_of_one_converted_weld_left_out_together(pieces):
+    """Excluded as a whole it needs no conversion; renamed as a whole it is the same weld."""
+    rows = named_by_side(pieces.out)
+    write_register(pieces.out, rows)
+    convert(pieces)
+    renamed = [
+        row | {"weld": "round", "curve": "master-steel"} if row["weld"] == "outer" else row
+        for row in register_rows(pieces.out)
+    ]
+    write_register(pieces.out, renamed)
+    assert "round" in {w.name for w in model(pieces.out).welds if w.curve == "master-steel"}
+    write_register(pieces.out, [row | {"status": "excluded"} if row["weld"] == "round" else row for row in renamed])
+    assert "round" not in {w.name for w in model(pieces.out).welds}

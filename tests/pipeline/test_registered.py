@@ -242,7 +242,7 @@ def test_unknown_columns_are_a_warning_or_a_mistake(body):
     warnings = [str(w) for w in check_case(case_of(body.out), strict=False).warnings if w.code == "unknown_column"]
     assert [w.split(": ", 1)[1] for w in warnings] == [
         "column end_lengt_mm: the column is unknown and not read. Rename it to 'end_length_mm'.",
-        "column checked by: the column is unknown and not read. Remove it.",
+        "column checked by: the column is unknown and not read. Remove it if it is not for yourself.",
     ]
     with pytest.raises(DataError, match="unknown and not read"):
         check_case(case_of(body.out), strict=True)
@@ -358,3 +358,47 @@ def test_rows_of_one_name_that_are_left_out_keep_names_of_their_own(body, tmp_pa
     welds = pd.read_parquet(tmp_path / "result" / "welds.parquet")
     lines = [row["line"] for row in rows_of(body.out)]
     assert welds.weld.tolist() == ["one", *lines[1:]]
+
+
+def test_columns_of_the_user_survive_a_conversion(body):
+    """Nothing reads them, and nothing throws them away; a reason may have line breaks and the name a comma."""
+    rows = rows_of(body.out)
+    rows[0] |= {"reason": "seen,\nsigned", "status": "excluded", "weld": "a, b"}
+    rows = [row | {"checked by": f"me {k}"} for k, row in enumerate(rows)]
+    with (body.out / REGISTER).open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+    done = convert(body)
+    assert "unknown_column" in {problem.code for problem in done.remarks}
+    assert {r["line"]: r["checked by"] for r in rows_of(body.out)} == {r["line"]: r["checked by"] for r in rows}
+    assert [r["reason"] for r in rows_of(body.out) if r["status"] == "excluded"] == ["seen,\nsigned"]
+    assert check_case(case_of(body.out), strict=False).excluded == 1
+
+
+def test_a_workbook_is_no_register(body):
+    """Named as what it is."""
+    (body.out / REGISTER).write_bytes(b"PK\x03\x04" + bytes(200))
+    assert "cannot be read (it is a workbook or another binary file, no text). Save it as CSV" in refusal(body.out)
+
+
+def test_a_folder_converted_before_lines_were_recorded(body):
+    """Without the key, the lines and the command: found beside the welds, by the names in the tables."""
+    case, record = body.out / "case.toml", body.out / "convert.json"
+    case.write_text("\n".join(line for line in case.read_text().splitlines() if not line.startswith("register")))
+    said = json.loads(record.read_text())
+    record.write_text(json.dumps({k: v for k, v in said.items() if k not in ("welds", "command")}))
+    edited(body.out, {"weld": "mine"}, {"status": "excluded"})
+    assert next(w.name for w in read_model(case_of(body.out), strict=True).welds) == "mine"
+    edited(body.out, {"line": "tee_1_2_p3a"}, {"status": "excluded"})
+    assert f"Convert the files of {body.out} again with --register" in refusal(body.out)
+
+
+def test_relative_paths(tmp_path, monkeypatch):
+    """A register that no key names is found beside the welds from where the command runs, by the recount, too."""
+    path = small_case().write(tmp_path / "case")
+    (tmp_path / "case" / REGISTER).write_text("weld,status\nA,assess\nB,excluded\n")
+    monkeypatch.chdir(tmp_path)
+    assess(load_case(path.relative_to(tmp_path)), tmp_path.relative_to(tmp_path) / "result", threads=1, report=False)
+    found = recount(tmp_path.relative_to(tmp_path) / "result", sample=3)
+    assert found.passed, found.as_text()
