@@ -155,7 +155,7 @@ def convert(options: ConvertOptions) -> Conversion:
         check_folder(options.out, [*files, RECORD], REGISTER)
     doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
     record = {
-        "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *options.coordinates)},
+        "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *model.included, *options.coordinates)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],

@@ -118,6 +118,7 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
         node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in (bulk.sets | sets).items()},
         marker_edges={name: np.array(pairs, np.int64) for name, pairs in bulk.markers.items()},
         other_cards=bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)},
+        included=deck.included,
         remarks=(*deck.remarks, *bulk.remarks, *set_remarks, *_remarks(bulk, left_out)),
     )
 

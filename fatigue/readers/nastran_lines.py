@@ -24,11 +24,12 @@ _DEEPEST = 50
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Deck:
-    """A NASTRAN input file with its INCLUDEs: the lines before BEGIN BULK, the bulk data lines, and doubts."""
+    """A NASTRAN input file with its INCLUDEs: lines before BEGIN BULK, bulk data lines, doubts, and included files."""
 
     control: list[Line]
     bulk: list[Line]
     remarks: tuple[Problem, ...] = ()
+    included: tuple[Path, ...] = ()
 
 
 @dataclass(slots=True)
@@ -40,6 +41,7 @@ class _Reading:
     in_control: bool = True
     remarks: list[Problem] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
+    included: dict[Path, None] = field(default_factory=dict)
 
 
 def place(source: str, number: int) -> str:
@@ -88,7 +90,7 @@ def read_deck(path: Path) -> Deck:
             bulk.append((source, number, line))
     _note_skipped(skipped, reading)
     refuse(DataError, reading.problems[:10])
-    return Deck(control, bulk, tuple(reading.remarks))
+    return Deck(control, bulk, tuple(reading.remarks), tuple(reading.included))
 
 
 def _opens(words: list[str], where: str, line: str, reading: _Reading) -> str:
@@ -158,7 +160,7 @@ def _lines(path: Path, text: str, parents: tuple[Path, ...], reading: _Reading) 
             yield from _included(path, number, include_name(raw, numbered, place(source, number)), parents, reading)
             continue
         line = (raw[: raw.index("$")] if "$" in raw else raw).rstrip()
-        if line:
+        if line and line[0] != "#" and line[:2] != "//":  # comments of OptiStruct
             yield source, number, line
 
 
@@ -182,6 +184,7 @@ def _included(path: Path, number: int, name: str, parents: tuple[Path, ...], rea
     parents = (*parents, path.resolve())
     if found.path.resolve() in parents or len(parents) > _DEEPEST:
         raise DataError(Problem("include_loop", where, f"the file {found.path} includes itself", "Remove the INCLUDE"))
+    reading.included[found.path] = None
     yield from _lines(found.path, text, parents, reading)
 
 

@@ -159,6 +159,7 @@ def test_frames_of_a_deck(tree, frame):
         QUAD.replace("GRID,3", "\f\nGRID,3").replace("GRID,4", "\fGRID,4").encode(),
         QUAD.lower().encode(),
         QUAD.replace("\n", "   $ comment, with commas\n\n  \n$\n").encode(),
+        ("# one\n// two\n" + QUAD).encode(),
     ],
 )
 def test_bytes_of_a_deck(tree, data):
