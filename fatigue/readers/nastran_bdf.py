@@ -1,7 +1,7 @@
 """Shell geometry from NASTRAN or OptiStruct bulk data: the cards that weld lines need; all others are only counted."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -105,7 +105,7 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
             shells.append(shell(card, properties))
         except DataError as error:
             problems += error.problems
-    _refuse_some(list(dict.fromkeys(problems)))
+    _refuse_some(list(dict.fromkeys(_with_unread_frames(problems, left_out))))
     turned = sorted(grid for grid, c in cd.items() if c)
     sets, set_remarks = case_sets(deck.control)
     return FeModel(
@@ -121,6 +121,13 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
         included=deck.included,
         remarks=(*deck.remarks, *bulk.remarks, *set_remarks, *_remarks(bulk, left_out)),
     )
+
+
+def _with_unread_frames(problems: list[Problem], left_out: LeftOut) -> list[Problem]:
+    """Name the cards that may define a missing coordinate system in a way that is not read."""
+    unread = ", ".join(name for name in left_out.count if name.startswith("CORD"))
+    remedy = f"Give it as CORD1 or CORD2; {unread} cards are not read"
+    return [replace(p, remedy=remedy) if unread and p.code == "no_frame" else p for p in problems]
 
 
 def _output_frame(card: Card, default: int) -> int:

@@ -57,6 +57,8 @@ def test_real_files():
         "grid*,9,,15.,-0.25,*B\n*B,3.0",
         "GRID    9               15.     -.25    +3.E0   $ comment",
         "GRID\t9\t\t15.\t-.25\t3.",
+        "GRID,9,,15,-.25,3",
+        "GRID,9,,+1.5e1,-25-2,+3",
     ],
 )
 def test_spellings_of_a_card(read, card):
@@ -264,7 +266,11 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
         (QUAD + "GRID,9,,1_0.,0.,0.\n", "not a number of sensible size"),
         (QUAD + "GRID,9,,1e999,0.,0.\n", "sensible size"),
         (QUAD + "GRID,,,0.,0.,0.\n", "field 2 is empty"),
-        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist"),
+        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist. Include the file"),
+        (
+            QUAD + "GRID,9,4,0.,0.,0.\nCORD3G,4,E313\n",
+            "does not exist. Give it as CORD1 or CORD2; CORD3G cards are not read",
+        ),
         (QUAD + "GRID,9,,0.,0.,0.,-1\n", "fluid point"),
         (QUAD + "GRID,9,,0.,0.,0.,,,5\n", "superelement 5"),
         (QUAD + "GRDSET,,,,,,,,5\n", "superelement 5"),
