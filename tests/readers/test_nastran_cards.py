@@ -9,7 +9,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.nastran_bdf import read_bdf
-from fatigue.readers.nastran_cards import Card, LeftOut, cards
+from fatigue.readers.nastran_cards import Card, cards
+from fatigue.readers.nastran_notes import LeftOut
 from tests.readers.bdf_writer import FORMS, Fields, spelling, write
 
 
