@@ -148,7 +148,8 @@ class _Joining:
     def leave_unread(self, now: _Open) -> None:
         """Note text behind the fields of a line that turned out to be no mark."""
         if now.unread and now.wanted:
-            self.left_out.unread.append(place(now.source, now.line))
+            self.left_out.first_unread = self.left_out.first_unread or place(now.source, now.line)
+            self.left_out.unread += 1
         now.unread = ""
 
 

@@ -20,6 +20,7 @@ _ENDDATA = re.compile(r"\s*ENDDATA\b", re.IGNORECASE)
 _BESIDE = ("AUXMODEL", "ARBMODEL", "HYPRBEAM", "MASSID", "UDS", "TRMC")  # blocks that are no part of the model
 _PARTS = ("SUPER", "FEMODEL", "MODULE")
 _DEEPEST = 50
+_MOST_CONTROL = 10_000  # lines
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,8 +79,21 @@ def read_deck(path: Path) -> Deck:
         else:
             bulk.append((source, number, line))
     _note_beside(reading)
+    if reading.in_control:
+        reading.problems += _without_begin(bulk)
     refuse(DataError, reading.problems[:10])
     return Deck(control, bulk, tuple(reading.remarks), tuple(reading.included))
+
+
+def _without_begin(lines: list[Line]) -> list[Problem]:
+    """Refuse control sections that no BEGIN BULK ends; pure bulk data has neither."""
+    return [
+        Problem(
+            "no_begin_bulk", place(source, number), "CEND stands here and no BEGIN BULK anywhere", "Write that line"
+        )
+        for source, number, line in lines[:_MOST_CONTROL]
+        if line.strip().upper() == "CEND"
+    ]
 
 
 def _opened(line: str, where: str, reading: _Reading) -> str:

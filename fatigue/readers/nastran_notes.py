@@ -12,12 +12,13 @@ from fatigue.readers.nastran_lines import place
 class LeftOut:
     """Cards nobody asked for: how many there are of each name, and the place of the first.
 
-    ``unread`` has the places of lines with text in columns 73 to 80 that is no continuation mark, or beyond.
+    ``unread`` is the number of lines with text in columns 73 to 80 that is no continuation mark, or beyond.
     """
 
     count: dict[str, int] = field(default_factory=dict)
     first: dict[str, str] = field(default_factory=dict)
-    unread: list[str] = field(default_factory=list)
+    unread: int = 0
+    first_unread: str = ""
 
     def add(self, name: str, source: str, number: int) -> None:
         """Count one more."""
@@ -30,9 +31,9 @@ class LeftOut:
         """Tell what was left out of the deck ``source``, each kind with its number and its first place."""
         remarks = []
         if self.unread:
-            what = f"{len(self.unread)} lines hold text behind column 72 that is no continuation mark; it is not read"
+            what = f"{self.unread} lines hold text behind column 72 that is no continuation mark; it is not read"
             remarks.append(
-                Problem("unread_text", self.unread[0], what, "Nothing to do if it is no data", len(self.unread))
+                Problem("unread_text", self.first_unread, what, "Nothing to do if it is no data", self.unread)
             )
         if self.count:
             folder = f"{Path(source).parent}/"

@@ -143,7 +143,7 @@ def test_text_behind_the_fields_is_counted():
     _, left_out, _ = split(
         f"{row}0000001\n{row}+A      5.\n+A      \n{row}OLD\n+LD     \n{row}+B\n+B\n{row}\nMAT1".ljust(90) + "7"
     )
-    assert left_out.unread == ["a, line 1", "a, line 2"]
+    assert (left_out.unread, left_out.first_unread) == (2, "a, line 1")
 
 
 def random_model(rng: random.Random) -> list[Fields]:

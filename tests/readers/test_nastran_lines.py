@@ -101,6 +101,7 @@ def test_nested_includes_beside_the_root_or_the_including_file(tree):
         ("INCLUDE 'folder'\n", "line 1: INCLUDE 'folder' is not found"),
         ("INCLUDE 'zero.inc'\n", "line 1: .*zero.inc is a binary file"),
         ("BEGIN SUPER=1\n", "superelements"),
+        ("SOL 101\nCEND\nSET 1 = 1,2\nGRID,1\n", "line 2: CEND stands here and no BEGIN BULK anywhere"),
         ("SOL 101\nCEND\nBEGIN BULK\nGRID,1\nBEGIN BULK SUPER=2\n", "line 5: .*superelements"),
         ("BEGIN BULK\nBEGIN,FEMODEL,door\n", "parts"),
         ("BEGIN BULK\nBEGIN STRANGE\n", "unknown block"),
