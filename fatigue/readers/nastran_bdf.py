@@ -62,8 +62,7 @@ def read_bdf(path: Path) -> FeModel:
             _HANDLERS[card.name](bulk, card)
         except DataError as error:
             problems += error.problems
-    _refuse_some(problems + _grids_twice(bulk))
-    return _model(bulk, deck, left_out)
+    return _model(bulk, deck, left_out, problems + _grids_twice(bulk))
 
 
 def _refuse_some(problems: list[Problem]) -> None:
@@ -74,8 +73,8 @@ def _refuse_some(problems: list[Problem]) -> None:
     refuse(DataError, first)
 
 
-def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
-    """Resolve coordinates and references."""
+def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -> FeModel:
+    """Resolve coordinates and references; refuse with the problems met before and here."""
     xyz: dict[int, NDArray[np.float64]] = {}
     default_cp, default_cd = bulk.default(1), bulk.default(5)
 
@@ -94,7 +93,6 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
     cd: dict[int, int] = {}
     shells: list[Shell] = []
     properties = {pid: found for pid, (found, _) in bulk.properties.items()}
-    problems: list[Problem] = []
     for grid, card in bulk.grids.items():
         try:
             position(grid)

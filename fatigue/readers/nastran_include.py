@@ -95,9 +95,11 @@ def find_include(name: str, including: Path, root: Path, where: str) -> Found:
         if found:
             return Found(found[0], _two_files(found, name, where))
     tried = " and ".join(str(place / wanted) for place in ([Path()] if wanted.is_absolute() else places))
-    raise DataError(
-        Problem("no_include", where, f"INCLUDE {name!r} is not found, looked for {tried}", "Correct or bring the file")
-    )
+    what, remedy = f"INCLUDE '{name}' is not found, looked for {tried}", "Correct the path, or bring the file"
+    if os.name != "nt" and (drive := _DRIVE.match(name)):
+        what = f"INCLUDE '{name}' names a drive of Windows"
+        remedy = f"Set the environment variable DOS_DRIVE_{drive[1].upper()} to the folder that stands for it"
+    raise DataError(Problem("no_include", where, what, remedy))
 
 
 def _expanded(name: str, where: str) -> str:
@@ -123,7 +125,7 @@ def _variable(symbol: str, name: str, where: str) -> str:
         Problem(
             "no_symbol",
             where,
-            f"INCLUDE {name!r} needs the logical symbol {symbol}, which is not set",
+            f"INCLUDE '{name}' needs the logical symbol {symbol}, which is not set",
             f"Set the environment variable {symbol} to its folder",
         )
     )
@@ -155,6 +157,6 @@ def _two_files(found: list[Path], name: str, where: str) -> Problem | None:
     return Problem(
         "two_includes",
         where,
-        f"INCLUDE {name!r} may mean {found[0]} or {found[1]}, which differ; the first is read",
+        f"INCLUDE '{name}' may mean {found[0]} or {found[1]}, which differ; the first is read",
         "Remove or rename the other",
     )

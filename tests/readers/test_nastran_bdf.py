@@ -298,6 +298,21 @@ def test_refusals(read, text, words):
         read(text)
 
 
+def test_all_mistakes_are_named(read):
+    """Cards that cannot be read, points and shells are refused together, and the rest is counted."""
+    with pytest.raises(DataError) as error:
+        read("GRID,1,,x\nCQUAD4,1,1,1,2\nPSHELL,1,1,-2.\nCORD2R,x\n" + "".join(f"GRID,{k},7\n" for k in range(10, 14)))
+    assert [p.code for p in error.value.problems] == [
+        "bad_thickness",
+        "bad_field",
+        "bad_field",
+        "no_frame",
+        "bad_field",
+    ]
+    with pytest.raises(DataError, match="5 more problems follow"):
+        read("".join(f"GRID,{k},,x\n" for k in range(15)))
+
+
 def test_missing_file(tmp_path):
     """A missing file is named."""
     with pytest.raises(DataError, match=r"no\.bdf"):

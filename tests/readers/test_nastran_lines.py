@@ -96,7 +96,7 @@ def test_nested_includes_beside_the_root_or_the_including_file(tree):
         ("INCLUDE 'b.inc\n" + 99 * "GRID    1       2\n" + "INCLUDE 'c.inc'\n", "line 1: the file name has no end"),
         (f"INCLUDE '{300 * 'x'}'\n", "line 1: .* is not found"),
         ("INCLUDE HERE:b.inc\n", "line 1: .* needs the logical symbol HERE, which is not set"),
-        ("INCLUDE 'D:\\models\\b.inc'\n", "line 1: .*D:.*is not found"),
+        ("INCLUDE 'D:\\models\\b.inc'\n", "line 1: INCLUDE 'D:.* names a drive of Windows. Set .*DOS_DRIVE_D"),
         ("INCLUDE 'a.bdf'\n", "line 1: the file .* includes itself"),
         ("INCLUDE 'folder'\n", "line 1: INCLUDE 'folder' is not found"),
         ("INCLUDE 'zero.inc'\n", "line 1: .*zero.inc is a binary file"),
