@@ -14,7 +14,7 @@ from fatigue.readers.case_text import case_text
 from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_of_welds
 from fatigue.readers.displacement.check import displacement_row
 from fatigue.readers.displacement.record import Displacement, read_displacement
-from fatigue.readers.fe_model import in_mm
+from fatigue.readers.fe_model import FeModel, in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.forces import Convention
@@ -209,7 +209,7 @@ def convert(options: ConvertOptions) -> Conversion:
         check_folder(options.out, [*files, RECORD], REGISTER)
     doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
     record = {
-        "inputs": {str(p): sha256(p) for p in _inputs(options)},
+        "inputs": {str(p): sha256(p) for p in _inputs(options, model)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],
@@ -307,10 +307,10 @@ def _scale(results: FeResults, table: dict[int, tuple[float, float]]) -> Floats:
     return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
 
 
-def _inputs(options: ConvertOptions) -> tuple[Path, ...]:
+def _inputs(options: ConvertOptions, model: FeModel) -> tuple[Path, ...]:
     """Files whose hashes the record keeps."""
     displacements = (asked.file for asked in options.displacements)
-    return (options.forces, options.mesh, *options.unit_loads, *options.coordinates, *displacements)
+    return (options.forces, options.mesh, *model.included, *options.unit_loads, *options.coordinates, *displacements)
 
 
 def _slug(name: str) -> str:

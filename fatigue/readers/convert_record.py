@@ -96,8 +96,9 @@ def arguments_of(options: "ConvertOptions") -> list[str]:
     }
     words = [word for name, value in named.items() if value is not None for word in (name, _word(value))]
     repeated = {"--coordinates": options.coordinates, "--accept": options.accept}
-    repeated |= {"--set": sources.sets, "--marker": sources.markers}
+    repeated |= {"--unit-loads": options.unit_loads, "--set": sources.sets, "--marker": sources.markers}
     words += [word for name, values in repeated.items() for value in values for word in (name, _word(value))]
+    words += [w for d in options.displacements for w in ("--displacement", _word(d.file), str(d.node), d.direction)]
     words += [] if sources.detect is None else ["--detect" if sources.detect else "--no-detect"]
     return words + ["--candidates"] * sources.candidates
 
