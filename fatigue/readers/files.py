@@ -30,7 +30,7 @@ class Columns:
     """An open file: names and types of its columns, number of rows, and how to read one column by its position.
 
     ``numbers`` are the rows' own numbers in the file, from 0, where these are only a part of it; ``doubts`` were met
-    while opening it.
+    while opening it; ``units`` are those the metadata of a Parquet file states for the columns.
     """
 
     names: tuple[str, ...]
@@ -39,6 +39,7 @@ class Columns:
     read: Callable[[int], pa.ChunkedArray]
     numbers: NDArray[np.int64] | None = None
     doubts: tuple[Problem, ...] = ()
+    units: tuple[str, ...] = ()
 
 
 def open_columns(path: Path, texts: Collection[str]) -> Columns:
@@ -88,7 +89,9 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
             raise DataError(damaged(path, EOFError(f"{len(column)} of {rows} rows")))
         return column
 
-    return Columns(names, tuple(schema.types), rows, read)
+    fields = [schema.field(k) for k in range(len(names))]
+    units = tuple(((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields)
+    return Columns(names, tuple(schema.types), rows, read, units=units)
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:

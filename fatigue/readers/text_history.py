@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
@@ -22,6 +21,7 @@ from fatigue.readers.foreign_history import ForeignHistory, check_values
 from fatigue.readers.history_body import find_rows, read_values
 from fatigue.readers.history_header import Header, header_frequencies, read_header
 from fatigue.readers.history_statements import normalisation_in, stated_time_unit, statement_problems
+from fatigue.readers.tables import seconds_of
 from fatigue.readers.text_encoding import read_head
 from fatigue.readers.text_layout import text_lines, whole_cells
 
@@ -65,12 +65,8 @@ def read_parquet_history(
     """
     opened = open_columns(path, ())
     names = [name.strip() for name in opened.names]
-    fields = [pq.read_schema(path).field(k) for k in range(len(names))]
-    units = [((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields]
-    channels = [
-        _with_type(path, channel(name), field.type, unit)
-        for name, field, unit in zip(names, fields, units, strict=True)
-    ]
+    stated = zip(names, opened.kinds, opened.units, strict=True)
+    channels = [_with_type(path, channel(name), kind, unit) for name, kind, unit in stated]
     table = np.column_stack([_numbers(path, name, opened.read(k)) for k, name in enumerate(names)])
     if table.shape[1] < 2:
         raise DataError(Problem("bad_table", str(path), "the table has one column", "Export time and coordinates"))
@@ -96,8 +92,7 @@ def _with_type(path: Path, own: Channel, kind: pa.DataType, unit: str) -> Channe
 def _numbers(path: Path, name: str, column: pa.ChunkedArray) -> Vectors:
     """Values of a Parquet column, durations in seconds."""
     if pt.is_duration(column.type):
-        ticks = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}[column.type.unit]
-        return np.asarray(column.cast(pa.int64()).to_numpy()).astype(np.float64) / ticks
+        return seconds_of(column)
     if not (pt.is_integer(column.type) or pt.is_floating(column.type) or pt.is_decimal(column.type)):
         what = f"a column holds no numbers ({column.type})"
         raise DataError(Problem("bad_table", f"{path}, column {name!r}", what, "Write columns of numbers only"))
