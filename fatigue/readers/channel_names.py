@@ -17,7 +17,7 @@ _SECONDS = {
     Fraction(1, 10**9): "ns nsec nanosecond nanoseconds",
     Fraction(60): "min mins minute minutes minuten",
     Fraction(3600): "h hr hrs hour hours std stunde stunden",
-    Fraction(86400): "d day days tag tage",
+    Fraction(86400): "d day days",
 }
 TIME_UNITS = {word: seconds for seconds, words in _SECONDS.items() for word in words.split()}
 """Seconds in each unit of time, by its spelling in small letters."""
