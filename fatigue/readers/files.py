@@ -106,7 +106,7 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
         numbers = np.flatnonzero(~again)
         table = table.filter(pa.array(~again))
     for k in wordy:
-        read = as_numbers(table.column(k), layout.decimal or ",")
+        read = as_numbers(table.column(k), layout.decimal)
         if read is not None:
             table = table.set_column(k, str(k), read)
     return Columns(layout.names, tuple(table.schema.types), table.num_rows, table.column, numbers, doubts)
@@ -186,7 +186,7 @@ def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType
         for name, kind in kinds.items():
             column = batch.column(name)
             if read_as[name] != kind:
-                read = as_numbers(pa.chunked_array([column]), layout.decimal or ",")
+                read = as_numbers(pa.chunked_array([column]), layout.decimal)
                 if read is None:
                     raise pa.ArrowInvalid(f"a cell of {name} is no number")
                 column = read.combine_chunks()

@@ -20,7 +20,7 @@ from fatigue.readers.files import open_columns
 from fatigue.readers.foreign_history import ForeignHistory, check_values
 from fatigue.readers.history_body import find_rows, read_values
 from fatigue.readers.history_header import Header, header_frequencies, read_header
-from fatigue.readers.history_statements import normalisation_in, stated_time_unit, statement_problems
+from fatigue.readers.history_statements import normalisation_in, stated_length, stated_time_unit, statement_problems
 from fatigue.readers.tables import seconds_of
 from fatigue.readers.text_encoding import read_head
 from fatigue.readers.text_layout import text_lines, whole_cells
@@ -53,7 +53,8 @@ def read_text_history(
     table, at = read_values(path, encoding, rows, header.cells, names)
     history = _history(path, header, table, at, columns, time_column)
     refuse(DataError, statement_problems(path, header.free, rows.width, history.time))
-    return replace(history, normalisation=normalisation_in(path, header.free))
+    length = stated_length(header.free)
+    return replace(history, normalisation=normalisation_in(path, header.free), length=length)
 
 
 def read_parquet_history(
@@ -108,7 +109,7 @@ def _history(
     time_column: str | None,
 ) -> ForeignHistory:
     """Pick time and modal coordinates out of a table (t, c)."""
-    channels, kept = _filled(header.channels, table)
+    channels, kept, remarks = _filled(path, header.channels, table)
     header = replace(header, channels=tuple(channels), names=tuple(tuple(n[k] for k in kept) for n in header.names))
     table = table[:, kept]
     if len(kept) < 2:
@@ -128,6 +129,7 @@ def _history(
             tuple(channels[k].name or f"column {k + 1}" for k in taken),
             seconds,
             np.ascontiguousarray(table[:, taken].T),
+            remarks,
             unit=tuple(channels[k].unit for k in taken),
             resolution=resolution,
             lines=lines,
@@ -135,10 +137,22 @@ def _history(
     )
 
 
-def _filled(channels: Sequence[Channel], table: Vectors) -> tuple[list[Channel], list[int]]:
-    """Leave out columns with neither name nor value, which spreadsheets leave between others."""
-    kept = [k for k, c in enumerate(channels) if c.name or not np.isnan(table[:, k]).all()]
-    return [channels[k] for k in kept], kept
+def _filled(
+    path: Path, channels: Sequence[Channel], table: Vectors
+) -> tuple[list[Channel], list[int], tuple[Problem, ...]]:
+    """Leave out columns without a name that hold nothing, as spreadsheets leave them, or the count of the rows."""
+    count = np.arange(len(table))
+    timed, kept, remarks = any(c.is_time for c in channels), [], []
+    for k, own in enumerate(channels):
+        if own.name or not (np.isnan(table[:, k]).all() or timed):
+            kept.append(k)
+        elif not np.isnan(table[:, k]).all():
+            if not (np.array_equal(table[:, k], count) or np.array_equal(table[:, k], count + 1)):
+                kept.append(k)
+                continue
+            what = f"column {k + 1} has no name and counts the rows; it is left out"
+            remarks.append(Problem("row_count", str(path), what, "Export without it"))
+    return [channels[k] for k in kept], kept, tuple(remarks)
 
 
 def _times(path: Path, header: Header, wanted: str | None) -> list[int]:
@@ -169,7 +183,8 @@ def _times(path: Path, header: Header, wanted: str | None) -> list[int]:
 def _column(path: Path, header: Header, name: str, what: str = "column") -> int:
     """Position of a named column; its unit may be left out where that is clear."""
     name = name.strip()
-    for names in header.names:
+    bases = tuple(c.base for c in header.channels)
+    for names in (*header.names, bases):
         if names.count(name) > 1:
             raise DataError(
                 Problem("column_twice", str(path), f"{names.count(name)} columns are named {name!r}", "Rename them")

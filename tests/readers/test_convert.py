@@ -395,6 +395,17 @@ def test_normalisation_a_file_declares(files):
     convert(replace(files, normalisation="length"))
 
 
+def test_system_of_units_a_file_declares(files):
+    """A line of units contradicts --coordinate-units."""
+    path = files.coordinates[0]
+    path.write_text("% Units: m, kg, s\n" + path.read_text())
+    with pytest.raises(
+        DataError, match=r"declares lengths in m; --coordinate-units mm-t-s .* State --coordinate-units m"
+    ):
+        convert(files)
+    convert(replace(files, coordinate_units="m-kg-s"))
+
+
 def test_tables_beside_the_coordinates_in_german(files, tmp_path):
     """The map of columns and the table of modes are read in any layout; a column mapped twice is refused."""
     renamed(files, "time,a,b,c,d,e")

@@ -4,7 +4,6 @@ import codecs
 import re
 from collections.abc import Generator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -21,26 +20,28 @@ def read_texts(path: Path, texts: tuple[str, ...], rows_at_once: int | None = No
     encoding = _encoding(path)
     with path.open(encoding=encoding) as file:
         head = [file.readline(1 << 20) for _ in range(200)]
-    first, names, separator = _header(head)
-    kind: dict[str, Any] = {"dtype": str, "keep_default_na": False, "na_values": [""], "encoding": encoding}
-    pieces = pd.read_csv(
-        path,
-        sep=separator,
-        header=None,
-        names=range(len(names)),
-        index_col=False,
-        skiprows=first,
-        chunksize=rows_at_once or 1 << 30,
-        skipinitialspace=True,
-        **kind,
-    )
-    with pieces:
+        first, names, separator = _header(_whole_cells(head))
+        file.seek(0)
+        for _ in range(first):
+            file.readline()
+        pieces = pd.read_csv(
+            file,
+            sep=separator,
+            header=None,
+            names=range(len(names)),
+            index_col=False,
+            chunksize=rows_at_once or 1 << 30,
+            skipinitialspace=True,
+            dtype=str,
+            keep_default_na=False,
+            na_values=[""],
+        )
         for piece in pieces:
             piece.columns = pd.Index(names)
             if (piece[names[0]].str.strip() == names[0]).any():  # the names once more
                 again = piece.apply(lambda column: column.str.strip() == column.name).all(axis=1)
                 piece = piece[~again]  # noqa: PLW2901
-            yield piece.apply(lambda column: column if column.name in texts else _numbers(column, separator))
+            yield piece.apply(lambda column: column if column.name in texts else _numbers(column))
 
 
 def _encoding(path: Path) -> str:
@@ -59,6 +60,14 @@ def _encoding(path: Path) -> str:
         except UnicodeDecodeError:
             return "cp1252"
     return "utf-8-sig"
+
+
+def _whole_cells(head: list[str]) -> list[str]:
+    """Put the lines of a cell in quotation marks on the last of them."""
+    for k in range(len(head) - 1):
+        if head[k].count('"') % 2:
+            head[k], head[k + 1] = "", head[k].rstrip("\r\n") + " " + head[k + 1]
+    return head
 
 
 def _header(head: list[str]) -> tuple[int, list[str], str]:
@@ -82,12 +91,12 @@ def _cells(line: str, separator: str) -> list[str]:
     return [cell.strip().strip('"').strip() for cell in cells]
 
 
-def _numbers(column: "pd.Series[str]", separator: str) -> "pd.Series[str]":
+def _numbers(column: "pd.Series[str]") -> "pd.Series[str]":
     """Write numbers with a point and an E, if they are not written so."""
     try:
         column.astype(np.float64)
     except ValueError:
-        plain = (column if separator == "," else column.str.replace(",", ".")).str.strip()
+        plain = column.str.replace(",", ".").str.strip()
         plain = plain.str.replace(r"(?<=[\d.])[DdQq](?=[+-]?\d)", "E", regex=True)
         return plain.str.replace(r"^([+-]?\d*\.\d*)([+-]\d{1,3})$", r"\1E\2", regex=True)
     return column
