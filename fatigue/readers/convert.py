@@ -1,15 +1,17 @@
 """Foreign files in, a folder of neutral files with a first ``case.toml`` out."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.readers.audit import Audit, audit
+from fatigue.readers.audit import Audit, AuditRow, audit
 from fatigue.readers.case_text import case_text
 from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_of_welds
 from fatigue.readers.displacement.check import displacement_row
@@ -23,9 +25,11 @@ from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import (
     column_map,
     common_modes,
+    numbered,
     simulated_frequencies,
     simulation_modes,
     with_declared_units,
+    with_known_frequencies,
     without_modes,
 )
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
@@ -38,6 +42,7 @@ from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds, no_w
 from fatigue.readers.weld_register import REGISTER, RegisterRow, reasons, register_text
 
 Floats = NDArray[np.float64]
+SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency and modal mass by mode
 
 CASE = "case.toml"
 _FREQUENCIES = "frequency match"  # the check of the audit
@@ -137,25 +142,12 @@ def convert(options: ConvertOptions) -> Conversion:
         results = with_unit_loads(results, loads)
         options = replace(options, interface_modes=(*options.interface_modes, *loads.mode.tolist()))
     results = without_modes(results, options.ignore_modes)
-    table = simulation_modes(options.simulation_modes)
-    histories = [_history(path, options, results, table) for path in options.coordinates]
-    judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
-    records = [read_displacement(asked.file, history_units.length) for asked in options.displacements]
-    moved = [
-        displacement_row(
-            asked,
-            record,
-            results,
-            model,
-            histories,
-            _scale(results, table),
-            units,
-            history_units,
-            options.normalisation,
-        )
-        for asked, record in zip(options.displacements, records, strict=True)
-    ]
-    judged = replace(judged, rows=(*judged.rows, *moved))
+    table, of_table = simulation_modes(options.simulation_modes)
+    histories, simulated = _histories(options, results, table)
+    judged = audit(
+        results, model, options.convention, options.interface_modes, simulated_frequencies(histories, simulated)
+    )
+    judged = replace(judged, rows=(*judged.rows, *_displacement_rows(options, results, model, histories, simulated)))
     _refuse_red(judged, options)
     if _FREQUENCIES not in options.accept:
         for history in histories:
@@ -179,7 +171,7 @@ def convert(options: ConvertOptions) -> Conversion:
         force = without_drilling(force, results, model)
     force = to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
-        "modes.csv": _modes_table(results, options, table),
+        "modes.csv": _modes_table(results, options, simulated),
         "nodes.parquet": nodes_table(metric),
         "elements.parquet": elements_table(metric),
         "element_forces.parquet": forces_table(results, force, rows),
@@ -207,7 +199,8 @@ def convert(options: ConvertOptions) -> Conversion:
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
-    doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
+    of_histories = [remark for history in histories for remark in history.remarks]
+    doubts = (*results.remarks, *model.remarks, *found.remarks, *of_table, *remarks, *of_histories)
     record = {
         "inputs": {str(p): sha256(p) for p in _inputs(options, model)},
         "convention": convention,
@@ -250,20 +243,53 @@ def _refuse_red(judged: Audit, options: ConvertOptions) -> None:
     )
 
 
+def _histories(
+    options: ConvertOptions, results: FeResults, table: SimulationModes
+) -> tuple[list[ForeignHistory], SimulationModes]:
+    """Read the coordinates of all events, and give the modes of the simulation their numbers in the FE run."""
+    histories: list[ForeignHistory] = []
+    simulated: SimulationModes = {}
+    for path in options.coordinates:
+        history, own = _history(path, options, results, table)
+        histories.append(history)
+        simulated |= {fe: table[mode] for fe, mode in own.items() if mode in table}
+    return histories, simulated if histories else table
+
+
+def _displacement_rows(
+    options: ConvertOptions,
+    results: FeResults,
+    model: FeModel,
+    histories: Sequence[ForeignHistory],
+    simulated: SimulationModes,
+) -> list[AuditRow]:
+    """Compare the displacements given with mode shapes times coordinates."""
+    units = unit_system(options.force_units, "force units")
+    own, scale = unit_system(options.coordinate_units, "coordinate units"), _scale(results, simulated)
+    records = [read_displacement(asked.file, own.length) for asked in options.displacements]
+    return [
+        displacement_row(asked, record, results, model, histories, scale, units, own, options.normalisation)
+        for asked, record in zip(options.displacements, records, strict=True)
+    ]
+
+
 def _history(
-    path: Path, options: ConvertOptions, results: FeResults, table: dict[int, tuple[float, float]]
-) -> ForeignHistory:
-    """Read one event and match its columns with the modes of the forces."""
-    columns = None if options.columns is None else column_map(options.columns)
-    history = read_coordinates(path, columns, options.time_column)
-    stated, known = history, np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
-    history = replace(history, frequency=np.where(np.isnan(history.frequency), known, history.frequency))
+    path: Path, options: ConvertOptions, results: FeResults, table: SimulationModes
+) -> tuple[ForeignHistory, dict[int, int]]:
+    """Read one event and match its columns with the modes of the forces; the simulation's number of every FE mode."""
+    columns, doubts = (None, []) if options.columns is None else column_map(options.columns)
+    stated = read_coordinates(path, columns, options.time_column)
+    if options.match == "order":
+        stated = numbered(stated, table, options.simulation_modes or path)
+    history = with_known_frequencies(stated, table, options.simulation_modes or path)
     if options.match == "frequency" or _FREQUENCIES in options.accept:
         history = matched(history, results.mode, results.frequency, options.match)
     else:  # what the file itself states is compared here, the table of the simulation's modes after the audit
         joined = matched(stated, results.mode, results.frequency, options.match)
         with_own_frequencies(joined, results.mode, results.frequency)
         history = replace(history, mode=joined.mode)
+    own = dict(zip(history.mode.tolist(), stated.mode.tolist(), strict=True))
+    history = replace(history, remarks=(*doubts, *history.remarks))
     history = with_declared_units(history, options.coordinate_units, options.normalisation, results.analysis)
     keep = ~np.isin(history.mode, np.array(options.ignore_modes, np.int64))
     history = replace(
@@ -275,10 +301,10 @@ def _history(
         resolution=None if history.resolution is None else history.resolution[keep],
         q=history.q[keep],
     )
-    return uniform(history, options.resample_s)
+    return uniform(history, options.resample_s), own
 
 
-def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, tuple[float, float]]) -> pa.Table:
+def _modes_table(results: FeResults, options: ConvertOptions, table: SimulationModes) -> pa.Table:
     is_static = results.analysis == "static"
     interface = np.isin(results.mode, np.array(options.interface_modes, np.int64))
     rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
@@ -295,13 +321,13 @@ def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, t
     )
 
 
-def _masses(results: FeResults, table: dict[int, tuple[float, float]]) -> tuple[Floats, Floats]:
+def _masses(results: FeResults, table: SimulationModes) -> tuple[Floats, Floats]:
     """Generalised masses (m,) of the FE run, and of the simulation (NaN: not given)."""
     mass = np.where(results.modal_mass > 0, results.modal_mass, 1.0)
     return mass, np.array([table.get(int(m), (np.nan, np.nan))[1] for m in results.mode])
 
 
-def _scale(results: FeResults, table: dict[int, tuple[float, float]]) -> Floats:
+def _scale(results: FeResults, table: SimulationModes) -> Floats:
     """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
     mass, simulated = _masses(results, table)
     return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)

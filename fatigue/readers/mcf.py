@@ -17,12 +17,13 @@ _NUMBERS = re.compile(r"^\s*Modes?\s*:?((?:\s+\d+)+)\s*$", re.MULTILINE | re.IGN
 _FREQUENCIES = re.compile(
     r"^\s*Frequenc(?:y|ies)\s*:?((?:\s+[-+.\dEDQ]+)+)\s*$", re.MULTILINE | re.IGNORECASE | re.ASCII
 )
+_TITLE = re.compile(r"\A\s*Modal Coordinates", re.IGNORECASE)
 _TABLE = re.compile(r"^\s*(Time|Freq\w*)\s+Coordinates.*$", re.MULTILINE | re.IGNORECASE)
 
 
 def is_mcf(head: str) -> bool:
     """Whether the beginning of a text file is that of a modal coordinates file."""
-    return _COUNT.search(head) is not None
+    return _COUNT.search(head) is not None and (_TABLE.search(head) or _TITLE.search(head)) is not None
 
 
 def read_mcf(path: Path) -> ForeignHistory:

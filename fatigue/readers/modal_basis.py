@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.readers.coordinate_units import compared
+from fatigue.readers.channel_names import written
+from fatigue.readers.coordinate_units import SYSTEM_UNITS, compared
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
@@ -51,15 +52,40 @@ def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
     )
 
 
-def column_map(path: Path) -> dict[str, int]:
-    """Mode of each column by its name, from a table of the columns ``column, mode``."""
+def column_map(path: Path) -> tuple[dict[str, int], list[Problem]]:
+    """Read the mode of each column by its name, from a table of the columns ``column, mode``; and doubts."""
     table = open_table(path, texts=("column",))
     table.expect(("column", "mode"), (), strict=False)
     names, code = table.groups("column")
     mode = table.integers("mode")
     table.unique({"column": code}, {"column": names})
     table.refuse()
-    return {names[c]: int(m) for c, m in zip(code, mode, strict=True)}
+    return {names[c]: int(m) for c, m in zip(code, mode, strict=True)}, table.warnings
+
+
+def with_known_frequencies(
+    history: ForeignHistory, table: dict[int, tuple[float, float]], source: Path
+) -> ForeignHistory:
+    """Add the frequencies that the table of the simulation's modes has; by the simulation's own numbers.
+
+    Raises
+    ------
+    DataError : a frequency that the file states otherwise, by more than the digits of both explain
+    """
+    known = np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
+    problems = []
+    for k in np.flatnonzero(np.isfinite(known) & np.isfinite(history.frequency)):
+        half = np.nan if history.resolution is None else history.resolution[k]
+        digits = (written(repr(float(history.frequency[k])))[1] if np.isnan(half) else half) + written(
+            repr(float(known[k]))
+        )[1]
+        if abs(known[k] - history.frequency[k]) > digits:
+            what = (
+                f"mode {history.mode[k]} has {known[k]:.6g} Hz, and {history.frequency[k]:.6g} Hz in {history.source}"
+            )
+            problems.append(Problem("frequency", str(source), what, "Give the modes of this simulation"))
+    refuse(DataError, problems)
+    return replace(history, frequency=np.where(np.isnan(history.frequency), known, history.frequency))
 
 
 def with_declared_units(
@@ -78,6 +104,14 @@ def with_declared_units(
     if analysis == "modal":
         if history.unit:
             problems, doubts = compared(history.source, history.name, history.unit, system, normalisation)
+        own = SYSTEM_UNITS[system][0]
+        if history.length and history.length != own:
+            fitting = [
+                f"--coordinate-units {name}" for name, units in SYSTEM_UNITS.items() if units[0] == history.length
+            ]
+            what = f"its header declares lengths in {history.length}; --coordinate-units {system} takes them in {own}"
+            remedy = f"State {fitting[0]}" if fitting else "Export in a system that --coordinate-units knows"
+            problems.append(Problem("coordinate_unit", history.source, what, remedy))
         if history.normalisation not in (None, normalisation):
             what = f"its header declares modes normalised to {_NORMALISED[history.normalisation]}; "
             what += f"--normalisation {normalisation} takes them as normalised to {_NORMALISED[normalisation]}"
@@ -90,16 +124,35 @@ def with_declared_units(
     return replace(history, remarks=(*history.remarks, *doubts))
 
 
-def simulation_modes(path: Path | None) -> dict[int, tuple[float, float]]:
-    """Frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes."""
+def simulation_modes(path: Path | None) -> tuple[dict[int, tuple[float, float]], list[Problem]]:
+    """Read frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and doubts."""
     if path is None:
-        return {}
+        return {}, []
     table = open_table(path)
     table.expect(("mode", "frequency_hz"), ("modal_mass", "kind", "damping_ratio"), strict=False)
     mode, frequency = table.integers("mode"), table.numbers("frequency_hz")
     mass = table.numbers("modal_mass", default=np.nan)
+    table.unique({"mode": mode})
     table.refuse()
-    return {int(m): (float(f), float(g)) for m, f, g in zip(mode, frequency, mass, strict=True)}
+    found = {int(m): (float(f), float(g)) for m, f, g in zip(mode, frequency, mass, strict=True)}
+    return found, table.warnings
+
+
+def numbered(history: ForeignHistory, table: dict[int, tuple[float, float]], source: Path) -> ForeignHistory:
+    """Give columns without a mode number, which are joined in order, those of the simulation's modes in order.
+
+    Raises
+    ------
+    DataError : the table has another number of modes
+    """
+    if not table or (history.mode > 0).all():
+        return history
+    if len(table) != history.mode.size:
+        what = f"{len(table)} modes for {history.mode.size} columns of {history.source}, which name none"
+        raise DataError(
+            Problem("column_count", str(source), what, "Give one row for every column, or name the columns")
+        )
+    return replace(history, mode=np.array(list(table), np.int64))
 
 
 def simulated_frequencies(histories: list[ForeignHistory], table: dict[int, tuple[float, float]]) -> dict[int, float]:

@@ -6,7 +6,7 @@ passed over; a row of units below the names is kept, to be compared with them.
 
 import re
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -22,6 +22,7 @@ MOST_BREAKS = 20  # lines of one cell
 
 _SEP_LINE = re.compile(r'\s*"?sep=(.)"?\s*\Z', re.IGNORECASE)
 _UNIT = re.compile(r"(?:[\[(<].*[\])>]|-|s|ms|us|µs|min|h|Hz|mm|cm|m|in|N|kN|N\.?mm|N\.?m|MPa|kg|t)\Z", re.IGNORECASE)
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+")
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -75,7 +76,7 @@ def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
     text = head.decode(encoding, errors="replace").removeprefix("\ufeff")
     if "\0" in text:
         raise DataError(nul_problem(path, text[: text.index("\0")].count("\n") + 1))
-    return layout_of(path, text_lines(text, whole=whole), encoding, texts)
+    return layout_of(path, text_lines(text, whole=whole), encoding, lambda name: name not in texts)
 
 
 def text_lines(text: str, *, whole: bool = True) -> list[str]:
@@ -97,8 +98,11 @@ def whole_cells(lines: Sequence[str]) -> list[str]:
     return result
 
 
-def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, texts: Collection[str] = ()) -> TableLayout:
-    """Find the layout of the lines of a file, or of its first ones; as ``table_layout``."""
+def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: Callable[[str], bool]) -> TableLayout:
+    """Find the layout of the lines of a file, or of its first ones; as ``table_layout``.
+
+    ``is_numeric`` tells which columns, by name, hold numbers and so the decimal sign.
+    """
     at, declared, comment = 0, None, None
     if not lines[0].strip():
         raise DataError(_no_names(path))
@@ -125,7 +129,7 @@ def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, texts: Colle
         units, rows = found_units, rows[1:]
         first = next(k for k in range(first, len(lines)) if lines[k].strip()) + 1
     layout = TableLayout(encoding, separator, None, names, units, first, header + 1, fortran=False)
-    return _with_numbers(path, layout, rows, texts)
+    return _with_numbers(path, layout, rows, is_numeric)
 
 
 def _no_names(path: Path) -> Problem:
@@ -195,11 +199,14 @@ def _unit_row(row: str, separator: str | None, width: int) -> tuple[str, ...]:
     return (*cells, *[""] * (width - len(cells)))
 
 
-def _with_numbers(path: Path, layout: TableLayout, rows: Sequence[str], texts: Collection[str]) -> TableLayout:
+def _with_numbers(
+    path: Path, layout: TableLayout, rows: Sequence[str], is_numeric: Callable[[str], bool]
+) -> TableLayout:
     """Find the decimal sign and exponents of Fortran in the columns that are no names."""
-    numeric = [k for k, name in enumerate(layout.names) if name.strip() not in texts]
+    numeric = [k for k, name in enumerate(layout.names) if is_numeric(name.strip())]
     signs: Counter[str] = Counter()
     first: dict[str, str] = {}
+    commas: set[str] = set()
     fortran = False
     for row in rows:
         cells = split_fields(row, layout.separator)
@@ -208,12 +215,15 @@ def _with_numbers(path: Path, layout: TableLayout, rows: Sequence[str], texts: C
             for sign in ".,":
                 if sign in cell and is_number(cell, sign):  # type: ignore[arg-type]
                     signs[sign] += 1
+                    commas |= {cell} if sign == "," else set()
                     first.setdefault(sign, cell)
                     fortran |= re.search(r"[DQdq]|\d[+-]", cell) is not None
-    if layout.separator == ",":
-        return replace(layout, decimal=".", fortran=fortran)
+    if layout.separator == "," and signs[","] and all(map(_THOUSANDS.fullmatch, commas)):
+        what = f"{first[',']} may have a decimal comma or a thousands separator"
+        raise DataError(Problem("decimal_sign", path.name, what, "Write points, and no thousands separators"))
     if len(signs) == 2:
         what = f"numbers are written with points ({first['.']}) and with commas ({first[',']})"
         raise DataError(Problem("decimal_sign", path.name, what, "Write one decimal sign, and no thousands separators"))
-    decimal: Decimal | None = "," if signs[","] else "." if signs["."] else None
+    known = signs["."] or layout.separator == ","
+    decimal: Decimal | None = "," if signs[","] else "." if known else None
     return replace(layout, decimal=decimal, fortran=fortran)
