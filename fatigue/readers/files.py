@@ -120,10 +120,13 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
     doubts = units_row_doubts(path.name, layout)
     if layout.encoding == "cp1252":
         doubts += (not_utf8_remark(path, path.read_bytes()),)
-    numbers = None
+    numbers, empty = None, _empty_rows(table)
+    if empty.any():
+        numbers = np.flatnonzero(~empty)
+        table = table.filter(pa.array(~empty))
     wordy = [k for k, name in enumerate(layout.names) if pa.string() == table.schema.types[k] and name not in texts]
     if wordy and (again := _repeated_names(table, layout.names)).any():
-        numbers = np.flatnonzero(~again)
+        numbers = (np.arange(again.size) if numbers is None else numbers)[~again]
         table = table.filter(pa.array(~again))
     for k in wordy:
         read = as_numbers(table.column(k), layout.decimal or ",")
@@ -168,6 +171,21 @@ def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
     return BytesIO("\n".join(rows).encode(layout.encoding))
 
 
+def _empty_rows(rows: pa.Table | pa.RecordBatch) -> NDArray[np.bool_]:
+    """Rows (r,) in which every cell is empty, as spreadsheets leave them below a table."""
+    empty = np.ones(rows.num_rows, dtype=np.bool_)
+    for column in rows.columns:
+        absent = column.is_null()
+        if pt.is_string(column.type):
+            absent = pc.or_kleene(absent, pc.equal(pc.utf8_trim_whitespace(column), ""))
+        elif not column.null_count:
+            return np.zeros_like(empty)
+        empty &= np.asarray(absent.fill_null(True).to_numpy(zero_copy_only=False), dtype=np.bool_)
+        if not empty.any():
+            break
+    return empty
+
+
 def _repeated_names(table: pa.Table, names: Sequence[str]) -> NDArray[np.bool_]:
     """Rows (r,) that hold the names of the columns once more."""
     again = np.ones(table.num_rows, dtype=np.bool_)
@@ -198,18 +216,20 @@ def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType
             include_columns=list(kinds), column_types=read_as, decimal_point=layout.decimal or "."
         ),
     )
-    if not layout.fortran:
-        yield from reader
-        return
-    for batch in reader:
+    for read in reader:
+        empty = _empty_rows(read)
+        batch = read.filter(pa.array(~empty)) if empty.any() else read
+        if not layout.fortran:
+            yield batch
+            continue
         columns = {}
         for name, kind in kinds.items():
             column = batch.column(name)
             if read_as[name] != kind:
-                read = as_numbers(pa.chunked_array([column]), layout.decimal or ",")
-                if read is None:
+                numbers = as_numbers(pa.chunked_array([column]), layout.decimal or ",")
+                if numbers is None:
                     raise pa.ArrowInvalid(f"a cell of {name} is no number")
-                column = read.combine_chunks()
+                column = numbers.combine_chunks()
             columns[name] = column
         yield pa.RecordBatch.from_pydict(columns)
 
