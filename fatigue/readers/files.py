@@ -120,8 +120,9 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
     doubts = units_row_doubts(path.name, layout)
     if layout.encoding == "cp1252":
         doubts += (not_utf8_remark(path, path.read_bytes()),)
-    numbers, empty = None, _empty_rows(table)
+    numbers, empty = None, _without_values(table)
     if empty.any():
+        empty &= _empty_lines(path, layout, empty.size)
         numbers = np.flatnonzero(~empty)
         table = table.filter(pa.array(~empty))
     wordy = [k for k, name in enumerate(layout.names) if pa.string() == table.schema.types[k] and name not in texts]
@@ -171,9 +172,19 @@ def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
     return BytesIO("\n".join(rows).encode(layout.encoding))
 
 
-def _empty_rows(rows: pa.Table | pa.RecordBatch) -> NDArray[np.bool_]:
-    """Rows (r,) in which every cell is empty, as spreadsheets leave them below a table."""
-    empty = np.ones(rows.num_rows, dtype=np.bool_)
+def _empty_lines(path: Path, layout: TableLayout, rows: int) -> NDArray[np.bool_]:
+    """Rows (r,) of nothing but separators, as spreadsheets leave them below a table; NaN is something."""
+    with path.open(encoding=layout.encoding, newline="") as stream:
+        for _ in range(layout.first):
+            next(stream, "")
+        cells = csv.reader(stream, delimiter=layout.separator or "\t")
+        empty = [not any(map(str.strip, row)) for row in cells if row]
+    return np.array(empty) if len(empty) == rows else np.zeros(rows, dtype=np.bool_)
+
+
+def _without_values(rows: pa.Table | pa.RecordBatch) -> NDArray[np.bool_]:
+    """Rows (r,) in which every one of several cells is empty or NaN."""
+    empty = np.full(rows.num_rows, rows.num_columns > 1)
     for column in rows.columns:
         absent = column.is_null()
         if pt.is_string(column.type):
@@ -217,14 +228,14 @@ def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType
         ),
     )
     for read in reader:
-        empty = _empty_rows(read)
-        batch = read.filter(pa.array(~empty)) if empty.any() else read
+        if _without_values(read).any():
+            raise pa.ArrowInvalid("a row without values")
         if not layout.fortran:
-            yield batch
+            yield read
             continue
         columns = {}
         for name, kind in kinds.items():
-            column = batch.column(name)
+            column = read.column(name)
             if read_as[name] != kind:
                 numbers = as_numbers(pa.chunked_array([column]), layout.decimal or ",")
                 if numbers is None:
