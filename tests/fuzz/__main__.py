@@ -65,7 +65,6 @@ def _watched(seed: int, numbers: range, only: str, folder: Path) -> list[Outcome
     started = time.monotonic()
     names = [source.name for source in sources(folder)]
     todo = [n for n in numbers if only in names[n % len(names)]]
-    time.monotonic()
     while todo:
         ours, theirs = context.Pipe(duplex=False)
         worker = context.Process(target=_work, args=(theirs, seed, todo, folder), daemon=True)
