@@ -17,7 +17,7 @@ _SECONDS = {
     Fraction(1, 10**9): "ns nsec nanosecond nanoseconds",
     Fraction(60): "min mins minute minutes minuten",
     Fraction(3600): "h hr hrs hour hours std stunde stunden",
-    Fraction(86400): "d day days tag tage",
+    Fraction(86400): "d day days",
 }
 TIME_UNITS = {word: seconds for seconds, words in _SECONDS.items() for word in words.split()}
 """Seconds in each unit of time, by its spelling in small letters."""
@@ -27,7 +27,7 @@ _TIME = re.compile(
     r"(?P<rest>(?![a-z]).*)\Z",
     re.IGNORECASE | re.DOTALL,
 )
-_BRACKETS = re.compile(r"\s*[_ ]*[\[(<{]\s*(.*?)\s*[\])>}]\s*\Z", re.DOTALL)
+_BRACKETS = re.compile(r"\s*[_ ]*[\[(<{]\s*([^\[\](){}<>]*?)\s*[\])>}]\s*\Z")
 _LOOSE = re.compile(r"\s*(?:/|,|;|:|\.|_+|\s+in\s+|\s|-)\s*([^\W\d_]+)_*\s*\Z")
 _REPEATED = re.compile(r"[ _.]?\d+\Z")
 _FREQUENCY = re.compile(
@@ -46,6 +46,7 @@ class Channel:
     Attributes
     ----------
     name : as written
+    base : the name without unit and frequency
     is_time : whether it is a name of time
     unit : of time or of the coordinate; empty where none is stated
     mode : number of the mode, 0 where none is stated
@@ -53,6 +54,7 @@ class Channel:
     """
 
     name: str
+    base: str
     is_time: bool
     unit: str
     mode: int
@@ -64,7 +66,7 @@ def channel(name: str) -> Channel:
     """Read the name of a channel."""
     time_unit = time_unit_in(name)
     if time_unit is not None:
-        return Channel(name, True, time_unit, 0, float("nan"), float("nan"))
+        return Channel(name, _time_base(name), True, time_unit, 0, float("nan"), float("nan"))
     frequency, resolution = stated_frequency(name)
     base, unit = _without_unit(_FREQUENCY.sub(" ", name))
     if re.fullmatch(r"\s*[\d.,]+\s*", base):
@@ -72,7 +74,13 @@ def channel(name: str) -> Channel:
     else:
         numbers = re.findall(r"\d{1,9}", base, re.ASCII)
         mode = int(numbers[-1]) if numbers else 0
-    return Channel(name, False, unit, mode, frequency, resolution)
+    return Channel(name, base.strip(), False, unit, mode, frequency, resolution)
+
+
+def _time_base(name: str) -> str:
+    """Leave the unit out of a name of time."""
+    found = _BRACKETS.search(name) or _LOOSE.search(name)
+    return name[: found.start()].strip() if found else name.strip()
 
 
 def time_unit_in(name: str) -> str | None:

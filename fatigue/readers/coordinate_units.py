@@ -11,7 +11,7 @@ from fractions import Fraction
 from fatigue.errors import Problem
 from fatigue.readers.units import Normalisation
 
-_LENGTHS = {"mm": "mm", "cm": "cm", "m": "m", "km": "km", "in": "in", "inch": "in", "ft": "ft", "um": "um", "µm": "um"}
+LENGTHS = {"mm": "mm", "cm": "cm", "m": "m", "km": "km", "in": "in", "inch": "in", "ft": "ft", "um": "um", "µm": "um"}
 _MASSES = {"kg": "kg", "t": "t", "Mg": "t", "tonne": "t", "ton": "t", "g": "g", "lb": "lb", "lbm": "lb", "slug": "slug"}
 _NONE = (
     "",
@@ -55,11 +55,11 @@ def parse_unit(text: str) -> CoordinateUnit | None:
         if not word:
             continue
         name, _, power = word.partition("^")
-        known = _LENGTHS.get(name) or _MASSES.get(name) or _LENGTHS.get(name.lower()) or _MASSES.get(name.lower())
+        known = LENGTHS.get(name) or _MASSES.get(name) or LENGTHS.get(name.lower()) or _MASSES.get(name.lower())
         if known is None or known in powers or power not in ("", "1", "0.5"):
             return None
         powers[known] = Fraction(power or "1")
-    lengths = [unit for unit in powers if unit in _LENGTHS.values()]
+    lengths = [unit for unit in powers if unit in LENGTHS.values()]
     masses = [unit for unit in powers if unit in _MASSES.values()]
     if not powers or len(lengths) > 1 or len(masses) > 1:
         return None

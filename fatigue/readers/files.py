@@ -32,7 +32,7 @@ class Columns:
     """An open file: names and types of its columns, number of rows, and how to read one column by its position.
 
     ``numbers`` are the rows' own numbers in the file, from 0, where these are only a part of it; ``doubts`` were met
-    while opening it.
+    while opening it; ``units`` are those the metadata of a Parquet file states for the columns.
     """
 
     names: tuple[str, ...]
@@ -41,6 +41,7 @@ class Columns:
     read: Callable[[int], pa.ChunkedArray]
     numbers: NDArray[np.int64] | None = None
     doubts: tuple[Problem, ...] = ()
+    units: tuple[str, ...] = ()
 
 
 def open_columns(path: Path, texts: Collection[str]) -> Columns:
@@ -111,7 +112,9 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
             raise DataError(damaged(path, EOFError(f"{len(column)} of {rows} rows")))
         return column
 
-    return Columns(names, tuple(schema.types), rows, read)
+    fields = [schema.field(k) for k in range(len(names))]
+    units = tuple(((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields)
+    return Columns(names, tuple(schema.types), rows, read, units=units)
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:
@@ -130,7 +133,7 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
         numbers = (np.arange(again.size) if numbers is None else numbers)[~again]
         table = table.filter(pa.array(~again))
     for k in wordy:
-        read = as_numbers(table.column(k), layout.decimal or ",")
+        read = as_numbers(table.column(k), layout.decimal)
         if read is not None:
             table = table.set_column(k, str(k), read)
     return Columns(layout.names, tuple(table.schema.types), table.num_rows, table.column, numbers, doubts)
@@ -237,7 +240,7 @@ def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType
         for name, kind in kinds.items():
             column = read.column(name)
             if read_as[name] != kind:
-                numbers = as_numbers(pa.chunked_array([column]), layout.decimal or ",")
+                numbers = as_numbers(pa.chunked_array([column]), layout.decimal)
                 if numbers is None:
                     raise pa.ArrowInvalid(f"a cell of {name} is no number")
                 column = numbers.combine_chunks()

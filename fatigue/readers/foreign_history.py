@@ -36,6 +36,7 @@ class ForeignHistory:
     unit : (m,) unit the file states for the column, empty where it states none; () where it states none at all
     resolution : (m,) half a unit of the last digit written of the frequency [Hz], NaN where it is not known
     normalisation : of the modes, where the file declares it
+    length : unit of length of the system of units that the file declares, empty where it declares none
     lines : (t,) line of each sample in the file, from 1; None where it has none
     """
 
@@ -49,6 +50,7 @@ class ForeignHistory:
     unit: tuple[str, ...] = ()
     resolution: NDArray[np.float64] | None = None
     normalisation: Normalisation | None = None
+    length: str = ""
     lines: NDArray[np.int64] | None = None
 
     def sample(self, number: int) -> str:

@@ -107,6 +107,9 @@ def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: st
     """Read modal coordinates from any format that holds them."""
     form = recognise(path)
     if form == "mcf":
+        if columns is not None or time_column is not None:
+            what = "an .mcf file has no names of columns, for --columns or --time-column"
+            raise DataError(Problem("no_column", str(path), what, "Leave the options out, or export a table"))
         return read_mcf(path)
     if form == "parquet":
         return read_parquet_history(path, columns, time_column)

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.life.history import ModalHistory
 from fatigue.life.spool import Samples, create_spool
+from fatigue.readers.channel_names import channel
+from fatigue.readers.table_units import stated_unit_doubt
 from fatigue.readers.tables import Table, open_table
 
 STEP_TOLERANCE = 1e-3  # of a step
@@ -73,6 +75,7 @@ def _open(
 ) -> tuple[Table, list[str], TimeGrid]:
     """Open a table, match its columns with the modes, and check its times."""
     table = open_table(path)
+    _check_statements(table)
     names = _mode_columns(table, modes, ignore_modes)
     ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
     table.expect(("time_s", *names), ignored, strict=strict)
@@ -80,6 +83,24 @@ def _open(
     time = table.numbers("time_s").astype(np.float64)
     table.refuse()
     return table, names, TimeGrid(table.rows, _step(table, time), float(time[0]))
+
+
+def _check_statements(table: Table) -> None:
+    """Note what the names and the metadata of columns state against the neutral format: time in s, q in N, mm, t, s."""
+    for name, unit in zip(table.columns.names, table.columns.units or (), strict=False):
+        problem = stated_unit_doubt(table.where(name.strip()), name, unit) if unit else None
+        if problem is not None and problem.code == "unit":
+            table.problems.append(problem)
+    for name in table.position:
+        own = channel(name)
+        if own.is_time and name != "time_s" and "time_s" not in table.position:
+            what = f"this seems to be time, {f'in {own.unit}' if own.unit else 'in a unit that is not stated'}"
+            remedy = "Give seconds in a column time_s, or bring the file in by `fatigue convert`"
+            table.problems.append(Problem("time_unit", table.where(name), what, remedy))
+        elif own.unit and not own.is_time and re.match(r"q_?-?\d+\W", name):
+            what = f"the name states the unit {own.unit}; neutral coordinates are in N, mm, t, s"
+            remedy = f"Convert them and name the column q_{own.mode}, or bring the file in by `fatigue convert`"
+            table.problems.append(Problem("unit", table.where(name), what, remedy))
 
 
 def _mode_of(column: str) -> int | None:

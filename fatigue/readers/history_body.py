@@ -21,7 +21,7 @@ _SAMPLE = 200
 _SEPARATORS = ("\t", ";", ",", "|", None)  # None: blanks
 _RULE = re.compile(r"[\s\-=_+|*#;,]+\Z")
 _NUMERIC_START = re.compile(r"[\s\"']*[-+.,;|\d]|\s*\Z")
-_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?\Z")
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,' \u00a0\u202f]\d{3})+(?:[.,]\d*)?\Z")
 _DATE = re.compile(
     r"(?<!\d)(\d{4}-\d{1,2}-\d{1,2}|\d{1,2}\.\d{1,2}\.\d{2,4}|\d{1,2}/\d{1,2}/\d{2,4}|\d{1,2}:\d{2}(?::\d{2})?)(?!\d)"
 )
@@ -251,7 +251,7 @@ def _value_line(line: str, headers: Sequence[Sequence[str]], rows: Rows) -> str:
         return line
     if rows.separator is None or '"' in line:
         return line
-    cells = split_fields(line, rows.separator)
+    cells = ["" if is_gap(cell) else cell for cell in split_fields(line, rows.separator)]
     return rows.separator.join(cells + [""] * (rows.cells - len(cells))) if len(cells) == rows.width else line
 
 

@@ -129,8 +129,6 @@ def _cells_of(line: str, rows: Rows) -> tuple[str, ...] | None:
             return tuple(cells)
         if separator is not None and len(cells) == rows.width + 1 and cells[-1].lower() == "comment":
             return tuple(cells[:-1])  # LabVIEW's last column, which is empty in the rows
-        if separator == rows.separator and not text.strip(separator).endswith(tuple(cells[-1:])):
-            continue
         if separator == rows.separator and _cell_count(text, separator) == rows.width and any(cells):
             return tuple(cells + [""] * (rows.width - len(cells)))  # the last columns have no name
     apart = [cell.strip("'\" ") for cell in re.split(r"\s{2,}|\t", text.strip())]
@@ -148,7 +146,9 @@ def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
     numbers = [is_number(cell, ".") or is_number(cell, decimal) for cell in rest]
     if rest and all(numbers) and not _FREE_LABEL.match(label):
         return "numbers" if is_number(label, ".") or is_number(label, decimal) else _kind_of_label(label)
-    of_units = all(_is_unit(cell) for cell in filled) and (len(filled) > 1 or re.search(r"[\[(]", filled[0]))
+    of_units = all(_is_unit(cell) for cell in filled) and (
+        len(filled) > 1 or re.search(r"[\[(]", filled[0]) or (filled[0].lower() in TIME_UNITS and len(cells) > 1)
+    )
     tests = {
         "free": _FREE_LABEL.match(label),
         "types": all(cell.lower() in _TYPES for cell in filled),
@@ -159,7 +159,7 @@ def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
 
 def _kind_of_label(label: str) -> str:
     """Tell what numbers are by the word in front of them."""
-    if time_unit_in(label) is not None:
+    if not label or time_unit_in(label) is not None:
         return "names"
     return "frequencies" if _HZ_LABEL.match(label) else "modes" if _MODE_LABEL.match(label) else "label"
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.channel_names import TIME_UNITS, seconds_per
+from fatigue.readers.coordinate_units import LENGTHS
 from fatigue.readers.units import Normalisation
 
 _NUMBER = r"([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:E[+-]?\d+)?)"
@@ -18,21 +19,23 @@ _COLUMNS = re.compile(
     re.IGNORECASE,
 )
 _SAMPLES = re.compile(
-    rf"\W*{_COUNT_OF}?(samples|(?:data )?points|rows|time[ _]steps|abtastwerte|messwerte|zeilen)\s*[:=\t;,]\s*(\d+)\b",
+    rf"\W*{_COUNT_OF}?(samples|data points|rows|time[ _]steps|abtastwerte|messwerte|zeilen)\s*[:=\t;,]\s*(\d+)\b",
     re.IGNORECASE,
 )
 _TIME_UNIT = re.compile(
-    r"(?:\btime[ _]?units?\b|\bunits? of time\b|\bzeiteinheit\b)\W{0,4}(\w+)|\btime\s*(?:in\s+|[\[(])\s*(\w+)",
+    r"(?:\btime[ _]?units?\b|\bunits? of time\b|\bzeiteinheit\b)\W{0,4}(\w+)"
+    r"|(?:^|[^\w\s]\s*)(?:(?:all|the) +)?times?\s*(?:(?:is|are)? *in\s+|[\[(])\s*(\w+)",
     re.IGNORECASE,
 )
 _RATE = re.compile(
     rf"(?:sampl\w*[ _]?(?:rate|freq\w*)|abtastrate|abtastfrequenz)\s*[:=\t;,]?\s*{_NUMBER}\s*(k?)Hz", re.IGNORECASE
 )
 _STEP = re.compile(
-    rf"(?:\bdelta[ _]?[tx]\b|\bdt\b|(?:sampl\w*|time|output)[ _]?(?:interval|step|period)|schrittweite)"
+    rf"(?:\bdelta[ _]?[tx]\b|(?:sampl\w*|output)[ _]?(?:interval|step|period)|abtastintervall)"
     rf"\s*(?:\[(\w+)\])?\s*[:=\t;,]\s*{_NUMBER}\s*(\w+)?",
     re.IGNORECASE,
 )
+_UNITS = re.compile(r"\W*(?:units?(?: system)?|system of units|einheiten(?:system)?)\s*[:=]\s*(.*)", re.IGNORECASE)
 _NORMALISED = re.compile(r"normali[sz]\w*", re.IGNORECASE)
 
 Free = Sequence[tuple[int, str]]
@@ -86,6 +89,16 @@ def stated_time_unit(path: Path, free: Free) -> tuple[int, str] | None:
     return found[0] if found else None
 
 
+def stated_length(free: Free) -> str:
+    """Find the unit of length in a statement of the units, as ``Units: m, kg, s``; empty where there is none."""
+    for _, text in free:
+        if found := _UNITS.match(text):
+            lengths = {word for word in re.split(r"[\s,;/\-]+", found[1]) if word in LENGTHS}
+            if len(lengths) == 1:
+                return lengths.pop()
+    return ""
+
+
 def statement_problems(path: Path, free: Free, width: int, time: NDArray[np.float64]) -> list[Problem]:
     """Compare counts and sampling in free text with the table of so many columns and its times (t,) [s]."""
     problems: list[Problem] = []
@@ -117,7 +130,7 @@ def statement_problems(path: Path, free: Free, width: int, time: NDArray[np.floa
 
 def _check_columns(line: int, kind: str, count: int, width: int, contradicted: Callable[[int, str, str], None]) -> None:
     """Compare a count of channels; time may be counted among them or not."""
-    fitting = (width - 1,) if kind.startswith("mod") else (width, width - 1)
-    if count not in fitting:
+    modes = kind.startswith("mod")  # of which some may have been left out
+    if count < width - 1 or (count > width and not modes):
         what = f"the header states {count} {kind}, the table has time and {width - 1} other columns"
         contradicted(line, what, "Export again, or correct the header")

@@ -17,12 +17,13 @@ _NUMBERS = re.compile(r"^\s*Modes?\s*:?((?:\s+\d+)+)\s*$", re.MULTILINE | re.IGN
 _FREQUENCIES = re.compile(
     r"^\s*Frequenc(?:y|ies)\s*:?((?:\s+[-+.\dEDQ]+)+)\s*$", re.MULTILINE | re.IGNORECASE | re.ASCII
 )
+_TITLE = re.compile(r"\A\s*Modal Coordinates", re.IGNORECASE)
 _TABLE = re.compile(r"^\s*(Time|Freq\w*)\s+Coordinates.*$", re.MULTILINE | re.IGNORECASE)
 
 
 def is_mcf(head: str) -> bool:
     """Whether the beginning of a text file is that of a modal coordinates file."""
-    return _COUNT.search(head) is not None
+    return _COUNT.search(head) is not None and (_TABLE.search(head) or _TITLE.search(head)) is not None
 
 
 def read_mcf(path: Path) -> ForeignHistory:
@@ -61,7 +62,21 @@ def read_mcf(path: Path) -> ForeignHistory:
             np.ascontiguousarray(rows[:, 1:].T),
             resolution=None if frequencies is None else _resolution(head),
             normalisation=normalisation,
+            remarks=_not_understood(path, head[count.end() :]),
         )
+    )
+
+
+def _not_understood(path: Path, head: str) -> tuple[Problem, ...]:
+    """Doubts about lines of numbers in the header that are neither mode numbers nor frequencies."""
+    rest = _FREQUENCIES.sub("", _NUMBERS.sub("", head))
+    lines = [
+        line.strip() for line in rest.split("\n") if re.search(r"\d[\d.]*[ED][+-]?\d|(?:\s\d+){2}", line, re.ASCII)
+    ]
+    remedy = "Check the names of the header's lines, Mode and Frequency"
+    return tuple(
+        Problem("unread_line", str(path), f"a line of numbers is not understood: {line[:60]!r}", remedy)
+        for line in lines
     )
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.readers.coordinate_units import compared
+from fatigue.readers.coordinate_units import SYSTEM_UNITS, compared
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
@@ -78,6 +78,14 @@ def with_declared_units(
     if analysis == "modal":
         if history.unit:
             problems, doubts = compared(history.source, history.name, history.unit, system, normalisation)
+        own = SYSTEM_UNITS[system][0]
+        if history.length and history.length != own:
+            fitting = [
+                f"--coordinate-units {name}" for name, units in SYSTEM_UNITS.items() if units[0] == history.length
+            ]
+            what = f"its header declares lengths in {history.length}; --coordinate-units {system} takes them in {own}"
+            remedy = f"State {fitting[0]}" if fitting else "Export in a system that --coordinate-units knows"
+            problems.append(Problem("coordinate_unit", history.source, what, remedy))
         if history.normalisation not in (None, normalisation):
             what = f"its header declares modes normalised to {_NORMALISED[history.normalisation]}; "
             what += f"--normalisation {normalisation} takes them as normalised to {_NORMALISED[normalisation]}"

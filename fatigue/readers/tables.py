@@ -277,17 +277,27 @@ class Table:
 
     def _floats(self, name: str) -> NDArray[Any]:
         """Values of a column as floating-point numbers, empty cells and an absent column as NaN."""
-        if name not in self.position:
-            return np.full(self.rows, np.nan)
-        column = self._column(name)
-        if pt.is_null(column.type):
+        column = self._column(name) if name in self.position else None
+        if column is None or pt.is_null(column.type):
             return np.full(self.rows, np.nan)
         if pt.is_decimal(column.type) or pt.is_integer(column.type):
             return np.asarray(column.cast(pa.float64(), safe=False).to_numpy())  # beyond 2^53 rounded
         if pt.is_floating(column.type):
             values = np.asarray(column.to_numpy())
             return values.astype(np.float64) if values.dtype == np.float16 else values
+        if pt.is_temporal(column.type) and name.endswith("_s"):
+            return self._seconds(name, column)
         self._mistyped(name, column, "a number")
+        return np.zeros(self.rows)
+
+    def _seconds(self, name: str, column: pa.ChunkedArray) -> NDArray[Any]:
+        """Values of a column of durations [s]; dates and times of day are a mistake."""
+        if pt.is_duration(column.type):
+            return seconds_of(column)
+        what = f"the column holds dates or times of day, as {column[0].as_py()}, where seconds are needed"
+        remedy = "Give seconds from the start of the run"
+        self.problems.append(Problem("date_column", self.where(name), what, remedy))
+        self.spoilt.add(name)
         return np.zeros(self.rows)
 
     def _mistyped(self, name: str, column: pa.ChunkedArray, wanted: str) -> None:
@@ -316,6 +326,12 @@ def named(path: Path, columns: Columns) -> Table:
     ]
     refuse(DataError, problems)
     return Table(path, columns, position, warnings=list(columns.doubts))
+
+
+def seconds_of(durations: pa.ChunkedArray) -> NDArray[np.float64]:
+    """Durations in seconds (r,), NaN where one is missing."""
+    ticks = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}[durations.type.unit]
+    return np.asarray(durations.cast(pa.int64()).to_numpy()).astype(np.float64) / ticks
 
 
 def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:

@@ -63,7 +63,7 @@ def decoded(path: Path, data: bytes) -> tuple[str, Encoding]:
     DataError : bytes that no encoding explains, NUL bytes
     """
     encoding = encoding_of(path, data)
-    text = data.decode(encoding).removeprefix("\ufeff")
+    text = data.decode(encoding).removeprefix("\ufeff").removesuffix("\x1a")  # the end of a file of DOS
     if "\0" in text:
         raise DataError(nul_problem(path, text[: text.index("\0")].count("\n") + 1))
     return text, encoding

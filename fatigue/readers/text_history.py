@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
@@ -22,7 +21,8 @@ from fatigue.readers.files import open_columns
 from fatigue.readers.foreign_history import ForeignHistory, check_values
 from fatigue.readers.history_body import find_rows, read_values
 from fatigue.readers.history_header import Header, header_frequencies, read_header
-from fatigue.readers.history_statements import normalisation_in, stated_time_unit, statement_problems
+from fatigue.readers.history_statements import normalisation_in, stated_length, stated_time_unit, statement_problems
+from fatigue.readers.tables import seconds_of
 from fatigue.readers.text_encoding import read_head
 from fatigue.readers.text_layout import text_lines, whole_cells
 
@@ -54,7 +54,8 @@ def read_text_history(
     table, at = read_values(path, encoding, rows, header.cells, names)
     history = _history(path, header, table, at, columns, time_column)
     refuse(DataError, statement_problems(path, header.free, rows.width, history.time))
-    return replace(history, normalisation=normalisation_in(path, header.free))
+    length = stated_length(header.free)
+    return replace(history, normalisation=normalisation_in(path, header.free), length=length)
 
 
 def read_parquet_history(
@@ -66,12 +67,8 @@ def read_parquet_history(
     """
     opened = open_columns(path, ())
     names = [name.strip() for name in opened.names]
-    fields = [pq.read_schema(path).field(k) for k in range(len(names))]
-    units = [((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields]
-    channels = [
-        _with_type(path, channel(name), field.type, unit)
-        for name, field, unit in zip(names, fields, units, strict=True)
-    ]
+    stated = zip(names, opened.kinds, opened.units, strict=True)
+    channels = [_with_type(path, channel(name), kind, unit) for name, kind, unit in stated]
     table = np.column_stack([_numbers(path, name, opened.read(k)) for k, name in enumerate(names)])
     if table.shape[1] < 2:
         raise DataError(Problem("bad_table", str(path), "the table has one column", "Export time and coordinates"))
@@ -97,8 +94,7 @@ def _with_type(path: Path, own: Channel, kind: pa.DataType, unit: str) -> Channe
 def _numbers(path: Path, name: str, column: pa.ChunkedArray) -> Vectors:
     """Values of a Parquet column, durations in seconds."""
     if pt.is_duration(column.type):
-        ticks = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}[column.type.unit]
-        return np.asarray(column.cast(pa.int64()).to_numpy()).astype(np.float64) / ticks
+        return seconds_of(column)
     if not (pt.is_integer(column.type) or pt.is_floating(column.type) or pt.is_decimal(column.type)):
         what = f"a column holds no numbers ({column.type})"
         raise DataError(Problem("bad_table", f"{path}, column {name!r}", what, "Write columns of numbers only"))
@@ -114,7 +110,7 @@ def _history(
     time_column: str | None,
 ) -> ForeignHistory:
     """Pick time and modal coordinates out of a table (t, c)."""
-    channels, kept = _filled(header.channels, table)
+    channels, kept, remarks = _filled(path, header.channels, table)
     header = replace(header, channels=tuple(channels), names=tuple(tuple(n[k] for k in kept) for n in header.names))
     table = table[:, kept]
     if len(kept) < 2:
@@ -134,6 +130,7 @@ def _history(
             tuple(channels[k].name or f"column {k + 1}" for k in taken),
             seconds,
             np.ascontiguousarray(table[:, taken].T),
+            remarks,
             unit=tuple(channels[k].unit for k in taken),
             resolution=resolution,
             lines=lines,
@@ -141,10 +138,22 @@ def _history(
     )
 
 
-def _filled(channels: Sequence[Channel], table: Vectors) -> tuple[list[Channel], list[int]]:
-    """Leave out columns with neither name nor value, which spreadsheets leave between others."""
-    kept = [k for k, c in enumerate(channels) if c.name or not np.isnan(table[:, k]).all()]
-    return [channels[k] for k in kept], kept
+def _filled(
+    path: Path, channels: Sequence[Channel], table: Vectors
+) -> tuple[list[Channel], list[int], tuple[Problem, ...]]:
+    """Leave out columns without a name that hold nothing, as spreadsheets leave them, or the count of the rows."""
+    count = np.arange(len(table))
+    timed, kept, remarks = any(c.is_time for c in channels), [], []
+    for k, own in enumerate(channels):
+        if own.name or not (np.isnan(table[:, k]).all() or timed):
+            kept.append(k)
+        elif not np.isnan(table[:, k]).all():
+            if not (np.array_equal(table[:, k], count) or np.array_equal(table[:, k], count + 1)):
+                kept.append(k)
+                continue
+            what = f"column {k + 1} has no name and counts the rows; it is left out"
+            remarks.append(Problem("row_count", str(path), what, "Export without it"))
+    return [channels[k] for k in kept], kept, tuple(remarks)
 
 
 def _times(path: Path, header: Header, wanted: str | None) -> list[int]:
@@ -175,7 +184,8 @@ def _times(path: Path, header: Header, wanted: str | None) -> list[int]:
 def _column(path: Path, header: Header, name: str, what: str = "column") -> int:
     """Position of a named column; its unit may be left out where that is clear."""
     name = composed(name)
-    for written in header.names:
+    bases = tuple(c.base for c in header.channels)
+    for written in (*header.names, bases):
         names = [composed(other) for other in written]
         if names.count(name) > 1:
             raise DataError(

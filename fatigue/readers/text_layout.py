@@ -22,6 +22,7 @@ MOST_BREAKS = 20  # lines of one cell
 
 _SEP_LINE = re.compile(r'\s*"?sep=(.)"?\s*\Z', re.IGNORECASE)
 _UNIT = re.compile(r"(?:[\[(<].*[\])>]|-|s|ms|us|µs|min|h|Hz|mm|cm|m|in|N|kN|N\.?mm|N\.?m|MPa|kg|t)\Z", re.IGNORECASE)
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+")
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -200,6 +201,7 @@ def _with_numbers(path: Path, layout: TableLayout, rows: Sequence[str], texts: C
     numeric = [k for k, name in enumerate(layout.names) if name.strip() not in texts]
     signs: Counter[str] = Counter()
     first: dict[str, str] = {}
+    commas: set[str] = set()
     fortran = False
     for row in rows:
         cells = split_fields(row, layout.separator)
@@ -208,12 +210,15 @@ def _with_numbers(path: Path, layout: TableLayout, rows: Sequence[str], texts: C
             for sign in ".,":
                 if sign in cell and is_number(cell, sign):  # type: ignore[arg-type]
                     signs[sign] += 1
+                    commas |= {cell} if sign == "," else set()
                     first.setdefault(sign, cell)
                     fortran |= re.search(r"[DQdq]|\d[+-]", cell) is not None
-    if layout.separator == ",":
-        return replace(layout, decimal=".", fortran=fortran)
+    if layout.separator == "," and signs[","] and all(map(_THOUSANDS.fullmatch, commas)):
+        what = f"{first[',']} may have a decimal comma or a thousands separator"
+        raise DataError(Problem("decimal_sign", path.name, what, "Write points, and no thousands separators"))
     if len(signs) == 2:
         what = f"numbers are written with points ({first['.']}) and with commas ({first[',']})"
         raise DataError(Problem("decimal_sign", path.name, what, "Write one decimal sign, and no thousands separators"))
-    decimal: Decimal | None = "," if signs[","] else "." if signs["."] else None
+    known = signs["."] or layout.separator == ","
+    decimal: Decimal | None = "," if signs[","] else "." if known else None
     return replace(layout, decimal=decimal, fortran=fortran)

@@ -56,8 +56,14 @@ def split_fields(line: str, separator: str | None) -> list[str]:
     return fields
 
 
-def as_numbers(column: pa.ChunkedArray, decimal: Decimal) -> pa.ChunkedArray | None:
-    """Read a column of texts as numbers, empty cells as null; None if a cell is anything else."""
+def as_numbers(column: pa.ChunkedArray, decimal: Decimal | None) -> pa.ChunkedArray | None:
+    """Read a column of texts as numbers, empty cells as null; None if a cell is anything else.
+
+    Where the decimal sign is not known, all have one or the other.
+    """
+    if decimal is None:
+        pointed = as_numbers(column, ".")
+        return as_numbers(column, ",") if pointed is None else pointed
     texts = column.cast(pa.string())
     if decimal == ",":
         texts = pc.if_else(pc.match_substring(texts, "."), pa.scalar("?"), pc.replace_substring(texts, ",", "."))

@@ -271,6 +271,155 @@ def test_simulation_modes_scale_and_compare(files, tmp_path):
         convert(replace(files, simulation_modes=table))
 
 
+def renamed(files, names):
+    """Give the columns of the coordinates other names."""
+    path = files.coordinates[0]
+    path.write_text("\n".join([names, *path.read_text().splitlines()[1:]]) + "\n")
+    return files
+
+
+@pytest.mark.parametrize(
+    ("unit", "options", "message"),
+    [
+        (
+            "m",
+            {},
+            r"the file states m; --coordinate-units mm-t-s and --normalisation mass make it mm\*sqrt\(t\)\. State",
+        ),
+        (
+            "mm",
+            {"coordinate_units": "m-kg-s"},
+            r"states mm; --coordinate-units m-kg-s .* State --coordinate-units mm",
+        ),
+        ("m*sqrt(kg)", {}, r"the file states m\*sqrt\(kg\); .* State --coordinate-units m-kg-s\."),
+        (
+            "kg^0.5 m",
+            {"coordinate_units": "m-kg-s", "normalisation": "length"},
+            r"--normalisation length make it m\. State --normalisation mass",
+        ),
+        ("in", {}, "State --coordinate-units in-lbf-s"),
+        ("cm", {}, r"Export the coordinates in mm\*sqrt\(t\), or in a system that --coordinate-units knows"),
+        ("mm*sqrt(kg)", {}, r"Export the coordinates in mm\*sqrt\(t\)"),
+        ("m/s", {}, "the unit 'm/s' is none of a modal coordinate"),
+        ("rad", {}, "the unit 'rad' is none of a modal coordinate"),
+    ],
+)
+def test_stated_units_of_coordinates(files, unit, options, message):
+    """A unit that the options do not have is refused and names them; nothing is converted by a label."""
+    renamed(files, ",".join(["time", *(f"q_{k} [{unit}]" for k in range(1, 6))]))
+    with pytest.raises(DataError, match=message):
+        convert(replace(files, **options))
+
+
+@pytest.mark.parametrize("unit", ["mm*sqrt(t)", "mm t^0.5", "-", "sqrt(t) mm", "√t·mm"])
+def test_units_that_agree(files, unit):
+    """The unit of the options, or none, changes nothing."""
+    renamed(files, ",".join(["time", *(f"q_{k} [{unit}]" for k in range(1, 6))]))
+    result = convert(files)
+    assert not [remark for remark in result.remarks if remark.code == "coordinate_unit"]
+    history, _ = read_history(files.out / "q_straight.parquet", "straight", np.arange(1, 6), (), strict=True)
+    assert np.allclose(history.q[1], np.sin(2 * np.arange(200) / 100), atol=1e-6)
+
+
+def test_a_length_for_modes_of_unit_mass_is_a_doubt(files):
+    """Many programs label any coordinate with a length: read as the options say, and told once."""
+    renamed(files, ",".join(["time", *(f"q_{k} [mm]" for k in range(1, 6))]))
+    (remark,) = [remark for remark in convert(files).remarks if remark.code == "coordinate_unit"]
+    assert remark.where.endswith("column 'q_1 [mm]' and 4 more columns")
+    assert remark.what == "the file states mm, a length; --normalisation mass takes it as mm*sqrt(t)"
+    result = convert(replace(files, normalisation="length", force=True))
+    assert not [remark for remark in result.remarks if remark.code == "coordinate_unit"]
+
+
+def test_time_in_milliseconds(files):
+    """Time arrives in seconds by its header."""
+    path = files.coordinates[0]
+    rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
+    text = "\n".join(";".join([f"{float(r[0]) * 1000:.9g}", *r[1:]]) for r in rows)
+    path.write_text("Time [ms];" + ";".join(f"q_{k}" for k in range(1, 6)) + "\n" + text.replace(".", ",") + "\n")
+    convert(files)
+    history, _ = read_history(files.out / "q_straight.parquet", "straight", np.arange(1, 6), (), strict=True)
+    assert history.step == pytest.approx(0.01)
+
+
+def test_stated_frequencies_of_other_modes(files):
+    """Names with frequencies that fit other modes are refused by number and in order, and joined by frequency."""
+    f = tee().frequency
+    swapped = [2, 1, 3, 4, 5]
+    renamed(files, ",".join(["time", *(f"q_{k} ({f[s - 1]:.9g} Hz)" for k, s in enumerate(swapped, 1))]))
+    for match in ("id", "order"):
+        with pytest.raises(DataError, match=r"column 'q_1 .*its mode 1 has .* Join by --match frequency"):
+            convert(replace(files, match=match))
+    convert(replace(files, match="frequency"))
+    history, _ = read_history(files.out / "q_straight.parquet", "straight", np.arange(1, 6), (), strict=True)
+    assert np.allclose(history.q[0], np.sin(2 * np.arange(200) / 100), atol=1e-6)
+    table = files.mesh.with_name("sim.csv")
+    table.write_text("mode,frequency_hz\n" + "".join(f"{k},{f[s - 1]:.9g}\n" for k, s in enumerate(swapped, 1)))
+    renamed(files, "time,q_1,q_2,q_3,q_4,q_5")
+    with pytest.raises(DataError, match=r"its mode 1 has .* Join by --match frequency|frequency match"):
+        convert(replace(files, simulation_modes=table))
+
+
+def test_simulation_that_counts_from_1(files):
+    """FE modes 7 to 11 against 1 to 5 of the simulation: the way to join them is proposed, and works."""
+    shifted = replace(tee().results, mode=tee().results.mode + 6)
+    files.forces.write_bytes(modal_op2(shifted, word=8))
+    files = replace(files, interface_modes=(11,))
+    with pytest.raises(DataError, match=r"If modes 1-5 of the simulation are modes 7-11 of the FE run, state --match"):
+        convert(files)
+    convert(replace(files, match="order"))
+    history, _ = read_history(files.out / "q_straight.parquet", "straight", np.arange(7, 12), (), strict=True)
+    assert np.allclose(history.q[1], np.sin(2 * np.arange(200) / 100), atol=1e-6)
+
+
+def test_simulation_without_rigid_modes(files):
+    """Elastic modes counted from 1 against an FE run with rigid ones: what to ignore is said."""
+    rigid = replace(tee().results, frequency=tee().frequency * [0, 0, 1, 1, 1])
+    files.forces.write_bytes(modal_op2(rigid, word=8))
+    path = files.coordinates[0]
+    path.write_text("\n".join(",".join(line.split(",")[:4]) for line in path.read_text().splitlines()) + "\n")
+    remedy = (
+        "If modes 1-3 of the simulation are the elastic modes of the FE run, state --match order --ignore-modes 1-2"
+    )
+    with pytest.raises(DataError, match=remedy):
+        convert(files)
+    convert(replace(files, match="order", ignore_modes=(1, 2)))
+
+
+def test_normalisation_a_file_declares(files):
+    """Modes normalised to unity contradict --normalisation mass."""
+    path = files.coordinates[0]
+    path.write_text("% modes normalised to unity\n" + path.read_text())
+    with pytest.raises(DataError, match=r"declares modes normalised to unity; .* State --normalisation length"):
+        convert(files)
+    convert(replace(files, normalisation="length"))
+
+
+def test_system_of_units_a_file_declares(files):
+    """A line of units contradicts --coordinate-units."""
+    path = files.coordinates[0]
+    path.write_text("% Units: m, kg, s\n" + path.read_text())
+    with pytest.raises(
+        DataError, match=r"declares lengths in m; --coordinate-units mm-t-s .* State --coordinate-units m"
+    ):
+        convert(files)
+    convert(replace(files, coordinate_units="m-kg-s"))
+
+
+def test_tables_beside_the_coordinates_in_german(files, tmp_path):
+    """The map of columns and the table of modes are read in any layout; a column mapped twice is refused."""
+    renamed(files, "time,a,b,c,d,e")
+    columns, modes, f = tmp_path / "columns.csv", tmp_path / "sim.csv", tee().frequency
+    columns.write_bytes("sep=;\r\ncolumn;mode\r\na;1\r\nb;2\r\nc;3\r\nd;4\r\ne;5\r\n".encode("utf-16"))
+    rows = "".join(f"{k};{f[k - 1]:.9g};4,0D+00\n" for k in range(1, 6)).replace(".", ",")
+    modes.write_bytes(("# Prüfstand\nmode;frequency_hz;modal_mass\n" + rows).encode("cp1252"))
+    convert(replace(files, columns=columns, simulation_modes=modes))
+    assert np.allclose(neutral(files.out)[0].scale, 2.0)
+    columns.write_text("column,mode\na,1\nb,2\na,3\n")
+    with pytest.raises(DataError, match=r"column column, row 3: column a repeats row 1"):
+        convert(replace(files, columns=columns))
+
+
 def test_columns_by_a_map_and_rigid_modes(files, tmp_path):
     """Columns of any name are mapped by a table; a rigid mode without coordinates is left out and told."""
     rigid = replace(tee().results, frequency=tee().frequency * [1, 1, 0, 1, 1])

@@ -1,6 +1,7 @@
 """Modal coordinates of other programs: layouts, mapping of columns to modes, time steps, .mcf files."""
 
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -139,6 +140,67 @@ def test_uneven_steps_are_resampled_on_request():
             uniform(uneven, step)
 
 
+def test_an_instant_written_twice():
+    """Solvers write an event twice: with a step the later sample is kept, without one the place is named."""
+    time = np.array([0.0, 0.1, 0.2, 0.2, 0.2, 0.3, 0.3, 0.4])
+    twice = replace(history(time), q=np.arange(8.0)[None], lines=np.arange(2, 10))
+    with pytest.raises(
+        DataError, match=r"^q, line 5, sample 4: time goes from 0\.2 to 0\.2 s, it stands still \(and at 2"
+    ):
+        uniform(twice, None)
+    even = uniform(twice, 0.1)
+    assert even.time == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
+    assert even.q[0] == pytest.approx([0.0, 1.0, 4.0, 6.0, 7.0])
+    assert [(remark.code, remark.count) for remark in even.remarks] == [("instant_twice", 3), ("resampled", 1)]
+    with pytest.raises(DataError, match="time stands still"):
+        uniform(history([1.0, 1.0]), 0.1)
+
+
+def test_a_gap_is_told():
+    """An interpolation over lost samples is a doubt that names the place."""
+    gap = history([*np.arange(0, 1, 0.01), *np.arange(3, 4, 0.01)])
+    assert [remark.code for remark in uniform(gap, 0.01).remarks] == ["resampled", "gap"]
+    assert "from 0.99 s" in uniform(gap, 0.01).remarks[1].what
+
+
+def stated(frequency, mode=(1, 2), resolution=None):
+    """Two columns with frequencies, as a file states them."""
+    half = None if resolution is None else np.full(2, resolution)
+    names = tuple(f"q_{m}" for m in mode)
+    q = np.zeros((2, 3))
+    return ForeignHistory("q", np.array(mode), np.array(frequency, float), names, np.arange(3.0), q, resolution=half)
+
+
+def test_a_frequency_that_fits_another_mode():
+    """Better by more than the written digits explain is refused; a swap within them is not."""
+    modes, fe = np.array([1, 2, 3]), np.array([10.0, 10.4, 20.0])
+    assert matched(stated([10.0, 10.4]), modes, fe, "id").mode.tolist() == [1, 2]
+    assert matched(stated([10.2, 10.2], resolution=0.05), modes, fe, "id").mode.tolist() == [1, 2]
+    assert matched(stated([10.0, 10.0], resolution=0.5), modes, fe, "id").mode.tolist() == [1, 2]
+    assert matched(stated([9.0, 11.0]), modes, fe, "id").mode.tolist() == [1, 2]  # far, and nearest to its own
+    with pytest.raises(DataError) as refusal:
+        matched(stated([10.4, 10.0], resolution=0.05), modes, fe, "id")
+    assert [str(problem) for problem in refusal.value.problems] == [
+        f"q: column 'q_{m}' has {f} Hz; its mode {m} has {own} Hz in the FE run, mode {other} has {f} Hz. Join by "
+        "--match frequency, or use the same modal basis on both sides."
+        for m, f, own, other in ((1, "10.4", "10", 2), (2, "10", "10.4", 1))
+    ]
+    assert matched(stated([10.4, 10.0]), modes, fe, "frequency").mode.tolist() == [2, 1]
+    rigid = np.array([1e-5, 3e-5, 20.0])
+    assert matched(stated([3e-5, 1e-5]), modes, rigid, "id").mode.tolist() == [1, 2]
+    assert matched(stated([10.4, np.nan], (3, 2)), modes, np.array([1.0, 2.0, np.nan]), "id").mode.tolist() == [3, 2]
+
+
+def test_order_without_rigid_modes():
+    """One column too few for all modes and enough for the elastic ones: the way to leave the rigid ones out."""
+    modes, fe = np.array([1, 2, 3, 4]), np.array([0.0, 1e-6, 10.0, 20.0])
+    with pytest.raises(DataError, match=r"leaves out the rigid modes, add --ignore-modes 1,2\."):
+        matched(stated([np.nan, np.nan]), modes, fe, "order")
+    same = replace(stated([np.nan, np.nan], (1, 1)), name=("q_1", "q_1"))
+    with pytest.raises(DataError, match="column 'q_1' is there 2 times"):
+        matched(same, modes[2:], fe[2:], "order")
+
+
 def test_mcf(tmp_path):
     """A wrapped file with mode numbers and frequencies; without the two lines modes count from 1."""
     path = tmp_path / "a.mcf"
@@ -153,6 +215,29 @@ def test_mcf(tmp_path):
     bare = read_mcf(path)
     assert bare.mode.tolist() == [1, 2, 3]
     assert np.isnan(bare.frequency).all()
+
+
+def test_mcf_of_another_program(tmp_path):
+    """Exponents of Fortran, UTF-16, more digits; the normalisation a header declares."""
+    path = tmp_path / "a.mcf"
+    path.write_bytes(MCF.replace("E+", "D+").encode("utf-16"))
+    found = read_coordinates(path, None, None)
+    assert found.frequency.tolist() == [10.0, 20.0, 30.0]
+    assert found.resolution.tolist() == pytest.approx([5e-6] * 3)
+    assert found.q.tolist() == [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]
+    assert found.normalisation is None
+    for words, wanted in (
+        ("Mode shapes normalized to the mass matrix", "mass"),
+        ("The modes are mass normalised", "mass"),
+        ("Normalization: unit modal mass", "mass"),
+        ("Mode shapes normalized to unity", "length"),
+        ("Modes normalised to maximum displacement", "length"),
+    ):
+        path.write_text(MCF.replace("Title: run 1", words))
+        assert read_mcf(path).normalisation == wanted
+    path.write_text(MCF.replace("Title: run 1", "modes normalized to mass\nmodes normalized to unity"))
+    with pytest.raises(DataError, match="lines 2 and 3: two statements of the header disagree"):
+        read_mcf(path)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -223,3 +224,89 @@ def test_any_column_order(tmp_path_factory, data, suffix):
 def test_rows_are_time_ordered(tmp_path):
     """A record whose rows are not in the order of time is refused, not sorted."""
     assert "a step of" in refusal_of(write(tmp_path / "q.csv", picked(history(), [1, 3, 2, 4, 5])))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "time_s",
+            "time_ms",
+            "column time_ms: this seems to be time, in ms. Give seconds in a column time_s",
+        ),
+        ("time_s", "Time [ms]", "column Time [ms]: this seems to be time, in ms. Give seconds in a column time_s"),
+        (
+            "time_s",
+            "t",
+            "column t: this seems to be time, in a unit that is not stated. Give seconds",
+        ),
+        (
+            "q_7",
+            "q_7 [m]",
+            "column q_7 [m]: the name states the unit m; neutral coordinates are in N, mm, t, s.",
+        ),
+        ("q_7", "q_7 [mm]", "column q_7 [mm]: the name states the unit mm; neutral coordinates are in N, mm, t, s."),
+    ],
+)
+@SUFFIXES
+def test_stated_units(tmp_path, suffix, old, new, message):
+    """A unit beside the one the neutral format has is told, not passed over as an unknown column."""
+    columns = {new if name == old else name: values for name, values in history().items()}
+    assert f"q{suffix}: {message}" in refusal_of(write(tmp_path / f"q{suffix}", columns))
+
+
+def test_units_below_the_names(tmp_path):
+    """A row of units is passed over where it confirms the names, and refused where it contradicts them."""
+    path = write(tmp_path / "q.csv", history())
+    names, rest = path.read_text().split("\n", 1)
+    path.write_text(f"{names}\ns,mm,mm,mm\n{rest}")
+    read, _ = read_history(path, "run", MODES, (), strict=True)
+    assert read.q.shape == (3, 5)
+    path.write_text(f"{names}\nms,mm,mm,m\n{rest}")
+    first, second = refusal_of(path).split("\n")
+    assert first.startswith(
+        "q.csv: column time_s, row of units: the unit is ms, and the column is one of s. Convert the"
+    )
+    assert second.startswith(
+        "q.csv: column q_12, row of units: the unit is m, and the column is one of mm, or mm*sqrt("
+    )
+
+
+def test_units_in_the_metadata_of_parquet(tmp_path):
+    """What a file says of its columns beside their names has to agree with them."""
+    columns = history()
+    for unit, agrees in (("s", True), ("ms", False)):
+        fields = [
+            pa.field(name, pa.float64(), metadata={"unit": unit if name == "time_s" else "mm"}) for name in columns
+        ]
+        pq.write_table(pa.table(list(columns.values()), pa.schema(fields)), tmp_path / "q.parquet")
+        if agrees:
+            read_history(tmp_path / "q.parquet", "run", MODES, (), strict=True)
+        else:
+            assert "q.parquet: column time_s: the unit is ms, and" in refusal_of(tmp_path / "q.parquet")
+
+
+def test_time_as_durations_or_dates(tmp_path):
+    """Durations are seconds whatever their unit; dates are refused as such."""
+    columns = {name: pa.array(values) for name, values in history().items()}
+    path = tmp_path / "q.parquet"
+    for unit, ticks in (("ms", 10**3), ("us", 10**6), ("ns", 10**9)):
+        time = pa.array([2 * ticks + k * ticks // 100 for k in range(5)], pa.duration(unit))
+        pq.write_table(pa.table(columns | {"time_s": time}), path)
+        read, _ = read_history(path, "run", MODES, (), strict=True)
+        assert (read.step, read.start) == (pytest.approx(0.01), 2.0)
+    pq.write_table(pa.table(columns | {"time_s": time.cast(pa.int64()).cast(pa.timestamp("ns"))}), path)
+    assert "q.parquet: column time_s: the column holds dates or times of day, as 1970-01-01 00:00:02" in refusal_of(
+        path
+    )
+
+
+def test_german_spreadsheet(tmp_path):
+    """Semicolons, decimal commas and sep= give the same record as a plain file."""
+    path = write(tmp_path / "q.csv", history())
+    plain, _ = read_history(path, "run", MODES, (), strict=True)
+    path.write_bytes(("sep=;\n" + path.read_text().replace(",", ";").replace(".", ",")).encode("utf-16"))
+    read, warnings = read_history(path, "run", MODES, (), strict=True)
+    assert warnings == []
+    np.testing.assert_array_equal(read.q, plain.q)
+    assert (read.step, read.start) == (plain.step, plain.start)

@@ -398,3 +398,73 @@ def test_values_are_exact(read):
         ]
         history = read(separator.join(["t", "q_1", "q_2", "q_3"]) + "\n" + "\n".join(lines) + "\n")
         assert np.array_equal(history.q, values.T)
+
+
+def test_units_of_some_columns(read):
+    """A row of units may fill only some cells, and stand above the names."""
+    for text in ("time;q_1;q_2\nms;;\n0;1;2\n100;3;4\n", "ms;m;\ntime;q_1;q_2\n0;1;2\n100;3;4\n"):
+        assert read(text).time.tolist() == [0.0, 0.1]
+
+
+def test_pandas_tables(read):
+    """An index without a name that counts the rows is left out and told; names over several rows are read."""
+    history = read(",time,q_1\n0,0.0,5.0\n1,0.1,6.0\n2,0.2,7.0\n")
+    assert (history.mode.tolist(), history.time.tolist()) == ([1], [0.0, 0.1, 0.2])
+    assert [str(remark).split(": ", 1)[1] for remark in history.remarks] == [
+        "column 1 has no name and counts the rows; it is left out. Export without it."
+    ]
+    assert read(",time,q_1\n3,0.0,5.0\n1,0.1,6.0\n").mode.tolist() == [0, 1]
+    history = read("mode;1;2\nunit;m;m\ntime;;\n0;1;2\n1;3;4\n")
+    assert (history.mode.tolist(), history.unit) == ([1, 2], ("m", "m"))
+    assert read("time;q_1\n0;1\n1;2\n\x1a").time.tolist() == [0.0, 1.0]
+
+
+def test_a_column_by_its_name_without_the_unit(read):
+    """A map or --time-column may leave units and frequencies out."""
+    text = "when [ms],Time [s],q_1 [m],q_2 (12 Hz)\n0,5,1,2\n100,6,3,4\n"
+    history = read(text, {"q_1": 7, "q_2": 9}, "when")
+    assert (history.mode.tolist(), history.time.tolist(), history.unit) == ([7, 9], [0.0, 0.1], ("m", ""))
+    assert read(text, {"q_1": 7}, "Time").time.tolist() == [5.0, 6.0]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "CPU time (min): 3",
+        "Run time: 12 s",
+        "Number of modes: 40",
+        "Integrator time step: 1e-5",
+        "dt = 1e-5 s",
+        "Model 3, version 5",
+        "Sampled at 10 Hz",
+        "2024-11-29 10:00",
+        "Units: m, kg, s",
+    ],
+)
+def test_lines_that_state_nothing_of_the_table(read, line):
+    """Text above the table that speaks of other things is no contradiction."""
+    assert read(f"{line}\ntime,q_1,q_2\n0,1,2\n0.1,3,4\n").time.tolist() == [0.0, 0.1]
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("Time in ms", None),
+        ("% all times in ms, coordinates in m", None),
+        ("Time unit = ms", None),
+        ("Zeiteinheit: ms", None),
+        ("Unit of time: parsec", "'parsec' is no unit of time"),
+        ("Columns: 4", "the header states 4 columns"),
+        ("Number of modes: 1", "the header states 1 modes"),
+        ("Sample interval: 5 ms", "the header states a step of 0.005 s, the usual step of the table is 100 s"),
+        ("Number of samples = 3", "the header states 3 samples, the table has 2 rows"),
+    ],
+)
+def test_lines_that_state_something(read, line, message):
+    """Units, counts and sampling in a line of text are used, or contradict the table."""
+    text = f"{line}\ntime,q_1,q_2\n0,1,2\n100,3,4\n"
+    if message is None:
+        assert read(text).time.tolist() == [0.0, 0.1]
+        return
+    with pytest.raises(DataError, match=f"line 1: {message}"):
+        read(text)

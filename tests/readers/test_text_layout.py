@@ -41,6 +41,8 @@ DIALECTS = {
     "blank lines": PLAIN.replace("\n", "\n\n").encode(),
     "blanks around": PLAIN.replace(",", " , ").encode(),
     "quoted": b'"weld","x_mm","n"\n"Tr\xc3\xa4ger","1.5","7"\n"b","-2500.0","8"\n',
+    "decimal commas in quotation marks": PLAIN.replace("1.5", '"1,5"').replace("-2500.0", '"-2500,0"').encode(),
+    "names in two lines": PLAIN.replace("x_mm", '"x_mm\n"').encode(),
     "old Mac": PLAIN.replace("\n", "\r").encode(),
     "no line end": PLAIN.rstrip().encode(),
 }
@@ -103,6 +105,11 @@ def test_batches(path):
         ),
         ("time_s,q_1\nms,-\n1,2\n", "t.csv: column time_s, row of units: the unit is ms, and the column is one of s."),
         ("time_s,q_1\ns,m\n1,2\n", "t.csv: column q_1, row of units: the unit is m, and the column is one of mm, or m"),
+        (
+            'a,b\n1,"1,234"\n2,"5,678"\n',
+            "t.csv: 1,234 may have a decimal comma or a thousands separator. Write points,",
+        ),
+        ('a,b\n1.5,"1,234.5"\n', "t.csv: column b, row 1: '1,234.5' is not a number."),
         ("a,b\n1,\x00\n", "t.csv: line 2: a NUL byte stands in the text; the file is damaged or not a text. Write the"),
         ("", "t.csv: the first line is empty. Write the column names there."),
         ("# only\n# comments\n", "t.csv: the first line is empty. Write the column names there."),
@@ -118,7 +125,9 @@ def test_contradictions(tmp_path, text, message):
     path = tmp_path / "t.csv"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(DataError) as refusal:
-        open_table(path)
+        table = open_table(path)
+        table.numbers("b")
+        table.refuse()
     assert str(refusal.value).startswith(message)
 
 
@@ -142,7 +151,10 @@ def test_what_the_head_does_not_show(tmp_path):
     table = open_table(path, texts=("a",))
     assert table.numbers("x")[-2:].tolist() == [1000.0, 0.01]
     assert table.row_name(60_001) == "row 60003"
-    path.write_text("a;x\n" + "w;1\n" * 60_000 + "w;1,5\n")
+    for number in ("1,5", "1.5", "0,15D+01", "0.15D+01", "15D-1"):
+        path.write_text("a;x\n" + "w;1\n" * 60_000 + f"w;{number}\n")
+        assert open_table(path, texts=("a",)).numbers("x")[-1] == 1.5
+    path.write_text("a,x\n" + "w,1\n" * 60_000 + "w,0.15D+01\n")
     assert open_table(path, texts=("a",)).numbers("x")[-1] == 1.5
 
 

@@ -1,7 +1,7 @@
 """Tables of the neutral format read anew with pandas: whole ones, and some rows of those that grow with the body."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
+
+from fatigue.verify.recount.dialect import read_texts
 
 FORCE_COLUMNS = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
 IDS = ("mode", "node", "order", "element")
@@ -21,7 +23,7 @@ def read_frame(path: Path) -> pd.DataFrame:
     """Read a table: ids as integers, texts and flags as they are, all else as numbers."""
     if path.suffix.lower() == ".parquet":
         return _typed(pd.read_parquet(path))
-    return _typed(pd.read_csv(path, **_AS_TEXTS))
+    return _typed(pd.concat(read_texts(path, TEXTS), ignore_index=True))
 
 
 def read_pieces(path: Path, columns: Sequence[str] = ()) -> Iterator[pd.DataFrame]:
@@ -40,10 +42,6 @@ def read_rows_where(path: Path, key: str, values: Sequence[Any]) -> pd.DataFrame
     return pd.concat([piece for piece in found if len(piece)] or found[:1], ignore_index=True)
 
 
-# as texts: the number parser of pandas may be wrong in the last digit
-_AS_TEXTS: dict[str, Any] = {"dtype": str, "keep_default_na": False, "na_values": [""]}
-
-
 def _pieces(path: Path, columns: Sequence[str], key: str = "", values: Sequence[Any] = ()) -> Iterator[pd.DataFrame]:
     """Read a table piece by piece as it stands, at least one; parts whose key is surely none of the values left out."""
     with ExitStack() as stack:
@@ -56,7 +54,7 @@ def _pieces(path: Path, columns: Sequence[str], key: str = "", values: Sequence[
                     for batch in file.iter_batches(_ROWS_AT_ONCE, [number], names):
                         yield _named(pa.Table.from_batches([batch]).to_pandas())
             return
-        for piece in stack.enter_context(pd.read_csv(path, chunksize=_ROWS_AT_ONCE, **_AS_TEXTS)):
+        for piece in stack.enter_context(closing(read_texts(path, TEXTS, _ROWS_AT_ONCE))):
             named = _named(piece)
             yield named[[name for name in named.columns if name in columns]] if columns else named
 
@@ -77,6 +75,8 @@ def _may_hold(file: pq.ParquetFile, number: int, key: str, values: Sequence[Any]
 
 def _named(frame: pd.DataFrame) -> pd.DataFrame:
     frame.columns = frame.columns.str.strip()
+    for name in frame.columns[frame.dtypes.map(lambda kind: kind.kind == "m")]:
+        frame[name] = frame[name].dt.total_seconds()  # durations
     return frame
 
 
