@@ -187,7 +187,7 @@ OWN = (
     Known(
         "an ANSYS file of modal coordinates (.mcf)",
         "Give it to fatigue convert --coordinates",
-        within=rb"(?im)^\s*Number of Modes\s*:?\s*\d+\s*$",
+        within=rb"(?ims)^\s*Number of Modes\s*:?\s*\d+\s*$.*^\s*(?:Time|Freq\w*)\s+Coordinates",
     ),
     Known(
         "a NASTRAN punch file", "Give it to fatigue convert --forces", within=rb"(?m)^\$(?:TITLE|SUBCASE ID|GRID POINT)"

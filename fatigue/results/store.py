@@ -151,8 +151,12 @@ def read_table(folder: Path, table: str, columns: Sequence[str] | None = None) -
     DataError : the folder holds no such table, or the file is damaged
     """
     path = folder / f"{table}.parquet"
+    wanted = [column.name for column in TABLES[table]] if columns is None else list(columns)
     with readable(path):
-        return pq.read_table(path, columns=None if columns is None else list(columns))
+        found = pq.read_table(path, columns=None if columns is None else wanted)
+        if missing := [name for name in wanted if name not in found.column_names]:
+            raise pa.ArrowInvalid(f"it has no column {missing[0]}")
+    return found
 
 
 @contextmanager

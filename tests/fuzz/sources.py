@@ -55,7 +55,10 @@ def _results(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     names = ("mode", "node", "element", "kind", "force", "shape_node", "shape")
     optional = {"?frequency": found.frequency, "?modal_mass": found.modal_mass}
     without = () if found.shape_node.size else (Problem("no_shapes", "", "the audit cannot prove the sign", ""),)
-    return {name: getattr(found, name) for name in names} | optional, (*found.remarks, *without)
+    columns = {name: getattr(found, name) for name in names}
+    rows = found.of_element  # loads and totals may differ between modes, and count nowhere
+    columns |= {name: columns[name][rows] for name in ("node", "element", "kind")} | {"force": found.force[:, rows]}
+    return columns | optional, (*found.remarks, *without)
 
 
 def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
