@@ -70,7 +70,7 @@ def weld_sources(command: Any) -> Any:
     help="How columns of coordinates find their modes.",
 )
 @click.option("--columns", type=_FILE, help="CSV column,mode: which column belongs to which mode.")
-@click.option("--time-column", help="Name of the time column.")
+@click.option("--time-column", help="Name of the time column, or its position from 1.")
 @click.option(
     "--resample", type=float, metavar="STEP_S", help="Interpolate records with uneven steps onto this step [s]."
 )

@@ -131,7 +131,7 @@ def _cells_of(line: str, rows: Rows) -> tuple[str, ...] | None:
             return tuple(cells)
         if separator is not None and len(cells) == rows.width + 1 and cells[-1].lower() == "comment":
             return tuple(cells[:-1])  # LabVIEW's last column, which is empty in the rows
-        if separator == rows.separator and _cell_count(text, separator) == rows.width and any(cells):
+        if separator == rows.separator and _cell_count(text, separator) == rows.width > len(cells) > 0:
             return tuple(cells + [""] * (rows.width - len(cells)))  # the last columns have no name
     apart = [cell.strip("'\" ") for cell in re.split(r"\s{2,}|\t", text.strip())]
     return tuple(apart) if len(apart) == rows.width and rows.width > 1 else None

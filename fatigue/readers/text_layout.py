@@ -6,7 +6,7 @@ passed over; a row of units below the names is kept, to be compared with them.
 
 import re
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -76,7 +76,7 @@ def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
     text = head.decode(encoding, errors="replace").removeprefix("\ufeff")
     if "\0" in text:
         raise DataError(nul_problem(path, text[: text.index("\0")].count("\n") + 1))
-    return layout_of(path, text_lines(text, whole=whole), encoding, texts)
+    return layout_of(path, text_lines(text, whole=whole), encoding, lambda name: name not in texts)
 
 
 def text_lines(text: str, *, whole: bool = True) -> list[str]:
@@ -98,8 +98,11 @@ def whole_cells(lines: Sequence[str]) -> list[str]:
     return result
 
 
-def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, texts: Collection[str] = ()) -> TableLayout:
-    """Find the layout of the lines of a file, or of its first ones; as ``table_layout``."""
+def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: Callable[[str], bool]) -> TableLayout:
+    """Find the layout of the lines of a file, or of its first ones; as ``table_layout``.
+
+    ``is_numeric`` tells which columns, by name, hold numbers and so the decimal sign.
+    """
     at, declared, comment = 0, None, None
     if not lines[0].strip():
         raise DataError(_no_names(path))
@@ -126,7 +129,7 @@ def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, texts: Colle
         units, rows = found_units, rows[1:]
         first = next(k for k in range(first, len(lines)) if lines[k].strip()) + 1
     layout = TableLayout(encoding, separator, None, names, units, first, header + 1, fortran=False)
-    return _with_numbers(path, layout, rows, texts)
+    return _with_numbers(path, layout, rows, is_numeric)
 
 
 def _no_names(path: Path) -> Problem:
@@ -196,9 +199,11 @@ def _unit_row(row: str, separator: str | None, width: int) -> tuple[str, ...]:
     return (*cells, *[""] * (width - len(cells)))
 
 
-def _with_numbers(path: Path, layout: TableLayout, rows: Sequence[str], texts: Collection[str]) -> TableLayout:
+def _with_numbers(
+    path: Path, layout: TableLayout, rows: Sequence[str], is_numeric: Callable[[str], bool]
+) -> TableLayout:
     """Find the decimal sign and exponents of Fortran in the columns that are no names."""
-    numeric = [k for k, name in enumerate(layout.names) if name.strip() not in texts]
+    numeric = [k for k, name in enumerate(layout.names) if is_numeric(name.strip())]
     signs: Counter[str] = Counter()
     first: dict[str, str] = {}
     commas: set[str] = set()

@@ -36,7 +36,7 @@ def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...
     """
     text, encoding = read_text(path)
     lines = text_lines(text)
-    layout = layout_of(path, lines, encoding)
+    layout = layout_of(path, lines, encoding, lambda name: name in numbers)
     names = tuple(composed(name) for name in layout.names)
     twice = [name for name in names if name and names.count(name) > 1]
     if twice:

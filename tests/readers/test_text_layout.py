@@ -238,3 +238,12 @@ def test_exact_numbers(tmp_path):
     for sign in ".,":
         path.write_text("x;n\n" + "".join(f"{v!r};1\n".replace(".", sign) for v in values.tolist()))
         assert np.array_equal(open_table(path).numbers("x"), values)
+
+
+def test_decimal_signs_in_remarks(tmp_path):
+    """What stands in a column of texts says nothing of the decimal sign."""
+    path = tmp_path / "r.csv"
+    path.write_text("weld;thickness_mm;description\na;8,5;2.5\nb;8;t = 3,5 mm\n")
+    _, rows = read_rows(path, numbers=("thickness_mm",))
+    assert [row.cells["thickness_mm"] for row in rows] == ["8.5", "8"]
+    assert [row.cells["description"] for row in rows] == ["2.5", "t = 3,5 mm"]
