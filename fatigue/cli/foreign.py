@@ -75,7 +75,11 @@ def weld_sources(command: Any) -> Any:
     "--resample", type=float, metavar="STEP_S", help="Interpolate records with uneven steps onto this step [s]."
 )
 @click.option("--simulation-modes", type=_FILE, help="CSV mode,frequency_hz,modal_mass of the simulation's modes.")
-@click.option("--interface-modes", default="", help="Residual, constraint or attachment modes, as 31-52.")
+@click.option(
+    "--interface-modes",
+    default="",
+    help="Residual, constraint or attachment modes, and static subcases that are such, as 31-52.",
+)
 @click.option("--ignore-modes", default="", help="Modes to leave out on either side, as 1-6.")
 @click.option(
     "--accept", multiple=True, metavar="CHECK", help="Go on although this check of the audit is red; repeatable."

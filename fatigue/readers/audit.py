@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.fe_model import FeModel, to_basic
-from fatigue.readers.fe_results import REQUEST, TOTALS, FeResults
+from fatigue.readers.fe_results import REQUEST, FeResults
 from fatigue.readers.force_sign import LOWEST_HZ, prove_sign
 from fatigue.readers.forces import Convention
 from fatigue.weld.element_forces import ElementForces, balance
@@ -78,6 +78,7 @@ def audit(
         sign,
         _completeness(results, model),
         *_interface(results, set(interface_modes)),
+        *_unknown_frequencies(results, {*interface_modes, *results.static_modes}),
         *_masses(results),
         *_frequencies(results, simulated),
     ]
@@ -165,7 +166,7 @@ def _frames(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> 
 
 def _nodal_totals(results: FeResults) -> AuditRow:
     """Compare the stated totals of every grid with the sum of its rows: a checksum over every number of the table."""
-    is_total = results.kind == TOTALS
+    is_total = results.of_total
     if not is_total.any():
         return AuditRow(
             "grid totals",
@@ -175,10 +176,12 @@ def _nodal_totals(results: FeResults) -> AuditRow:
             "Rely on the element balance",
         )
     grids, at = np.unique(results.node, return_inverse=True)
-    stated = np.zeros(grids.size, bool)
-    stated[at[is_total]] = True
     worst, where = 0.0, (0, 0)
-    for k, force in enumerate(results.force.astype(np.float64)):
+    for k, own in enumerate(results.force.astype(np.float64)):
+        is_here = ~np.isnan(own).any(axis=1)  # a row that is no element's may belong to other modes
+        stated = np.zeros(grids.size, bool)
+        stated[at[is_total & is_here]] = True
+        force = np.where(is_here[:, None], own, 0.0)
         for part in (slice(0, 3), slice(3, 6)):
             values = force[:, part]
             size = np.abs(values).max(axis=1)
@@ -260,6 +263,27 @@ def _interface(results: FeResults, marked: set[int]) -> list[AuditRow]:
             0.0,
             "no mode is marked as an interface (residual, constraint, attachment) mode",
             "Name them; without them brackets and hangers lose most of their force",
+        )
+    ]
+
+
+def _unknown_frequencies(results: FeResults, marked: set[int]) -> list[AuditRow]:
+    """Modes of vibration have a frequency; static subcases have none by nature."""
+    if results.analysis == "static":
+        return []
+    is_unknown = np.isnan(results.frequency) & ~np.isin(results.mode, sorted(marked))
+    if not is_unknown.any():
+        return []
+    count, first = int(is_unknown.sum()), int(results.mode[is_unknown][0])
+    return [
+        AuditRow(
+            "frequencies",
+            "red",
+            float(count),
+            f"{count} of {results.mode.size} modes have no frequency, mode {first} the first: there is no eigenvalue "
+            "summary, and no eigenvalue stands beside their shapes or forces",
+            "Request DISPLACEMENT(PLOT) or the eigenvalue summary (LAMA) in the same file, or name modes that are "
+            "static by nature as interface modes",
         )
     ]
 

@@ -27,7 +27,7 @@ from fatigue.readers.modal_basis import (
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.units import Normalisation, unit_system
-from fatigue.readers.weld_forces import neutral_forces, to_mid_surface, with_forces_only
+from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import WeldSources, find_welds
 from fatigue.readers.weld_register import REGISTER, RegisterRow, register_text
 
@@ -48,7 +48,7 @@ class ConvertOptions:
     subcase : which one, where the force file has several
     force_units, coordinate_units : unit systems of the FE files and of the coordinates
     normalisation : whether modes have unit generalised mass or unit displacement (for the conversion of units)
-    interface_modes : modes that are residual, constraint or attachment modes
+    interface_modes : modes that are residual, constraint or attachment modes; static subcases among them are read, too
     ignore_modes : modes to leave out on either side
     match : how columns find their modes
     columns : table of the columns ``column, mode``
@@ -108,8 +108,8 @@ def convert(options: ConvertOptions) -> Conversion:
     CaseError : an unknown unit system, an undecided sign convention
     """
     units = unit_system(options.force_units, "force units")
-    coordinate_units = unit_system(options.coordinate_units, "coordinate units")
-    results, model = read_forces(options.forces, options.subcase), read_model(options.mesh)
+    history_units = unit_system(options.coordinate_units, "coordinate units")
+    results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
     results = without_modes(results, options.ignore_modes)
     table = simulation_modes(options.simulation_modes)
     histories = [_history(path, options, results, table) for path in options.coordinates]
@@ -145,7 +145,7 @@ def convert(options: ConvertOptions) -> Conversion:
         **weld_tables(found),
         REGISTER: register_text(found.rows),
     }
-    factor = coordinate_units.modal_coordinate(options.normalisation) if results.analysis == "modal" else 1.0
+    factor = coordinate_units(results, history_units, options.normalisation)
     events = []
     for history in histories:
         name = _unused(f"q_{_slug(Path(history.source).stem)}.parquet", files)

@@ -11,8 +11,6 @@ from fatigue.readers.forces import Convention
 LOWEST_HZ = 1e-3
 """Below it a frequency is the round-off of a rigid mode."""
 
-_LOADS = ("APP-LOAD", "F-OF-SPC", "F-OF-MPC")
-
 
 class SignProof(NamedTuple):
     """What decides the sign: the number, the convention it proves (None: nothing), and the number in words."""
@@ -36,7 +34,8 @@ def prove_sign(results: FeResults) -> SignProof:
 def _by_work(results: FeResults) -> SignProof:
     """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
 
-    Without a frequency, the signs of the elements' own works decide: a strain energy is never negative.
+    Without a frequency and a generalised mass, the signs of the elements' own works decide: a strain energy is never
+    negative.
     """
     rows = np.flatnonzero(results.of_element)
     at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
@@ -62,7 +61,9 @@ def _by_work(results: FeResults) -> SignProof:
     if total == 0:
         return SignProof(None, None, "the mode shapes do no work on the forces")
     balance_of_signs = float(each.sum() / total)
-    text = f"no mode has a frequency; work of the elements is {abs(balance_of_signs):.1%} of one sign"
+    lack = "frequency" if not (results.frequency > LOWEST_HZ).any() else "generalised mass"
+    given = "static subcases" if results.analysis == "static" else f"no mode has a {lack}"
+    text = f"{given}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
     if abs(balance_of_signs) < 0.8:
         return SignProof(balance_of_signs, None, text)
     return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)
@@ -70,13 +71,13 @@ def _by_work(results: FeResults) -> SignProof:
 
 def _by_loads(results: FeResults) -> SignProof:
     """Element rows plus loads and reactions vanish for forces on nodes; they are equal for forces on elements."""
-    is_load = np.isin(results.kind, _LOADS)
+    is_load = ~results.of_element & ~results.of_total
     if not is_load.any():
         return SignProof(None, None, "no applied loads or reactions in the file")
     grids, at = np.unique(results.node, return_inverse=True)
 
     def sums(rows: NDArray[np.bool_]) -> NDArray[np.float64]:
-        force = results.force[:, rows, :3].astype(np.float64)
+        force = np.nan_to_num(results.force[:, rows, :3].astype(np.float64))  # NaN: not a row of this subcase
         out = np.zeros((results.mode.size, grids.size, 3))
         for total, each in zip(out, force, strict=True):
             np.add.at(total, at[rows], each)

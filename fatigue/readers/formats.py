@@ -1,5 +1,6 @@
 """Which reader a foreign file needs, recognised by its first bytes and not by its name."""
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import Literal
 
@@ -79,15 +80,15 @@ def _text_format(text: str) -> Format:
     return "text"
 
 
-def read_forces(path: Path, subcase: int | None) -> FeResults:
-    """Read grid point forces from any format that holds them."""
+def read_forces(path: Path, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
+    """Read grid point forces from any format that holds them, with static subcases named as interface modes."""
     form = recognise(path)
     if form == "op2":
-        return read_op2(path, subcase)
+        return read_op2(path, subcase, interface)
     if form == "h5":
-        return read_h5(path, subcase)
+        return read_h5(path, subcase, interface)
     if form == "punch":
-        return read_punch(path, subcase)
+        return read_punch(path, subcase, interface)
     raise DataError(
         _swapped("no_forces", path, form, "grid point forces", "--forces an .op2, an MSC .h5 or a punch file")
     )

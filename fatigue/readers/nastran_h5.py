@@ -1,6 +1,6 @@
 """Grid point forces and geometry from an MSC Nastran HDF5 file (``MDLPRM,HDF5,1``)."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.readers.fe_assembly import assemble
 from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
-from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, assemble
+from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock
+from fatigue.readers.force_rows import sharing_rows
+from fatigue.readers.nastran_analysis import MODES, STATIC, wrong_analysis
 from fatigue.readers.nastran_frames import FrameCard, Frames
 
 _COMPONENTS = ("F1", "F2", "F3", "M1", "M2", "M3")
 _SHAPE = ("X", "Y", "Z", "RX", "RY", "RZ")
-_STATIC, _MODES = 1, 2  # ANALYSIS in the table of domains
 _SHELLS = {"CQUAD4": 4, "CQUADR": 4, "CQUAD8": 4, "CTRIA3": 3, "CTRIAR": 3, "CTRIA6": 3}
 _BLANK = 1.7368e-18  # what the file holds for a real field left blank
 _MOST_COMPRESSED = 1100  # deflate cannot do better; a larger claim is damage
@@ -24,35 +26,59 @@ _MOST_COMPRESSED = 1100  # deflate cannot do better; a larger claim is damage
 Rows = NDArray[Any]
 
 
-def read_h5(path: Path, subcase: int | None = None) -> FeResults:
+def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
     """Read the grid point forces of a real modal run or of static subcases, in double precision.
+
+    Parameters
+    ----------
+    subcase : the one to read, where the file has several that cannot be read together
+    interface : static subcases that are modes of the basis, beside those of a modal subcase
 
     Raises
     ------
     DataError : h5py missing, damaged file, no GRID_FORCE table, other than modal and static results, superelements
     """
     with _open(path) as read:
+        if not len(read("NASTRAN/RESULT/NODAL/GRID_FORCE", False)) and len(
+            read("NASTRAN/RESULT/NODAL/GRID_FORCE_CPLX", False)
+        ):
+            raise DataError(
+                Problem("complex_forces", str(path), "the forces are complex (table GRID_FORCE_CPLX)", REQUEST)
+            )
         forces_table = read("NASTRAN/RESULT/NODAL/GRID_FORCE")
         domains = {int(d["ID"]): d for d in read("NASTRAN/RESULT/DOMAINS", required=False)}
-        shapes_table = read("NASTRAN/RESULT/NODAL/EIGENVECTOR", required=False)
-        summary = read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
-        forces = []
+        forces: list[ForceBlock] = []
+        unusable: list[UnusableBlock] = []
+        stated: dict[tuple[int, int], list[float]] = {}
         for key, rows in _by_domain(forces_table):
-            domain, where = domains.get(key), f"{path}, domain {key}"
-            _check_domain(domain, where)
-            forces.append(_force_block(domain, rows, where))
+            if (domain := domains.get(key)) is None:
+                raise DataError(
+                    Problem(
+                        "no_domain", f"{path}, domain {key}", "the table of domains lacks it", "Copy the file again"
+                    )
+                )
+            where = f"{path}, subcase {domain['SUBCASE']} mode {domain['MODE']} (domain {key})"
+            if (other := _unusable(domain, where)) is not None:
+                unusable.append(UnusableBlock(int(domain["SUBCASE"]), other))
+                continue
+            forces.append(sharing_rows(_force_block(domain, rows, where), forces))
+            stated[_key(domain)] = [float(domain["TIME_FREQ_EIGR"])]
         shapes = [
-            ShapeBlock(
-                int(domains[key]["SUBCASE"]),
-                int(domains[key]["MODE"]),
-                rows["ID"].astype(np.int64),
-                _columns(rows, _SHAPE),
-            )
-            for key, rows in _by_domain(shapes_table)
-            if key in domains
+            ShapeBlock(*_key(domains[key]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE))
+            for name in ("EIGENVECTOR", "DISPLACEMENT")
+            for key, rows in _by_domain(read(f"NASTRAN/RESULT/NODAL/{name}", required=False))
+            if key in domains and _unusable(domains[key], "") is None
         ]
-        eigenvalues = {int(row["MODE"]): Eigenvalue(float(row["FREQ"]), float(row["MASS"])) for row in summary}
-    return assemble(str(path), "MSC Nastran", forces, shapes, eigenvalues, subcase)
+        summary = [
+            Eigenvalue(
+                int(domains[int(row["DOMAIN_ID"])]["SUBCASE"]) if int(row["DOMAIN_ID"]) in domains else 0,
+                int(row["MODE"]),
+                float(row["FREQ"]),
+                float(row["MASS"]),
+            )
+            for row in read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
+        ]
+    return assemble(str(path), "MSC Nastran", forces, shapes, summary, stated, subcase, unusable, interface)
 
 
 def read_h5_model(path: Path) -> FeModel:
@@ -167,33 +193,26 @@ def _columns(rows: Rows, names: tuple[str, ...]) -> NDArray[np.float64]:
     return np.stack([rows[name] for name in names], axis=1)
 
 
-def _check_domain(domain: Any, where: str) -> None:
-    """Refuse what is not a real static or modal result of the residual structure."""
-    if domain is None:
-        raise DataError(Problem("no_domain", where, "the table of domains lacks it", "Copy the file again"))
-    if int(domain["ANALYSIS"]) not in (_STATIC, _MODES):
-        raise DataError(
-            Problem(
-                "wrong_analysis",
-                where,
-                f"analysis type {domain['ANALYSIS']} is neither static nor modal",
-                "Use SOL 103",
-            )
-        )
+def _key(domain: Any) -> tuple[int, int]:
+    """Subcase and mode, 0 in a static subcase."""
+    return int(domain["SUBCASE"]), int(domain["MODE"]) if int(domain["ANALYSIS"]) == MODES else 0
+
+
+def _unusable(domain: Any, where: str) -> Problem | None:
+    """Why a domain is no real static or modal result of the residual structure; None if it is."""
+    if int(domain["ANALYSIS"]) not in (STATIC, MODES):
+        return wrong_analysis(where, int(domain["ANALYSIS"]))
     if int(domain["SE"]):
-        raise DataError(
-            Problem("superelement", where, f"results of superelement {domain['SE']}", "Run without superelements")
-        )
+        return Problem("superelement", where, f"results of superelement {domain['SE']}", "Run without superelements")
+    return None
 
 
 def _force_block(domain: Any, rows: Rows, where: str) -> ForceBlock:
     distinct, which = np.unique(rows["ELNAME"], return_inverse=True)
     kind = np.array([name.decode("ascii").strip() for name in distinct.tolist()], dtype=np.str_)
-    mode = int(domain["MODE"]) if int(domain["ANALYSIS"]) == _MODES else 0
     return ForceBlock(
         where,
-        int(domain["SUBCASE"]),
-        mode,
+        *_key(domain),
         rows["ID"].astype(np.int64),
         rows["EID"].astype(np.int64),
         kind[which],

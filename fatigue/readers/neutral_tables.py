@@ -82,9 +82,15 @@ def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
     }
 
 
-def history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: float) -> pa.Table:
-    """Coordinates of the modes, times ``factor``."""
+def history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDArray[np.float64]) -> pa.Table:
+    """Coordinates of the modes, (m,), each times its ``factor``, (m,)."""
     row = {int(m): k for k, m in enumerate(history.mode)}
     return pa.table(
-        {"time_s": history.time, **{f"q_{m}": (history.q[row[int(m)]] * factor).astype(np.float32) for m in mode}}
+        {
+            "time_s": history.time,
+            **{
+                f"q_{m}": (history.q[row[int(m)]] * f).astype(np.float32)
+                for m, f in zip(mode, factor.tolist(), strict=True)
+            },
+        }
     )

@@ -1,22 +1,34 @@
 """The record structure of a NASTRAN OUTPUT2 file: where every table and every record of it lies.
 
 An OP2 file is a stream of Fortran records, each between two copies of its byte length. One-word records are markers: a
-positive marker announces a record of that many words, the markers -1, -2, -3 ... count the logical records of a table,
-and a zero ends a table or the file. The structure is checked to the last byte before anything is decoded, so that a
-cut or damaged file is refused whatever the damage hits.
+positive marker announces a record of that many words, falling negative markers number the logical records of a table,
+and a zero ends a table or the file. What solvers do differently is read as it comes: the tape header and its version
+records may be there or not, and so may the version record after each table name (MSC Nastran since 2014, PARAM,POST,1);
+a logical record is one chunk or many (OptiStruct: one for each row); the numbers of records may jump. The structure is
+checked to the last byte before anything is decoded, so that a cut or damaged file is refused whatever the damage hits.
 """
 
 import mmap
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 
-Span = tuple[int, int]
-"""First byte and length in bytes of one chunk of a record."""
+
+class Chunks(NamedTuple):
+    """Equal chunks of a record at equal distances: first byte and length of one [bytes], number, distance [bytes]."""
+
+    first: int
+    length: int
+    number: int = 1
+    pitch: int = 0
+
+
+Record = tuple[Chunks, ...]
 
 _LAYOUTS = {
     b"\x04\x00\x00\x00": ("<", 4),
@@ -24,14 +36,18 @@ _LAYOUTS = {
     b"\x00\x00\x00\x04": (">", 4),
     b"\x00\x00\x00\x08": (">", 8),
 }
+_NAME_WORDS = 2
+_HEADER_STARTS = (3, 7)  # words of the date, or of the tape identification where there is no date
+_COMPARED_AT_ONCE = 64, 1 << 18  # chunks, from the first to the largest step
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Op2Table:
-    """One table: its name and its logical records, the identification and trailer records left out."""
+    """One table: its name, its logical records (name and trailer left out), and the number of the run that wrote it."""
 
     name: str
-    records: tuple[tuple[Span, ...], ...]
+    records: tuple[Record, ...]
+    run: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,6 +58,8 @@ class Op2File:
     ----------
     order, word : byte order ("<" or ">") and bytes per word (4 or 8)
     label : version label of the solver, empty without a tape header
+    tables : in the order of the file; a file to which a second run was appended has the tables of both
+    is_closed : whether the file ends with its end mark
     """
 
     path: Path
@@ -49,12 +67,31 @@ class Op2File:
     word: int
     label: str
     tables: tuple[Op2Table, ...]
+    is_closed: bool
     data: NDArray[np.uint8]
 
-    def record(self, spans: tuple[Span, ...]) -> NDArray[np.uint8]:
+    def record(self, record: Record) -> NDArray[np.uint8]:
         """Bytes of one logical record, its chunks joined."""
-        chunks = [self.data[first : first + length] for first, length in spans]
-        return chunks[0] if len(chunks) == 1 else np.concatenate(chunks or [self.data[:0]])
+        parts = [
+            self.data[c.first : c.first + c.length]
+            if c.number == 1
+            else np.ndarray((c.number, c.length), np.uint8, self.data, c.first, (c.pitch, 1)).reshape(-1)
+            for c in record
+        ]
+        return parts[0] if len(parts) == 1 else np.concatenate([self.data[:0], *parts])
+
+
+def characters(raw: bytes, word: int) -> str:
+    """Characters of words of 4 or 8 bytes; a 64-bit word carries four of them and four blanks, or eight."""
+    quarters = [raw[k : k + 4] for k in range(0, len(raw), 4)] if word == 8 else []
+    if quarters and not b"".join(quarters[1::2]).strip(b" \0"):
+        raw = b"".join(quarters[::2])
+    return raw.decode("latin-1")
+
+
+def text_of(raw: bytes, word: int) -> str:
+    """Characters of words as text: what cannot be printed is a blank, and blanks at the ends are left out."""
+    return "".join(c if c.isprintable() else " " for c in characters(raw, word)).strip()
 
 
 class _Cursor:
@@ -63,6 +100,7 @@ class _Cursor:
     def __init__(self, path: Path, data: mmap.mmap) -> None:
         self.path, self.data, self.position = path, data, 0
         self.table = ""
+        self.between: dict[int, bytes] = {}  # words of one chunk and those of the next, by their number
         if data[:4] not in _LAYOUTS:
             raise DataError(
                 Problem(
@@ -84,8 +122,12 @@ class _Cursor:
             )
         )
 
-    def span(self) -> Span:
-        """Step over one Fortran record and return its bytes' place."""
+    def bytes_of(self, value: int, size: int = 4) -> bytes:
+        """Write an integer as the file does; a length mark has four bytes whatever the size of a word."""
+        return value.to_bytes(size, self.endian, signed=True)  # type: ignore[arg-type]
+
+    def record(self) -> Chunks:
+        """Step over one Fortran record and return the place of its bytes."""
         head = self.data[self.position : self.position + 4]
         length = int.from_bytes(head, self.endian)  # type: ignore[arg-type]
         first = self.position + 4
@@ -94,11 +136,11 @@ class _Cursor:
         if self.data[first + length : first + length + 4] != head:
             raise self.broken(f"the two length marks of a record of {length} bytes differ")
         self.position = first + length + 4
-        return first, length
+        return Chunks(first, length)
 
     def marker(self) -> int:
         """Read a one-word record."""
-        first, length = self.span()
+        first, length, _, _ = self.record()
         if length != self.word:
             raise self.broken(f"a marker of {self.word} bytes was expected, the record has {length}")
         return int.from_bytes(self.data[first : first + length], self.endian, signed=True)  # type: ignore[arg-type]
@@ -109,19 +151,52 @@ class _Cursor:
             if (found := self.marker()) != wanted:
                 raise self.broken(f"marker {found} where {wanted} was expected")
 
-    def words(self, count: int) -> Span:
+    def words(self, count: int) -> Chunks:
         """Step over a record announced as ``count`` words."""
-        first, length = self.span()
-        if length != count * self.word:
-            raise self.broken(f"a record of {count} words was announced, it has {length / self.word:g}")
-        return first, length
+        record = self.record()
+        if record.length != count * self.word:
+            raise self.broken(f"a record of {count} words was announced, it has {record.length / self.word:g}")
+        return record
 
-    def text(self, span: Span) -> str:
-        """Characters of a record; in a 64-bit file each word carries four of them and four blanks."""
-        raw = self.data[span[0] : span[0] + span[1]]
-        if self.word == 8:
-            raw = b"".join(raw[i : i + 4] for i in range(0, len(raw), 8))
-        return raw.decode("latin-1").strip()
+    def chunks(self, count: int) -> Chunks:
+        """Step over a record announced as ``count`` words and over those like it that follow."""
+        one = self.words(count)
+        if count not in self.between:
+            mark, own = self.bytes_of(self.word), self.bytes_of(one.length)
+            self.between[count] = own + mark + self.bytes_of(count, self.word) + mark + own
+        between = self.between[count]
+        at = one.first + one.length
+        if self.data[at : at + len(between)] != between:
+            return one
+        pitch = one.length + len(between)
+        repeats = self._repeats(between, at, pitch)
+        self.position = one.first + repeats * pitch - 4
+        self.words(count)  # the last one's own marks
+        return Chunks(one.first, one.length, repeats + 1, pitch)
+
+    def _repeats(self, between: bytes, at: int, pitch: int) -> int:
+        """How often the same bytes stand at ``at`` and every ``pitch`` bytes behind it."""
+        wanted = np.frombuffer(between, np.int32)
+        most = (len(self.data) - at - len(between)) // pitch + 1
+        found, (step, largest) = 0, _COMPARED_AT_ONCE
+        while found < most:
+            size = min(step, most - found)
+            some = np.ndarray((size, wanted.size), np.int32, self.data, at + found * pitch, (pitch, 4))
+            other = np.flatnonzero((some != wanted).any(axis=1))
+            if other.size:
+                return found + int(other[0])
+            found, step = found + size, min(2 * step, largest)
+        return found
+
+    def is_before(self, *markers: int) -> bool:
+        """Whether one of these markers comes next."""
+        mark = self.bytes_of(self.word)
+        following = self.data[self.position : self.position + self.word + 8]
+        return any(following == mark + self.bytes_of(marker, self.word) + mark for marker in markers)
+
+    def text(self, record: Chunks) -> str:
+        """Characters of a record."""
+        return text_of(self.data[record.first : record.first + record.length], self.word)
 
 
 def read_records(path: Path) -> Op2File:
@@ -139,50 +214,68 @@ def read_records(path: Path) -> Op2File:
             Problem("unreadable", str(path), f"the file cannot be read ({error})", "Check the path and the file")
         ) from error
     cursor = _Cursor(path, data)
-    label = ""
-    key = cursor.marker()
-    if key == 3:  # PARAM,POST,-1 begins with date, tape identification and version label
-        cursor.words(3)
-        cursor.expect(7)
-        cursor.words(7)
-        cursor.expect(2)
-        label = cursor.text(cursor.words(2))
-        cursor.expect(-1, 0)
+    labels: list[str] = []
+    tables: list[Op2Table] = []
+    is_closed = False
+    while cursor.position < len(data):  # some runs do not close the file: a whole number of tables is all one can ask
+        if is_closed and not cursor.is_before(0, _NAME_WORDS, *_HEADER_STARTS):
+            raise cursor.broken(f"{len(data) - cursor.position} bytes follow the end mark of the file")
         key = cursor.marker()
-    tables = []
-    while key != 0:
-        if key != 2:
-            raise cursor.broken(f"marker {key} where a table name of 2 words was expected")
-        tables.append(_table(cursor))
-        # Some runs do not close the file with a last zero; a whole number of tables is all that can be asked for.
-        key = cursor.marker() if cursor.position < len(data) else 0
-    if cursor.position != len(data):
-        raise cursor.broken(f"{len(data) - cursor.position} bytes follow the end mark of the file")
-    return Op2File(path, cursor.order, cursor.word, label, tuple(tables), np.frombuffer(data, np.uint8))
+        is_closed = key == 0
+        if key in _HEADER_STARTS:
+            labels.append(_header(cursor, key))
+        elif key == _NAME_WORDS:
+            tables.append(_table(cursor, max(len(labels) - 1, 0)))
+        elif key != 0:
+            raise cursor.broken(f"marker {key} where a table name of {_NAME_WORDS} words was expected")
+    label = labels[0] if labels else ""
+    return Op2File(path, cursor.order, cursor.word, label, tuple(tables), is_closed, np.frombuffer(data, np.uint8))
 
 
-def _table(cursor: _Cursor) -> Op2Table:
+def _header(cursor: _Cursor, key: int) -> str:
+    """Step through the tape header after its first marker; returns the solver's label with its version record."""
+    if key == _HEADER_STARTS[0]:
+        date = cursor.record()
+        if date.length not in (cursor.word, 3 * cursor.word):  # some programs announce three words and write one
+            raise cursor.broken(f"a date of 3 words was announced, the record has {date.length / cursor.word:g}")
+        key = cursor.marker()
+    texts = []
+    while key > 0:
+        texts.append(cursor.text(cursor.words(key)))
+        key = cursor.marker()
+    if key != -1:
+        raise cursor.broken(f"marker {key} where the end of the header, -1, was expected")
+    cursor.expect(0)
+    return " ".join(" ".join(texts[1:]).split())  # the first is the tape identification
+
+
+def _table(cursor: _Cursor, run: int) -> Op2Table:
     """Step through one table after its name's marker."""
     cursor.table = ""
-    cursor.table = cursor.text(cursor.words(2))
+    cursor.table = cursor.text(cursor.words(_NAME_WORDS))
     name = cursor.table
-    cursor.expect(-1, 7)
-    cursor.words(7)
-    records: list[tuple[Span, ...]] = []
-    level = -2
+    level = cursor.marker()
+    while level > 0:  # the version record of newer solvers
+        cursor.words(level)
+        level = cursor.marker()
+    if level != -1:
+        raise cursor.broken(f"marker {level} where the table's trailer, -1, was expected")
+    cursor.words(cursor.marker())  # seven words in every file seen
+    records: list[Record] = []
+    key = cursor.marker()
     while True:
-        cursor.expect(level)
+        if key >= level:
+            raise cursor.broken(f"marker {key} where a record after {-level} was expected")
+        level = key
         cursor.marker()  # 1: another record follows
         is_matrix = cursor.marker() != 0  # then its numbers may be wider than a word
         key = cursor.marker()
         if key == 0:
             break
-        spans = []
+        chunks: list[Chunks] = []
         while key > 0:
-            spans.append(cursor.span() if is_matrix else cursor.words(key))
+            chunks.append(cursor.record() if is_matrix else cursor.chunks(key))
             key = cursor.marker()
-        records.append(tuple(spans))
-        level -= 1
-        cursor.position -= cursor.word + 8  # the negative marker just read opens the next record
+        records.append(tuple(chunks))
     cursor.table = ""
-    return Op2Table(name, tuple(records[1:]))  # the first record repeats the name
+    return Op2Table(name, tuple(records[1:]), run)  # the first record repeats the name

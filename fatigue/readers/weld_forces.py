@@ -68,12 +68,18 @@ def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int,
     return ""
 
 
+def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
+    """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
+
+
 def neutral_forces(
     results: FeResults, model: FeModel, units: UnitSystem, normalisation: Normalisation
 ) -> NDArray[np.floating]:
     """Turn the forces of all rows into basic axes and N, N mm per unit modal coordinate of the mm, t, s system."""
-    coordinate = units.modal_coordinate(normalisation) if results.analysis == "modal" else 1.0
-    factor = units.force / coordinate * np.array([1.0] * 3 + [units.length] * 3)
+    coordinate = coordinate_units(results, units, normalisation)
+    factor = units.force / coordinate[:, None, None] * np.array([1.0] * 3 + [units.length] * 3)
     force = to_basic(results.force, results.node, model)
     return force if np.all(factor == 1) else (force * factor).astype(force.dtype)
 

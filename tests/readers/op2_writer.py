@@ -1,23 +1,59 @@
-"""Write OP2 files for tests: any word size and byte order, any damage a test needs."""
+"""Write OP2 files for tests: any word size and byte order, the ways of several solvers, any damage a test needs."""
 
 import struct
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How a solver writes what may be written in several ways.
+
+    ``date``: words of the date in the header, 0: none; ``label_version`` and ``table_version``: words of the version
+    records after the label and after table names, 0: none; ``versioned``: the only tables that have one, None: all;
+    ``chunk``: words of a chunk; ``jump``: what record numbers skip; ``full_words``: 8 characters in a 64-bit word.
+    """
+
+    date: int = 3
+    label_version: int = 0
+    table_version: int = 0
+    versioned: tuple = None
+    chunk: int = 1000
+    jump: int = 0
+    full_words: bool = False
+
+
+PLAIN = Dialect()
+MSC_2014 = Dialect(label_version=6, table_version=6)
+OPTISTRUCT = Dialect(chunk=10, jump=2)
 
 
 class Op2Writer:
     """Collects the bytes of an OP2 file."""
 
-    def __init__(self, word=4, order="<", header=True):
-        self.word, self.order, self.data = word, order, b""
+    def __init__(self, word=4, order="<", header=True, dialect=PLAIN):
+        self.word, self.order, self.data, self.dialect = word, order, b"", dialect
         self.int, self.real = ("i", "f") if word == 4 else ("q", "d")
         if header:
+            self.header()
+
+    def header(self):
+        """Date, tape identification and label; a run begins with it."""
+        if self.dialect.date:
             self.marker(3)
-            self.record(self.ints(1, 2, 24))
-            self.marker(7)
-            self.record(self.text("NASTRAN FORT TAPE ID CODE - ", 7))
-            self.marker(2)
-            self.record(self.text("TEST", 2))
-            self.marker(-1)
-            self.marker(0)
+            self.record(self.ints(*[1, 2, 24][: self.dialect.date]))
+        self.marker(7)
+        self.record(self.text("NASTRAN FORT TAPE ID CODE - ", 7))
+        self.marker(2)
+        self.record(self.text("TEST", 2))
+        self.version(self.dialect.label_version)
+        self.marker(-1)
+        self.marker(0)
+
+    def version(self, words):
+        """A version record, if it has words."""
+        if words:
+            self.marker(words)
+            self.record(self.text("20141   0", words))
 
     def ints(self, *values):
         """Whole numbers, one word each."""
@@ -29,7 +65,9 @@ class Op2Writer:
 
     def text(self, text, words):
         """Text of four characters a word."""
-        raw = text.ljust(4 * words).encode()
+        raw = text.ljust(4 * words)[: 4 * words].encode("latin-1")
+        if self.word == 8 and self.dialect.full_words:
+            return raw.ljust(8 * words)
         return b"".join(raw[k : k + 4].ljust(self.word) for k in range(0, len(raw), 4))
 
     def record(self, data):
@@ -42,16 +80,20 @@ class Op2Writer:
         self.record(self.ints(value))
 
     def table(self, name, records, code=101):
-        """A table of logical records, each cut into chunks of at most 1000 words."""
+        """A table of logical records, each cut into chunks."""
         self.marker(2)
         self.record(self.text(name, 2))
+        if self.dialect.versioned is None or name in self.dialect.versioned:
+            self.version(self.dialect.table_version)
         self.marker(-1)
         self.marker(7)
         self.record(self.ints(code, 0, 0, 0, 0, 0, 0))
-        for level, data in enumerate([self.text(name, 2), *records], start=2):
+        level = 1
+        for data in [self.text(name, 2), *records]:
+            level += 1 + (self.dialect.jump if level > 3 else 0)
             for value in (-level, 1, 0):
                 self.marker(value)
-            size = 1000 * self.word
+            size = self.dialect.chunk * self.word
             for first in range(0, len(data), size):
                 chunk = data[first : first + size]
                 self.marker(len(chunk) // self.word)
@@ -59,10 +101,15 @@ class Op2Writer:
         for value in (-level - 1, 1, 0, 0):
             self.marker(value)
 
-    def identification(self, approach, code, mode, words, subcase=1, device=1, eigenvalue=0.0, label=""):
-        """The 146 words that precede a data record."""
+    def identification(
+        self, approach, code, mode, words, subcase=1, device=1, eigenvalue=0.0, label="", own=(0.0, 0.0), thermal=0
+    ):
+        """The 146 words that precede a data record; ``label`` fills title, subtitle and label, 128 characters each."""
         head = self.ints(10 * approach + device, code, 0, subcase, mode) + self.reals(eigenvalue)
-        return head + self.ints(0, 0, 1, words, *[0] * 40) + self.text(label, 96)
+        own_words = self.reals(own[0]) + self.ints(0) + self.reals(own[1])
+        head += self.ints(0, 0, 1, words, 0, 0, -1) + own_words + self.ints(*[0] * 6, thermal, *[0] * 27)
+        fields = [label[k : k + 128].ljust(128) for k in (0, 128, 256)]
+        return head + b"".join(self.text(field, 32) for field in fields)
 
     def forces(self, rows, device=1):
         """Rows (node, element, name, six values)."""
@@ -81,9 +128,13 @@ class Op2Writer:
         return self.data
 
 
-def modal_op2(results, word=4, order="<"):
+def modal_op2(results, word=4, order="<", dialect=PLAIN):
     """An OP2 file of FeResults: eigenvalues, mode shapes and forces of all modes."""
-    writer = Op2Writer(word, order)
+    return modal_tables(Op2Writer(word, order, dialect=dialect), results).close()
+
+
+def modal_tables(writer, results):
+    """Add tables of FeResults: eigenvalues, mode shapes and forces of all modes."""
     lama = b""
     for k, mode in enumerate(results.mode.tolist()):
         omega = 2 * 3.141592653589793 * float(results.frequency[k])
@@ -107,4 +158,4 @@ def modal_op2(results, word=4, order="<"):
     if results.shape_node.size:
         writer.table("OUGV1", shapes)
     writer.table("OGPFB1", forces)
-    return writer.close()
+    return writer

@@ -50,6 +50,11 @@ def _local(values: np.ndarray, ids: np.ndarray, turned: np.ndarray) -> np.ndarra
     return out
 
 
+def turned_frames(values: np.ndarray, ids: np.ndarray) -> np.ndarray:
+    """Components, (m, r, 6), in the displacement frames of the T joint's grids."""
+    return _local(values, ids, tee().turned)
+
+
 def _results(model, frequency, shape, force, turned) -> FeResults:
     elements, m = len(model.quads), len(frequency)
     ids = np.arange(1, len(model.xyz) + 1)

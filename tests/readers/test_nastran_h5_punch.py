@@ -2,6 +2,7 @@
 
 import builtins
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -201,3 +202,138 @@ def test_punch_ids(tmp_path):
     path.write_text("".join(text))
     with pytest.raises(DataError, match="is no id"):
         read_punch(path)
+
+
+def static_subcases(file):
+    """Turn the three modes of the file into unit-load subcases 11 to 13, with loads at grids of their own."""
+    h5py = pytest.importorskip("h5py")
+    change(file, "NASTRAN/RESULT/DOMAINS", "ANALYSIS", 1, slice(3, 6))
+    change(file, "NASTRAN/RESULT/DOMAINS", "SUBCASE", [11, 12, 13], slice(3, 6))
+    change(file, "NASTRAN/RESULT/DOMAINS", "MODE", 0, slice(3, 6))
+    nodal = file["NASTRAN/RESULT/NODAL"]
+    rows = nodal["GRID_FORCE"][:]
+    rows["EID"][rows["ELNAME"] == b"*TOTALS*"] = 4  # left over
+    loads = rows[[0, 0]]
+    loads["ELNAME"], loads["ID"], loads["EID"], loads["DOMAIN_ID"] = b"APP-LOAD", [3, 9], [77, 0], [4, 6]
+    del nodal["GRID_FORCE"]
+    nodal.create_dataset("GRID_FORCE", data=np.concatenate([loads[1:], rows, loads[:1]]))
+    nodal.move("EIGENVECTOR", "DISPLACEMENT")
+    assert isinstance(file, h5py.File)
+
+
+def test_h5_unit_loads(h5):
+    """Static subcases with loads of their own, ids left over and displacements: element rows as before, no Hz."""
+    path, file = h5
+    wanted = read_h5(H5)
+    static_subcases(file)
+    file.close()
+    found = read_h5(path)
+    assert (found.analysis, found.mode.tolist()) == ("static", [11, 12, 13])
+    assert np.isnan(found.frequency).all()
+    assert np.array_equal(found.force[:, found.of_element], wanted.force[:, wanted.of_element])
+    assert np.array_equal(found.shape, wanted.shape)
+    loads = found.kind == "APP-LOAD"
+    assert found.node[loads].tolist() == [3, 9]
+    assert np.isfinite(found.force[:, loads, 0]).tolist() == [[True, False], [False, False], [False, True]]
+    lights = {row.check: row.light for row in audit(found, read_h5_model(H5)).rows}
+    assert "frequencies" not in lights
+    assert lights["sign"] == "green"
+
+
+def test_h5_unit_loads_beside_a_mode(h5):
+    """Two static subcases and a mode: named as interface modes they are read with it."""
+    path, file = h5
+    static_subcases(file)
+    change(file, "NASTRAN/RESULT/DOMAINS", "ANALYSIS", 2, 5)
+    change(file, "NASTRAN/RESULT/DOMAINS", "MODE", 3, 5)
+    file.close()
+    assert read_h5(path).mode.tolist() == [3]
+    assert read_h5(path, interface=(11, 12)).mode.tolist() == [3, 11, 12]
+    assert read_h5(path, 11).analysis == "static"
+
+
+@pytest.mark.parametrize(
+    ("analysis", "words"), [(8, "buckling .post-buckling.*SOL 103"), (7, "pre-buckling"), (9, "complex")]
+)
+def test_h5_buckling(h5, analysis, words):
+    """Buckling shapes are refused as what they are; the static subcase beside them can be named."""
+    path, file = h5
+    change(file, "NASTRAN/RESULT/DOMAINS", "ANALYSIS", [1, analysis, analysis], slice(3, 6))
+    change(file, "NASTRAN/RESULT/DOMAINS", "SUBCASE", [1, 2, 2], slice(3, 6))
+    file.close()
+    with pytest.raises(DataError, match=rf"subcase 2 mode 2 .*{words}.*name the subcase to use: \[1\]"):
+        read_h5(path)
+    assert read_h5(path, 1).mode.tolist() == [1]
+
+
+def test_h5_without_summary(h5):
+    """Eigenvalues stand in the table of domains, too; without any the frequencies are unknown and red."""
+    path, file = h5
+    del file["NASTRAN/RESULT/SUMMARY/EIGENVALUE"]
+    file.close()
+    found = read_h5(path)
+    assert np.isnan(found.frequency).all()
+    rows = {row.check: row for row in audit(found, read_h5_model(H5)).rows}
+    assert rows["frequencies"].light == "red"
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path, "r+") as again:
+        change(again, "NASTRAN/RESULT/DOMAINS", "TIME_FREQ_EIGR", [1.0, 4.0, 9.0], slice(3, 6))
+    assert read_h5(path).frequency == pytest.approx(np.array([1, 2, 3]) / (2 * np.pi))
+
+
+def test_h5_complex_forces(h5):
+    """Complex grid point forces stand in a table of their own."""
+    path, file = h5
+    file["NASTRAN/RESULT/NODAL"].move("GRID_FORCE", "GRID_FORCE_CPLX")
+    file.close()
+    with pytest.raises(DataError, match="complex"):
+        read_h5(path)
+
+
+def test_punch_unit_loads(tmp_path):
+    """Static subcases with loads at grids of their own."""
+    path = tmp_path / "a.pch"
+    lines = []
+    for subcase, grid in ((3, 1), (8, 2)):
+        lines += ["$GRID POINT FORCE BALANCE", "$REAL OUTPUT", f"$SUBCASE ID = {subcase:11d}"]
+        for node, element, kind in ((grid, "", "APP-LOAD"), (1, 5, "QUAD4"), (2, 5, "QUAD4")):
+            lines.append(f"{node:10d}{element:>18}        {kind:8s}")
+            lines += ["-CONT-".ljust(18) + f"{subcase + k:18.6E}" * 3 for k in (0, 1)]
+    path.write_text("".join(f"{line:<72}\n" for line in lines))
+    found = read_punch(path)
+    assert (found.analysis, found.mode.tolist()) == ("static", [3, 8])
+    assert found.element.tolist() == [5, 5, 0, 0]
+    assert found.force[1, 0].tolist() == [8, 8, 8, 9, 9, 9]
+
+
+@pytest.mark.parametrize("line", ["$TIME       =   1.0", "$FREQUENCY =   2.0", "$LOAD FACTOR =  0.5"])
+def test_punch_of_other_solutions(tmp_path, line):
+    """Time steps, frequencies and load factors are no modes."""
+    path = tmp_path / "a.pch"
+    path.write_text(punch(tee().results).replace("$EIGENVALUE =", line + "\n$EIGENVALUE ="))
+    with pytest.raises(DataError, match=line[1:5].lower()):
+        read_punch(path)
+
+
+def test_punch_of_load_factors(tmp_path):
+    """Modes below 1 Hz only may be buckling shapes, which a punch file does not tell: a doubt, not a refusal."""
+    text = punch(replace(tee().results, frequency=np.array([0.1, 0.2, 0.3, 0.4, 0.5])))
+    path = tmp_path / "a.pch"
+    path.write_text(text)
+    assert "no mode is above 0.5 Hz" in read_punch(path).remarks[-1].what
+    path.write_text(punch(tee().results))
+    assert not read_punch(path).remarks
+    path.write_text(text.replace("MODE =     3", "MODE =      "))
+    with pytest.raises(DataError, match="the eigenvalue or the mode is no number"):
+        read_punch(path)
+
+
+def test_punch_without_frequencies(tmp_path):
+    """Eigenvalues of zero in all modes are none."""
+    text = punch(tee().results)
+    for k in range(5):
+        eigenvalue = (2 * np.pi * tee().results.frequency[k]) ** 2
+        text = text.replace(f"{eigenvalue:15.7E}", f"{0.0:15.7E}")
+    path = tmp_path / "a.pch"
+    path.write_text(text)
+    assert np.isnan(read_punch(path).frequency).all()

@@ -12,11 +12,11 @@ from fatigue.readers.audit import audit
 from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_op2 import read_op2
 from fatigue.readers.op2_records import read_records
+from tests.readers.op2_files import ROW, one_mode, read_back
 from tests.readers.op2_writer import Op2Writer, modal_op2
 from tests.readers.tee_model import bulk, tee
 
 NASTRAN = Path("data/nastran")
-ROW = (1, 1, "QUAD4", [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
 
 
 def written(path, blocks, name="OGPFB1", **header):
@@ -79,7 +79,8 @@ def test_real_file_in_other_layouts(tmp_path):
         (2, 19, 1, 10, "SUPERELEMENT 30", "superelement", "superelement: 30"),
         (2, 18, 1, 10, "", "op2_table_damaged", "table code 18"),
         (2, 19, 0, 10, "", "op2_table_damaged", "mode 0 is impossible"),
-        (1, 19, 3, 10, "", "op2_table_damaged", "mode 3 is impossible"),
+        (8, 19, 3, 10, "", "wrong_analysis", "buckling.*SOL 103"),
+        (7, 19, 0, 10, "", "wrong_analysis", "pre-buckling.*SOL 103"),
     ],
 )
 def test_other_results_are_refused(tmp_path, approach, code, mode, words, label, code_found, words_found):
@@ -201,7 +202,7 @@ def test_eigenvalues_must_agree_with_themselves(tmp_path, values):
         ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10)]),
         ("OGPFB1", lambda w: [w.ints(*range(20)), w.forces([ROW])]),
         ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10), w.ints(1, 2, 3)]),
-        ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10, device=2), w.forces([ROW])]),
+        ("OGPFB1", lambda w: [w.identification(2, 19, 1, 10), w.forces([(0, *ROW[1:])])]),
         ("OUGV1", lambda w: [w.identification(2, 7, 1, 14), w.shape([(1, [0.0] * 6)])]),
         ("OUGV1", lambda w: [w.identification(2, 7, 1, 8), w.shape([(1, [np.inf] * 6)])]),
         ("OUGV1", lambda w: [w.identification(2, 7, 1, 8), w.shape([(1, [0.0] * 6)] * 2)]),
@@ -209,7 +210,7 @@ def test_eigenvalues_must_agree_with_themselves(tmp_path, values):
     ],
 )
 def test_tables_that_contradict_themselves(tmp_path, name, blocks):
-    """Half blocks, short identifications, broken rows, other devices, complex or doubled shapes."""
+    """Half blocks, short identifications, broken rows, no grid, complex or doubled shapes."""
     with pytest.raises(DataError, match=f"table {name}"):
         read_op2(written(tmp_path / "a.op2", blocks, name))
 
@@ -320,3 +321,50 @@ def test_damaged_files_are_refused_or_told_by_the_audit(tmp_path, word, order):
         error = np.abs(found.force - whole.force) / np.abs(whole.force).max(axis=(1, 2), keepdims=True)
         assert error.max() < 1e-3
     assert min(outcomes.values()) > 0
+
+
+@pytest.mark.parametrize(("device", "key_device"), [(1, 2), (2, 1), (0, 1), (5, 0), (4, 9)])
+def test_device_codes_need_not_agree(tmp_path, device, key_device):
+    """The grid is a tenth of the key, whatever the device in the key and in the identification, in shapes likewise."""
+
+    def tables(writer):
+        head = writer.identification(2, 7, 1, 8, device=device, eigenvalue=100.0)
+        writer.table("OUGV1", [head, writer.shape([(17, [1.0] * 6)], key_device)])
+        head = writer.identification(2, 19, 1, 10, device=device)
+        writer.table("OGPFB1", [head, writer.forces([(17, *ROW[1:])], key_device)])
+
+    found = read_back(tmp_path / "a.op2", tables)
+    assert (found.node.tolist(), found.shape_node.tolist()) == ([17], [17])
+
+
+def test_word_5_of_a_static_subcase_is_a_load_set(tmp_path):
+    """A static subcase whose word 5 is not zero, in forces and displacements, is static all the same."""
+
+    def tables(writer):
+        for subcase, load_set in ((1, 40), (2, 40)):
+            head = writer.identification(1, 1, load_set, 8, subcase=subcase)
+            writer.table("OUGV1", [head, writer.shape([(1, [1.0] * 6)])])
+            head = writer.identification(1, 19, load_set, 10, subcase=subcase)
+            writer.table("OGPFB1", [head, writer.forces([ROW])])
+
+    found = read_back(tmp_path / "a.op2", tables)
+    assert (found.analysis, found.mode.tolist(), found.shape.shape) == ("static", [1, 2], (2, 1, 6))
+
+
+def test_several_force_tables(tmp_path):
+    """Modes spread over several tables are one run, in the order of the file."""
+    tables = [lambda w, m=m: one_mode(w, mode=m) for m in (4, 2, 9)]
+    assert read_back(tmp_path / "a.op2", *tables).mode.tolist() == [4, 2, 9]
+
+
+def test_rigid_modes_in_the_summary(tmp_path):
+    """Negative eigenvalues count by their size, also where the summary states 0 Hz for them."""
+
+    def tables(w):
+        lama = w.ints(1, 1) + w.reals(-1e-4, 0.0, 0.0, 1.0, -1e-4)
+        lama += w.ints(2, 2) + w.reals(-1e-4, -1e-2, -1e-2 / (2 * np.pi), 1.0, -1e-4)
+        w.table("LAMA", [w.identification(2, 6, 0, 7), lama])
+        one_mode(w, mode=1)
+        one_mode(w, mode=2)
+
+    assert read_back(tmp_path / "a.op2", tables).frequency == pytest.approx([1e-2 / (2 * np.pi)] * 2)
