@@ -236,14 +236,14 @@ def welds(
     rows = [row for row in found.rows if only in row.weld]
     if vtp is not None:
         write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
+    for problem in found.remarks:
+        click.echo(f"note: {problem}", err=True)
     if as_json:
         print_json([asdict(row) for row in rows])
         return
     for row in rows:
         reason = f"  {row.reason}" if row.reason else ""
         click.echo(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {row.weld}{reason}")
-    for problem in found.remarks:
-        click.echo(f"note: {problem}", err=True)
 
 
 @cli.command("tension-patch")

@@ -163,24 +163,19 @@ def convert(options: ConvertOptions) -> Conversion:
     )
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
+    doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
     record = {
-        "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *options.coordinates)},
+        "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *model.included, *options.coordinates)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
-        "remarks": [str(p) for p in (*results.remarks, *found.remarks, *remarks)],
+        "remarks": [str(p) for p in doubts],
     }
     write_folder(options.out, files, record, CASE)
     return Conversion(
         folder=options.out,
         audit=judged,
         welds=found.rows,
-        remarks=(
-            *results.remarks,
-            *model.remarks,
-            *found.remarks,
-            *remarks,
-            *(r for h in histories for r in h.remarks),
-        ),
+        remarks=doubts,
         modes=results.mode.size,
         force_rows=rows.size * results.mode.size,
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),

@@ -38,7 +38,10 @@ _BINARY: dict[Format, tuple[bytes, ...]] = {
     "op2": (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
 }
 _PUNCH_STARTS = ("$TITLE", "$SUBTITLE", "$LABEL", "$SUBCASE ID", "$GRID POINT")
-_BULK_STARTS = ("GRID", "BEGIN BULK", "CEND", "INCLUDE ", "CQUAD4", "CTRIA3", "SOL ")
+_BULK_STARTS = (
+    *("GRID", "GRDSET", "BEGIN BULK", "BEGIN,BULK", "CEND", "CQUAD", "CTRIA", "CORD1", "CORD2", "PSHELL", "SOL "),
+    *(f"INCLUDE{sign}" for sign in " '\"=,"),
+)
 
 
 def recognise(path: Path) -> Format:

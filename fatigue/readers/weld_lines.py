@@ -119,7 +119,7 @@ def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, o
                 Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
             )
         out.write_text(register_text(found.rows), "utf-8")
-    return found
+    return replace(found, remarks=(*model.remarks, *found.remarks))
 
 
 _CANDIDATE_REASON = {

@@ -8,7 +8,6 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.readers.nastran_bdf import read_bdf
-from fatigue.readers.nastran_cards import case_sets, set_members
 
 NASTRAN = Path("data/nastran")
 PLATE = """\
@@ -58,6 +57,8 @@ def test_real_files():
         "grid*,9,,15.,-0.25,*B\n*B,3.0",
         "GRID    9               15.     -.25    +3.E0   $ comment",
         "GRID\t9\t\t15.\t-.25\t3.",
+        "GRID,9,,15,-.25,3",
+        "GRID,9,,+1.5e1,-25-2,+3",
     ],
 )
 def test_spellings_of_a_card(read, card):
@@ -161,38 +162,103 @@ def test_sets_and_markers(read):
     assert model.other_cards == {"CBAR": 1, "CBUSH": 1}
 
 
-def test_set_expressions():
-    """Words that are no integer sets give none; a range without end, too."""
-    assert set_members(["1", "THRU", "X"]) is None
-    assert set_members(["THRU", "4"]) is None
-    assert set_members(["1", "THRU", "999999999"]) is None
-    assert set_members(["7", "EXCEPT", "7"]) == [7, 7]
-    assert case_sets([("a", "SET A = 1"), ("b", "SET 2 = 5")]) == {2: [5]}
+@pytest.mark.parametrize(
+    ("card", "count"),
+    [
+        ("GRID,1,,0.,0.,0.\n", 1),
+        ("GRID,2,0,+1.0,,\n", 1),
+        ("GRID*,3,0,1.D0,10.-1\n*,\n", 1),
+        ("CQUAD4         1       1       1       2       3       4\nGRID,4,,0.,1.,0.\n", 2),
+        ("PSHELL,1,1,2.0,1,,1\n", 1),
+        ("CORD2R,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2R,5,0,,,,,,1.\n,1.\n", 1),
+        ("GRID,9,,.333333,0.,0.\nGRID,9,,0.3333333333,0.,0.\n", 1),
+    ],
+)
+def test_the_same_card_twice(read, card, count):
+    """Equal content, in whatever form, is taken once, and a remark counts it."""
+    (remark,) = read(QUAD + card).remarks
+    assert (remark.code, remark.count) == ("twice", count)
 
 
-def test_includes(tmp_path):
-    """INCLUDE with quotes, over lines and nested; paths are relative to the including file."""
-    (tmp_path / "sub").mkdir()
-    (tmp_path / "a.bdf").write_text("INCLUDE 'sub/\n  b.inc'\n" + PLATE)
-    (tmp_path / "sub" / "b.inc").write_text('include "c.inc"\n')
-    (tmp_path / "sub" / "c.inc").write_text("CQUAD4,1,1,1,2,3,4\n")
-    assert read_bdf(tmp_path / "a.bdf").mesh.element.tolist() == [1]
-    (tmp_path / "sub" / "c.inc").write_text("INCLUDE b.inc\n")
-    with pytest.raises(DataError, match="includes itself"):
-        read_bdf(tmp_path / "a.bdf")
-    (tmp_path / "sub" / "c.inc").write_text("INCLUDE 'open\n")
-    with pytest.raises(DataError, match="no end"):
-        read_bdf(tmp_path / "a.bdf")
-    (tmp_path / "sub" / "c.inc").write_text("INCLUDE 'none.inc'\n")
-    with pytest.raises(DataError, match=r"none\.inc"):
-        read_bdf(tmp_path / "a.bdf")
+def test_blank_systems_of_a_grid_written_twice_are_those_of_grdset(read):
+    """A GRDSET anywhere in the deck makes a blank CP other than 0."""
+    text = QUAD + "CORD2R,5,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\nGRID,2,5,1.,0.,0.\n"
+    with pytest.raises(DataError, match="grid 2 is already defined"):
+        read(text)
+    assert read(text + "GRDSET,,5\n").remarks[0].code == "twice"
+
+
+@pytest.mark.parametrize("x", ["1.4", "1.000001", "1.00001-0", "0.9", ""])
+def test_a_grid_elsewhere_is_another(read, x):
+    """A short number is exact: nothing near it is the same grid."""
+    with pytest.raises(DataError, match=r"grid 2 is already defined at .*line 2"):
+        read(QUAD + f"GRID,2,,{x},0.,0.\n")
+
+
+def test_the_finer_of_two_equal_grids_is_taken(read):
+    """Small and large fields hold different numbers of digits of one coordinate; the order does not matter."""
+    cards = ["GRID,9,,1234.568,0.,0.\n", "GRID,9,,1234.5678,0.,0.\n"]
+    for text in (QUAD + "".join(cards), QUAD + "".join(cards[::-1])):
+        mesh = read(text).mesh
+        assert mesh.xyz[mesh.node == 9].tolist() == [[1234.5678, 0.0, 0.0]]
+
+
+def test_cards_nobody_needs_are_counted(read):
+    """Whatever stands on them is no reason to refuse: one remark gives name, number and first place of each."""
+    model = read(
+        QUAD + 'DEQATN  1       F(A,B)= A/B\nFORCE,1,x,,!!\n+,?\nforce   2\nQUAD4,7,1,1,2,3,4\nCBUSH,1,,"oops\nRBE2,5\n'
+        "CBAR,77,1,1\nSET1,oops,1,2\nPLOTEL,8,a,b\nSPOINT,7,THRU,9\n"
+    )
+    assert model.other_cards == {"CBAR": 1, "CBUSH": 1, "RBE2": 1}
+    assert [remark.code for remark in model.remarks] == ["no_mark", "no_set", "no_mark", "cards_left_out"]
+    remark = model.remarks[-1]
+    assert remark.count == 7
+    for words in (
+        "1 DEQATN (line 7)",
+        "2 FORCE (line 8)",
+        "1 QUAD4 (line 11)",
+        "1 RBE2 (line 13)",
+        "1 SPOINT (line 17)",
+    ):
+        assert words in remark.what
+
+
+@pytest.mark.parametrize(
+    ("section", "element", "offset"),
+    [
+        ("PSHELL,1,1,2.,1,,1\n+,1.,-1.,,,0.3", "", 0.3),
+        ("PSHELL,1,1,2.,1,,1\n+,1.,-1.,,,TOP", "", -1.0),
+        ("PSHELL,1,1,2.,1,,1\n+,,,,,Bottom", "", 1.0),
+        ("PSHELL,1,1,2.,1,,1\n+,,,,,0.3", "0.2", 0.2),
+        ("PSHELL,1,1,2.,1,,1\n+,,,,,0.3", "0.", 0.0),
+        ("PSHELL,1,1,2.,1,,1", "BOTTOM", 1.0),
+        ("PSHELL,1,1,2.,1,,1", "Top\n,,,4.,4.,4.,4.", -2.0),
+        ("PCOMP,1,TOP\n,1,1.,0.,,1,2.,90.", "", -1.5),
+        ("PCOMP,1,BOTTOM\n,1,1.,0.,,1,2.,90.", "", 1.5),
+    ],
+)
+def test_offsets_of_optistruct(read, section, element, offset):
+    """ZOFFS of PSHELL holds where the element gives none; TOP and BOTTOM name the face that lies on the grids."""
+    model = read(PLATE.replace("PSHELL,1,1,2.,1,,1", section) + f"CQUAD4,1,1,1,2,3,4,,{element}\n")
+    assert model.mesh.offset[0] == offset
+
+
+def test_a_thickness_of_zero_is_one_left_blank(read):
+    """Its elements may give their own; one that does not has no thickness."""
+    model = read(
+        PLATE.replace("PSHELL,1,1,2.,", "PSHELL,1,1,0.,")
+        + "CQUAD4,1,1,1,2,3,4,,,\n,,,3.,3.,3.,3.\nCQUAD4,2,1,1,2,3,4\n"
+    )
+    assert model.mesh.thickness[0] == 3.0
+    assert np.isnan(model.mesh.thickness[1])
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
         (PLATE, "no shell elements"),
-        (QUAD + "CQUAD4,1,1,1,2,3,4\n", "used twice"),
+        (QUAD + "CQUAD4,1,1,2,3,4,1\n", "used twice, the first time at .*line 6"),
+        (QUAD + "CTRIA3,1,1,1,2,3\n", "used twice"),
         (PLATE + "CQUAD4,1,1,1,2,3,9\n", "grid 9 does not exist"),
         (PLATE + "CQUAD4,1,1,1,2,3,3\n", "a grid is used twice"),
         (QUAD + "GRID,1,,5.,0.,0.\n", "grid 1 is already defined"),
@@ -200,9 +266,18 @@ def test_includes(tmp_path):
         (QUAD + "GRID,9,,1_0.,0.,0.\n", "not a number of sensible size"),
         (QUAD + "GRID,9,,1e999,0.,0.\n", "sensible size"),
         (QUAD + "GRID,,,0.,0.,0.\n", "field 2 is empty"),
-        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist"),
+        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist. Include the file"),
+        (
+            QUAD + "GRID,9,4,0.,0.,0.\nCORD3G,4,E313\n",
+            "does not exist. Give it as CORD1 or CORD2; CORD3G cards are not read",
+        ),
         (QUAD + "GRID,9,,0.,0.,0.,-1\n", "fluid point"),
         (QUAD + "GRID,9,,0.,0.,0.,,,5\n", "superelement 5"),
+        (QUAD + "GRDSET,,,,,,,,5\n", "superelement 5"),
+        (QUAD + "GRDSET,,0\nGRDSET,,,,,,0\n", "defaults of grids are already set"),
+        (QUAD + "GRID,9,,0.,0.,0.,,,0,7.\n", "has 8 data fields, and a further one holds '7.'"),
+        (QUAD + "CORD2R,5,,0.,0.,0.,0.,0.,1.,,1.,0.,0.\n", "has 11 data fields"),
+        (QUAD + "GRID,9,,1.5,x\nGRID,10,,y\n", "'X'(.|\n)*'Y'"),
         ("SOL 103\nCEND\nBEGIN BULK\n" + QUAD + "BEGIN SUPER=1\n", "superelements"),
         (QUAD + "PSHELL,1,1,3.,1,,1\n", "property 1 is defined twice"),
         (QUAD + "PSHELL,2,1,-3.,1,,1\n", "thickness of property 2 is -3"),
@@ -212,7 +287,8 @@ def test_includes(tmp_path):
         (QUAD + "CORD1R,5,1,2,77\nGRID,9,5\n", "grid 77 of a coordinate system"),
         ("+,1,2\n" + QUAD, "continuation without a card"),
         (QUAD + "GRID    9" + " " * 63 + "+A\n+B      1\n", "follows a card that announces"),
-        (QUAD + "=,*1,=,*1.\n", "no card name"),
+        ("=,*1,=,*1.\n" + QUAD, "no card name"),
+        (QUAD + "=,*1,=,*1.\n", "CQUAD4 field 4 is '2.0', not a whole number"),
         ("\0" + QUAD, "binary file"),
     ],
 )
@@ -220,6 +296,21 @@ def test_refusals(read, text, words):
     """Every mistake is named with its place."""
     with pytest.raises(DataError, match=words):
         read(text)
+
+
+def test_all_mistakes_are_named(read):
+    """Cards that cannot be read, points and shells are refused together, and the rest is counted."""
+    with pytest.raises(DataError) as error:
+        read("GRID,1,,x\nCQUAD4,1,1,1,2\nPSHELL,1,1,-2.\nCORD2R,x\n" + "".join(f"GRID,{k},7\n" for k in range(10, 14)))
+    assert [p.code for p in error.value.problems] == [
+        "bad_thickness",
+        "bad_field",
+        "bad_field",
+        "no_frame",
+        "bad_field",
+    ]
+    with pytest.raises(DataError, match="5 more problems follow"):
+        read("".join(f"GRID,{k},,x\n" for k in range(15)))
 
 
 def test_missing_file(tmp_path):
