@@ -187,7 +187,7 @@ OWN = (
     Known(
         "an ANSYS file of modal coordinates (.mcf)",
         "Give it to fatigue convert --coordinates",
-        within=rb"(?im)^\s*Number of Modes\s*:?\s*\d+\s*$",
+        within=rb"(?ims)^\s*Number of Modes\s*:?\s*\d+\s*$.*^\s*(?:Time|Freq\w*)\s+Coordinates",
     ),
     Known(
         "a NASTRAN punch file", "Give it to fatigue convert --forces", within=rb"(?m)^\$(?:TITLE|SUBCASE ID|GRID POINT)"
@@ -265,15 +265,16 @@ def unknown_binary(path: Path, where: str, remedy: str, *, stray: float = 0.0) -
     """Refusal of a binary file without signature: what it may be by a program's name in it, else by its own name.
 
     None for a text, be it of two bytes a character, and for a file that cannot be opened. ``remedy`` is for one that
-    tells nothing; a share of ``stray`` zeros is taken for damage of a text.
+    tells nothing; a share of ``stray`` control characters is taken for damage of a text.
     """
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
     except OSError:
         return None
-    begun = head.rstrip(b"\0\x1a")  # which may end a text
-    if not head or (begun and begun.count(b"\0") <= stray * len(begun)) or _two_byte_text(head):
+    padded = head.rstrip(b"\0\x1a")  # as the end of a text may be
+    controls = len(re.findall(rb"[\0-\x08\x0e-\x1f]", padded))
+    if (padded and (b"\0" not in padded or controls <= stray * len(padded))) or not head or _two_byte_text(head):
         return None
     what = "this is an unknown binary format"
     if not head.strip(b"\0"):

@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import TypeAlias
 
 import numpy as np
 import pyarrow as pa
@@ -23,6 +22,7 @@ from fatigue.readers.forces import Convention
 from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform, with_own_frequencies
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import (
+    SimulationModes,
     column_map,
     common_modes,
     numbered,
@@ -42,7 +42,6 @@ from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds, no_w
 from fatigue.readers.weld_register import REGISTER, RegisterRow, reasons, register_text
 
 Floats = NDArray[np.float64]
-SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency and modal mass by mode
 
 CASE = "case.toml"
 _FREQUENCIES = "frequency match"  # the check of the audit

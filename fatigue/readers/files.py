@@ -123,10 +123,14 @@ def _open_csv(path: Path, texts: Collection[str]) -> Columns:
     doubts = units_row_doubts(path.name, layout)
     if layout.encoding == "cp1252":
         doubts += (not_utf8_remark(path, path.read_bytes()),)
-    numbers = None
+    numbers, empty = None, _without_values(table)
+    if empty.any():
+        empty &= _empty_lines(path, layout, empty.size)
+        numbers = np.flatnonzero(~empty)
+        table = table.filter(pa.array(~empty))
     wordy = [k for k, name in enumerate(layout.names) if pa.string() == table.schema.types[k] and name not in texts]
     if wordy and (again := _repeated_names(table, layout.names)).any():
-        numbers = np.flatnonzero(~again)
+        numbers = (np.arange(again.size) if numbers is None else numbers)[~again]
         table = table.filter(pa.array(~again))
     for k in wordy:
         read = as_numbers(table.column(k), layout.decimal)
@@ -171,6 +175,31 @@ def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
     return BytesIO("\n".join(rows).encode(layout.encoding))
 
 
+def _empty_lines(path: Path, layout: TableLayout, rows: int) -> NDArray[np.bool_]:
+    """Rows (r,) of nothing but separators, as spreadsheets leave them below a table; NaN is something."""
+    with path.open(encoding=layout.encoding, newline="") as stream:
+        for _ in range(layout.first):
+            next(stream, "")
+        cells = csv.reader(stream, delimiter=layout.separator or "\t")
+        empty = [not any(map(str.strip, row)) for row in cells if row]
+    return np.array(empty) if len(empty) == rows else np.zeros(rows, dtype=np.bool_)
+
+
+def _without_values(rows: pa.Table | pa.RecordBatch) -> NDArray[np.bool_]:
+    """Rows (r,) in which every one of several cells is empty or NaN."""
+    empty = np.full(rows.num_rows, rows.num_columns > 1)
+    for column in rows.columns:
+        absent = column.is_null()
+        if pt.is_string(column.type):
+            absent = pc.or_kleene(absent, pc.equal(pc.utf8_trim_whitespace(column), ""))
+        elif not column.null_count:
+            return np.zeros_like(empty)
+        empty &= np.asarray(absent.fill_null(True).to_numpy(zero_copy_only=False), dtype=np.bool_)
+        if not empty.any():
+            break
+    return empty
+
+
 def _repeated_names(table: pa.Table, names: Sequence[str]) -> NDArray[np.bool_]:
     """Rows (r,) that hold the names of the columns once more."""
     again = np.ones(table.num_rows, dtype=np.bool_)
@@ -201,18 +230,20 @@ def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType
             include_columns=list(kinds), column_types=read_as, decimal_point=layout.decimal or "."
         ),
     )
-    if not layout.fortran:
-        yield from reader
-        return
-    for batch in reader:
+    for read in reader:
+        if _without_values(read).any():
+            raise pa.ArrowInvalid("a row without values")
+        if not layout.fortran:
+            yield read
+            continue
         columns = {}
         for name, kind in kinds.items():
-            column = batch.column(name)
+            column = read.column(name)
             if read_as[name] != kind:
-                read = as_numbers(pa.chunked_array([column]), layout.decimal)
-                if read is None:
+                numbers = as_numbers(pa.chunked_array([column]), layout.decimal)
+                if numbers is None:
                     raise pa.ArrowInvalid(f"a cell of {name} is no number")
-                column = read.combine_chunks()
+                column = numbers.combine_chunks()
             columns[name] = column
         yield pa.RecordBatch.from_pydict(columns)
 

@@ -117,7 +117,7 @@ def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: st
         return read_mcf(path)
     if form == "parquet":
         return read_parquet_history(path, columns, time_column)
-    if form == "text" and own_format(path) is None:
+    if form == "text" and ((own := own_format(path)) is None or "--coordinates" in own.remedy):
         return read_text_history(path, columns, time_column)
     raise DataError(
         _swapped("no_coordinates", path, form, "modal coordinates", "--coordinates a text table, .parquet or .mcf")

@@ -14,7 +14,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.channel_names import TIME_UNITS, Channel, channel, stated_frequency, time_unit_in, written
 from fatigue.readers.coordinate_units import parse_unit, states_no_unit
 from fatigue.readers.history_body import Rows, is_rule
-from fatigue.readers.text_layout import SEPARATORS
+from fatigue.readers.text_layout import COMMENTS, SEPARATORS
 from fatigue.readers.text_numbers import Decimal, is_number, plain_number, split_fields
 
 _LISTED = re.compile(
@@ -79,6 +79,8 @@ def read_header(path: Path, lines: Sequence[str], rows: Rows) -> Header:
     names = [row for row in found.rows if row.kind == "names"]
     if not names and listed is None:
         _refuse_short_names(path, lines, rows, found.rows)
+    if names:
+        _refuse_broken_rows(path, lines, rows, names[0].line)
     if listed is not None:
         names.append(listed)
     channels = [[channel(name) for name in row.cells] for row in names]
@@ -191,6 +193,21 @@ def _listed(path: Path, head: Sequence[str], width: int) -> tuple[_Row | None, C
             raise DataError(Problem("column_count", f"{path}, line {line}", what, "Export again, or remove the list"))
         return _Row(line, tuple(names), "names"), range(line, line + len(run))
     return None, ()
+
+
+def _refuse_broken_rows(path: Path, lines: Sequence[str], rows: Rows, names: int) -> None:
+    """Refuse a row of values below the names that a word or a lost line end makes look like a line of the header."""
+    for at in range(names, rows.first):
+        line = lines[at]
+        cells = split_fields(line, rows.separator)
+        numbers = [is_number(cell, ".") or is_number(cell, _sign(rows)) for cell in cells]
+        if len(cells) > 1 and numbers[0] and 2 * sum(numbers) >= len(cells) and not line.lstrip().startswith(COMMENTS):
+            wrong = next((cell for cell, number in zip(cells, numbers, strict=True) if not number), "")
+            what = (
+                f"{wrong!r} stands in a row of values" if len(cells) == rows.width else f"a row of {len(cells)} cells"
+            )
+            what += f" in a table of {rows.width} columns" if len(cells) != rows.width else ""
+            raise DataError(Problem("bad_row", f"{path}, line {at + 1}", what, "Correct the row, or remove it"))
 
 
 def _refuse_short_names(path: Path, lines: Sequence[str], rows: Rows, above: Sequence[_Row]) -> None:

@@ -62,7 +62,21 @@ def read_mcf(path: Path) -> ForeignHistory:
             np.ascontiguousarray(rows[:, 1:].T),
             resolution=None if frequencies is None else _resolution(head),
             normalisation=normalisation,
+            remarks=_not_understood(path, head[count.end() :]),
         )
+    )
+
+
+def _not_understood(path: Path, head: str) -> tuple[Problem, ...]:
+    """Doubts about lines of numbers in the header that are neither mode numbers nor frequencies."""
+    rest = _FREQUENCIES.sub("", _NUMBERS.sub("", head))
+    lines = [
+        line.strip() for line in rest.split("\n") if re.search(r"\d[\d.]*[ED][+-]?\d|(?:\s\d+){2}", line, re.ASCII)
+    ]
+    remedy = "Check the names of the header's lines, Mode and Frequency"
+    return tuple(
+        Problem("unread_line", str(path), f"a line of numbers is not understood: {line[:60]!r}", remedy)
+        for line in lines
     )
 
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation
+
+SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency [Hz] and modal mass by mode
 
 _NORMALISED: dict[Normalisation, str] = {"mass": "unit generalised mass", "length": "unity"}
 
@@ -63,9 +66,7 @@ def column_map(path: Path) -> tuple[dict[str, int], list[Problem]]:
     return {names[c]: int(m) for c, m in zip(code, mode, strict=True)}, table.warnings
 
 
-def with_known_frequencies(
-    history: ForeignHistory, table: dict[int, tuple[float, float]], source: Path
-) -> ForeignHistory:
+def with_known_frequencies(history: ForeignHistory, table: SimulationModes, source: Path) -> ForeignHistory:
     """Add the frequencies that the table of the simulation's modes has; by the simulation's own numbers.
 
     Raises
@@ -124,7 +125,7 @@ def with_declared_units(
     return replace(history, remarks=(*history.remarks, *doubts))
 
 
-def simulation_modes(path: Path | None) -> tuple[dict[int, tuple[float, float]], list[Problem]]:
+def simulation_modes(path: Path | None) -> tuple[SimulationModes, list[Problem]]:
     """Read frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and doubts."""
     if path is None:
         return {}, []
@@ -138,7 +139,7 @@ def simulation_modes(path: Path | None) -> tuple[dict[int, tuple[float, float]],
     return found, table.warnings
 
 
-def numbered(history: ForeignHistory, table: dict[int, tuple[float, float]], source: Path) -> ForeignHistory:
+def numbered(history: ForeignHistory, table: SimulationModes, source: Path) -> ForeignHistory:
     """Give columns without a mode number, which are joined in order, those of the simulation's modes in order.
 
     Raises
@@ -155,7 +156,7 @@ def numbered(history: ForeignHistory, table: dict[int, tuple[float, float]], sou
     return replace(history, mode=np.array(list(table), np.int64))
 
 
-def simulated_frequencies(histories: list[ForeignHistory], table: dict[int, tuple[float, float]]) -> dict[int, float]:
+def simulated_frequencies(histories: list[ForeignHistory], table: SimulationModes) -> dict[int, float]:
     """Frequencies of the simulation by FE mode."""
     if not histories:
         return {mode: frequency for mode, (frequency, _) in table.items()}

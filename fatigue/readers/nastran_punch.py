@@ -15,6 +15,7 @@ from fatigue.readers.force_sign import LOWEST_HZ
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
 _SUBCASE = re.compile(r"\$SUBCASE ID\s*=\s*(\d{1,9})", re.ASCII)
+_FORCE_ROW = re.compile(r"[ \d]{9}\d {8}(?: {10}|[ \d]{9}\d) {8}[A-Z*][\w*-]* *(?:\d{8})?\s*\Z", re.ASCII)
 _OTHER_SOLUTIONS = ("$TIME", "$FREQUENCY", "$LOAD FACTOR", "$LOAD STEP", "$COMPLEX EIGENVALUE")
 _PERHAPS_BUCKLING_HZ = 1.0
 _SORT2 = ("$POINT ID", "$ELEMENT ID")
@@ -39,6 +40,8 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
     heads = [k for k, line in enumerate(lines) if line.startswith(_HEADING)]
     if not heads:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
+    if (stray := _stray_row(lines)) is not None:
+        raise _bad(path, stray, f"a row of forces stands in a block that does not begin with {_HEADING}")
     stated: dict[tuple[int, int], list[float]] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
     results = assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
@@ -108,6 +111,18 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         np.array(kind, np.str_),
         np.array(force, np.float64).reshape(-1, 6),
     )
+
+
+def _stray_row(lines: list[str]) -> int | None:
+    """Find a row that names grid, element and kind, as forces do, outside a force balance: its heading is damaged."""
+    inside = False
+    for at, line in enumerate(lines):
+        if line.startswith("$"):
+            begins = at == 0 or not lines[at - 1].startswith("$")
+            inside = line.startswith(_HEADING) or (inside and not begins)
+        elif not inside and _FORCE_ROW.match(line) and any(k.startswith("-CONT-") for k in lines[at + 1 : at + 2]):
+            return at
+    return None
 
 
 def _id(path: Path, at: int, text: str) -> int:

@@ -43,6 +43,7 @@ def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...
         where = f"{path}: line {layout.line}"
         raise DataError(Problem("duplicate_column", where, f"column {twice[0]} appears twice", "Remove one of them"))
     rows: list[TextRow] = []
+    widest = 0
     for line, cells in _cells(path, layout, lines):
         if not any(cells) or cells == list(names):  # blank, or the names again
             continue
@@ -50,11 +51,16 @@ def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...
             what = f"{len(cells)} cells in a table of {len(names)} columns"
             remedy = "Write one cell per column, texts with separators in double quotes"
             raise DataError(Problem("ragged_row", f"{path}: row {len(rows) + 1}, line {line}", what, remedy))
+        widest = max(widest, len(cells))
         found = dict.fromkeys(names, "") | dict(zip(names, cells, strict=False))
         for name in numbers:
             if name in found:
                 found[name] = plain_number(found[name], layout.decimal or ",")
         rows.append(TextRow(len(rows) + 1, line, found))
+    named = len(names) - next((k for k, name in enumerate(reversed(names)) if name), 0)
+    if rows and widest < named:
+        what = f"{named} names in the line of names, and at most {widest} cells in the rows"
+        raise DataError(Problem("ragged_row", f"{path}: line {layout.line}", what, "Write one name for each column"))
     return names, rows
 
 

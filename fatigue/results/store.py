@@ -158,7 +158,11 @@ def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = N
     wanted = [columns] if isinstance(columns, str) else None if columns is None else list(columns)
     with readable(path):
         refuse(DataError, _unknown_columns(path, wanted or []))
-        return pq.read_table(path, columns=wanted)
+        found = pq.read_table(path, columns=wanted)
+        names = [column.name for column in TABLES[table]] if wanted is None else []
+        if missing := [name for name in names if name not in found.column_names]:
+            raise pa.ArrowInvalid(f"it has no column {missing[0]}")
+    return found
 
 
 def table_path(folder: Path | str, table: str) -> Path:

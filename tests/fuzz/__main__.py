@@ -33,12 +33,14 @@ def main() -> int:
             return _one(asked.seed, asked.only, folder, asked.keep)
         numbers = range(asked.first, asked.first + asked.count)
         outcomes = list(_watched(asked.seed, numbers, asked.source, folder))
-    Counter(outcome.kind for outcome in outcomes)
+    kinds = Counter(outcome.kind for outcome in outcomes)
+    print(f"{len(outcomes)} files, seed {asked.seed}: " + ", ".join(f"{k} {n}" for k, n in kinds.most_common()))
     for source in sorted({outcome.source for outcome in outcomes}):
-        Counter(outcome.kind for outcome in outcomes if outcome.source == source)
+        of_source = Counter(outcome.kind for outcome in outcomes if outcome.source == source)
+        print(f"  {source:26}" + ", ".join(f"{k} {n}" for k, n in of_source.most_common()))
     found = [outcome for outcome in outcomes if outcome.kind in FINDINGS]
-    for _outcome in found:
-        pass
+    for outcome in found:
+        print(f"\n{outcome.kind}: number {outcome.number}, {outcome.source}, {outcome.damage}\n{outcome.detail}")
     return 1 if found else 0
 
 
@@ -47,6 +49,7 @@ def _one(seed: int, number: int, folder: Path, keep: Path | None) -> int:
     every = sources(folder)
     source = every[number % len(every)]
     outcome = judged(source, sound(source, folder / "sound"), seed, number, folder / "damaged")
+    print(f"{outcome.kind}: {outcome.source}, {outcome.damage}\n{outcome.detail}")
     if keep is not None:
         keep.mkdir(parents=True, exist_ok=True)
         for name, content in source.files.items():
@@ -59,12 +62,12 @@ def _watched(seed: int, numbers: range, only: str, folder: Path) -> list[Outcome
     """Work in a process of its own that is ended and begun anew where it crashes or hangs for good."""
     context = mp.get_context("fork")
     outcomes: list[Outcome] = []
+    started = time.monotonic()
     names = [source.name for source in sources(folder)]
     todo = [n for n in numbers if only in names[n % len(names)]]
-    time.monotonic()
     while todo:
         ours, theirs = context.Pipe(duplex=False)
-        worker = context.Process(target=_work, args=(theirs, seed, todo, folder))
+        worker = context.Process(target=_work, args=(theirs, seed, todo, folder), daemon=True)
         worker.start()
         theirs.close()
         done = 0
@@ -75,7 +78,7 @@ def _watched(seed: int, numbers: range, only: str, folder: Path) -> list[Outcome
                 outcomes.append(ours.recv())
                 done += 1
                 if len(outcomes) % 500 == 0:
-                    pass
+                    print(f"{len(outcomes)} files, {time.monotonic() - started:.0f} s", file=sys.stderr, flush=True)
         except EOFError:
             pass
         if done < len(todo):

@@ -11,14 +11,15 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.case import load_case
-from fatigue.errors import Problem
+from fatigue.errors import DataError, Problem
 from fatigue.readers.body import Modes, read_mesh, read_modes, read_weld_nodes, read_welds
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.forces import open_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
-from fatigue.readers.foreign_history import ForeignHistory
+from fatigue.readers.foreign_history import ForeignHistory, matched, uniform
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.history import read_history
+from fatigue.readers.modal_basis import common_modes
 from fatigue.readers.neutral_folder import read_record
 from fatigue.readers.tables import open_table
 from fatigue.readers.weld_register import read_register
@@ -53,12 +54,18 @@ def _results(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     found = read_forces(path, None)
     names = ("mode", "node", "element", "kind", "force", "shape_node", "shape")
     optional = {"?frequency": found.frequency, "?modal_mass": found.modal_mass}
-    return {name: getattr(found, name) for name in names} | optional, found.remarks
+    without = () if found.shape_node.size else (Problem("no_shapes", "", "the audit cannot prove the sign", ""),)
+    columns = {name: getattr(found, name) for name in names}
+    rows = found.of_element  # loads and totals may differ between modes, and count nowhere
+    columns |= {name: columns[name][rows] for name in ("node", "element", "kind")} | {"force": found.force[:, rows]}
+    return columns | optional, (*found.remarks, *without)
 
 
 def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     found: FeModel = read_model(path)
     mesh = found.mesh
+    if "deck" in path.stem and not (5 in found.node_sets and "PLOTEL" in found.marker_edges):
+        raise DataError(Problem("no_set", str(path), "the set or marker that is asked for is not there", "Correct it"))
     columns: Columns = {
         name: getattr(mesh, name) for name in ("node", "xyz", "element", "corner", "mid", "pid", "offset")
     }
@@ -71,7 +78,10 @@ def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
 
 
 def _coordinates(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
+    run = small_run()
     found: ForeignHistory = read_coordinates(path, None, None)
+    found = uniform(matched(found, run.mode, run.frequency, "id"), None)
+    common_modes(run, [found], path, ())
     columns = {"mode": found.mode, "?frequency": found.frequency, "time": found.time, "q": found.q}
     return columns | {"name": np.array(found.name)}, found.remarks
 
@@ -253,7 +263,7 @@ def small_run() -> FeResults:
         solver="",
         analysis="modal",
         mode=np.array([1, 2, 3]),
-        frequency=np.array([10.0, 20.0, 35.0]),
+        frequency=np.array([10.0, 20.0, 30.0]),
         modal_mass=np.ones(3),
         node=node,
         element=element,
@@ -306,15 +316,20 @@ def sources(folder: Path) -> list[Source]:
     h5 = (NASTRAN / "modes_elements.h5").read_bytes()
     add("mesh of modes_elements.h5", "m.h5", h5, _model, binary=True, structure=True)
     add("punch", "run.pch", punch(small_run()), _results)
-    add("deck", "run.bdf", _DECK.encode(), _model, beside={"grids.inc": _GRIDS.encode()})
+    add("deck", "deck.bdf", _DECK.encode(), _model, beside={"grids.inc": _GRIDS.encode()})
     include = {name: (NASTRAN / name).read_bytes() for name in ("geom.inc",)}
     add("modes_elements.bdf", "m.bdf", (NASTRAN / "modes_elements.bdf").read_bytes(), _model, beside=include)
     add("geom.inc", "geom.inc", include["geom.inc"], _model)
-    add("mcf", "q.mcf", MCF.encode(), _coordinates)
-    q = {"time": [0.01 * k for k in range(12)], **{f"q_{m}": [m + 0.5 * k for k in range(12)] for m in (1, 2, 7)}}
+    add("mcf", "q.mcf", MCF.replace("2              7", "2              3").encode(), _coordinates)
+    q = {"time": [0.01 * k for k in range(12)], **{f"q_{m}": [m + 0.5 * k for k in range(12)] for m in (1, 2, 3)}}
     add("history, commas", "q.csv", _text(q), _coordinates)
     add("history, semicolons", "q.txt", _text(q, ";", ",", "SIMPACK export\n"), _coordinates)
-    add("history, tabs", "q.tab", _text({"Time [s]": q["time"], "$B.q(1)": q["q_1"]}, "\t"), _coordinates)
+    add(
+        "history, tabs",
+        "q.tab",
+        _text({"Time [s]": q["time"], **{f"$B.q({m})": q[f"q_{m}"] for m in (3, 1, 2)}}, "\t"),
+        _coordinates,
+    )
     add("history, blanks", "q.dat", _text(q, "   ", ".", "! run 1\n"), _coordinates)
     pq.write_table(pa.table(q), folder / "sound_q.parquet")
     add("history, Parquet", "q.parquet", (folder / "sound_q.parquet").read_bytes(), _coordinates, binary=True)

@@ -3,7 +3,9 @@
 import pytest
 
 from fatigue.errors import DataError
+from fatigue.readers.force_order import parted, weld_codes
 from fatigue.readers.tables import Table, open_table
+from tests.readers import neutral
 
 
 def opened(tmp_path, text: str, *, strict: bool) -> Table:
@@ -48,3 +50,20 @@ def test_the_names_in_a_message_are_those_that_are_there(tmp_path):
     path.write_text("a,,\n1,,\n")
     with pytest.raises(DataError, match=r"Add it; the columns are a\.$"):
         open_table(path).expect(("a", "b"), (), strict=False)
+
+
+@pytest.mark.parametrize("text", ["a,b\n1,2\n3,4\n,\n,\n", "a;b;;\n1;2;;\n ; ;;\n3;4;;\n;;;\n"])
+def test_rows_of_empty_cells_are_no_rows(tmp_path, text):
+    """Cells that once held something and were cleared; rows keep the numbers they have in the file."""
+    table = opened(tmp_path, text, strict=True)
+    table.refuse()
+    assert table.row_name(1) == ("row 2" if text.startswith("a,b") else "row 3")
+
+
+def test_rows_of_empty_cells_in_forces_that_are_parted(tmp_path):
+    """A table that is read in pieces has none either."""
+    columns = neutral.nodal_forces()
+    path = neutral.write(tmp_path / "f.csv", columns)
+    path.write_text(path.read_text() + "," * (len(columns) - 1) + "\n")
+    source = parted(path, weld_codes([("seam", "ring")]), tmp_path / "scratch")
+    assert sum(source.rows) == len(columns["weld"])

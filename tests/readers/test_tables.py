@@ -226,7 +226,8 @@ def test_unknown_columns(tmp_path):
     [
         ("a\n1\n\nx\n", "t.csv: column a, row 2: 'x' is not a number. Give a number."),
         ("a\n1\n2_000\n", "t.csv: column a, row 2: '2_000' is not a number. Give a number."),
-        ("a,b\n1,\n,\n", "t.csv: column a, row 2: the value is missing or NaN. Give a number."),
+        ("a,b\n1,\n,1\n", "t.csv: column a, row 2: the value is missing or NaN. Give a number."),
+        ("a,b\n1,\nNaN,\n", "t.csv: column a, row 2: the value is missing or NaN. Give a number."),
         ("a\n1\nNaN\n2\nnan\n", "t.csv: column a, row 2: the value is missing or NaN (and 1 more row). Give a number."),
         ("a,b\n,1\n,1\n,1\n", "t.csv: column a, row 1: the value is missing or NaN (and 2 more rows). Give a number."),
         ("a\n1\ninf\n", "t.csv: column a, row 2: inf is not finite. Give a finite number."),
