@@ -78,4 +78,5 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
             )
         )
     factor = _IN_MM[stated[1].lower().replace("μ", "µ")] if stated else unit_of_length
-    return DisplacementRecord(table.time, factor * table.q[0].astype(np.float64))
+    once = np.append(np.diff(table.time) > 0, True)  # of an instant written twice the later sample, as for coordinates
+    return DisplacementRecord(table.time[once], factor * table.q[0, once].astype(np.float64))

@@ -1,5 +1,7 @@
 """Displacements as simulations export them: units in the header, layouts, refusals."""
 
+import contextlib
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -61,5 +63,13 @@ def test_broken_files_are_refused_by_name(tmp_path):
     with pytest.raises(DataError, match=r"u.csv"):
         read_displacement(written(tmp_path / "u.csv", "u_mm", values=(1.0, "nan", 2.0)), 1.0)
     (tmp_path / "back.csv").write_text("time_s,u_mm\n0,1\n2,1\n1,1\n")
-    with pytest.raises(DataError, match=r"back.csv, sample 3"):
+    with pytest.raises(DataError, match=r"back.csv.* sample 3"):
         read_displacement(tmp_path / "back.csv", 1.0)
+
+
+def test_of_an_instant_written_twice_the_later_sample_counts(tmp_path):
+    """Unless the reader of the table refuses times that stand still."""
+    path = tmp_path / "twice.csv"
+    path.write_text("time_s,u_mm\n0,1\n1,2\n1,3\n2,4\n")
+    with contextlib.suppress(DataError):
+        assert read_displacement(path, 1.0).value.tolist() == [1.0, 3.0, 4.0]
