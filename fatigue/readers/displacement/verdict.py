@@ -86,7 +86,7 @@ def _doubt(c: Comparison, misfit: float, causes: tuple[Cause, ...], lacking: Seq
     hertz = at / (rest.size * float(np.median(np.diff(c.time))))
     return (
         f"{fit:.2g} of it is no sum of these modes at this node, most of that near {hertz:.3g} Hz{also}",
-        "Modes are missing in the coordinates (left out with --ignore-modes?), or node or direction are others",
+        "Modes are missing in the coordinates (ignored ones?), it holds rigid motion, or node or direction are others",
     )
 
 
