@@ -187,6 +187,14 @@ def test_nodes_that_do_not_move(modes, measured, shape, light, words):
     assert words in row.finding
 
 
+def test_a_direction_in_which_the_node_hardly_moves_proves_nothing(modes):
+    """Round-off of a plane of symmetry fits, and is no proof."""
+    flat = replace(modes, shape=modes.shape * np.array([1.0, 1.0, 1e-12]))
+    row = row_of(flat, flat.weight @ flat.q)
+    assert row.light == "amber"
+    assert "in this direction the node hardly moves" in row.finding
+
+
 @pytest.mark.parametrize("kind", ["flip", "swap", "factor", "pair"])
 def test_nobody_is_blamed_wrongly(kind):
     """Thirty modes of any size: the cause that is named is the right one, or a part of it, or none is."""
