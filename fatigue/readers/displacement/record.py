@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
+from fatigue.readers.fe_results import is_sound
 from fatigue.readers.formats import read_coordinates
 
 Floats = NDArray[np.float64]
@@ -78,5 +79,9 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
             )
         )
     factor = _IN_MM[stated[1].lower().replace("μ", "µ")] if stated else unit_of_length
+    largest = float(np.abs(table.q[0]).max())
+    if not is_sound(np.array(factor * largest)):
+        what = f"a value of {largest:.3g} is no displacement"
+        raise DataError(Problem("not_a_number", f"{path}, column {table.name[0]!r}", what, "Export again"))
     once = np.append(np.diff(table.time) > 0, True)  # of an instant written twice the later sample, as for coordinates
     return DisplacementRecord(table.time[once], factor * table.q[0, once].astype(np.float64))

@@ -62,6 +62,8 @@ def test_broken_files_are_refused_by_name(tmp_path):
         read_displacement(tmp_path / "none.csv", 1.0)
     with pytest.raises(DataError, match=r"u.csv"):
         read_displacement(written(tmp_path / "u.csv", "u_mm", values=(1.0, "nan", 2.0)), 1.0)
+    with pytest.raises(DataError, match=r"u.csv, column 'u_mm': a value of 1e\+200 is no displacement"):
+        read_displacement(written(tmp_path / "u.csv", "u_mm", values=(1.0, 1e200, 2.0)), 1.0)
     (tmp_path / "back.csv").write_text("time_s,u_mm\n0,1\n2,1\n1,1\n")
     with pytest.raises(DataError, match=r"back.csv.* sample 3"):
         read_displacement(tmp_path / "back.csv", 1.0)
