@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.fe_results import is_sound
+from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.formats import read_coordinates
 
 Floats = NDArray[np.float64]
@@ -68,8 +69,9 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
                 "Export time and one displacement: the columns time_s,displacement_mm",
             )
         )
-    stated = _UNIT.search(table.name[0])
-    if stated is None and (other := _OTHER_UNIT.search(table.name[0])):
+    label = f"{table.name[0]} {_unit_row(table)}".strip()
+    stated = _UNIT.search(label)
+    if stated is None and (other := _OTHER_UNIT.search(label)):
         raise DataError(
             Problem(
                 "no_length",
@@ -85,3 +87,9 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
         raise DataError(Problem("not_a_number", f"{path}, column {table.name[0]!r}", what, "Export again"))
     once = np.append(np.diff(table.time) > 0, True)  # of an instant written twice the later sample, as for coordinates
     return DisplacementRecord(table.time[once], factor * table.q[0, once].astype(np.float64))
+
+
+def _unit_row(table: ForeignHistory) -> str:
+    """Unit of the column where the file states it apart from the name, in brackets; empty where it does not."""
+    unit = next(iter(getattr(table, "unit", ())), "")
+    return f"[{unit}]" if unit else ""

@@ -8,6 +8,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.readers.displacement.record import read_displacement
+from fatigue.readers.foreign_history import ForeignHistory
 
 
 def written(path, name, separator=",", values=(1.0, 2.0, 4.0)):
@@ -39,6 +40,15 @@ def test_other_layouts_and_parquet(tmp_path):
     pd.DataFrame({"time_s": [0.0, 0.01, 0.02], "u_mm": [1.0, 2.0, 4.0]}).to_parquet(tmp_path / "u.parquet")
     for path in (semicolons, tmp_path / "u.parquet"):
         assert np.allclose(read_displacement(path, 1.0).value, [1.0, 2.0, 4.0])
+
+
+@pytest.mark.skipif("unit" not in ForeignHistory.__dataclass_fields__, reason="rows of units are not read")
+@pytest.mark.parametrize(("unit", "factor"), [("mm", 1.0), ("m", 1000.0), ("", 7.0)])
+def test_a_row_of_units_holds(tmp_path, unit, factor):
+    """Below the names, as many programs write it."""
+    path = tmp_path / "u.txt"
+    path.write_text(f"Time\tuz\ns\t{unit or '-'}\n0.0\t1.0\n0.01\t2.0\n0.02\t4.0\n")
+    assert np.allclose(read_displacement(path, 7.0).value, factor * np.array([1.0, 2.0, 4.0]))
 
 
 @pytest.mark.parametrize("unit", ["m/s", "rad", "mm/s^2", "kN"])
