@@ -90,6 +90,6 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
 
 
 def _unit_row(table: ForeignHistory) -> str:
-    """Unit of the column where the file states it apart from the name, in brackets; empty where it does not."""
+    """Give the unit of the column in brackets where the file states it apart from the name."""
     unit = next(iter(getattr(table, "unit", ())), "")
     return f"[{unit}]" if unit else ""
