@@ -143,7 +143,8 @@ def _senseless(edges_hz: Sequence[float] | None, bin_km: float, share_of_limit: 
         what = f"{edges_hz if isinstance(edges_hz, str) else list(edges_hz)} does not ascend from above 0 Hz"
         yield Problem("bad_edges", "edges_hz", what, "Give edges of bands, sorted")
     if not (isinstance(bin_km, Real) and 0.0 < bin_km < np.inf):
-        yield Problem("bad_bin", "bin_km", f"{bin_km} km is not a length", "Give a length above 0")
+        given = f"{bin_km:g}" if isinstance(bin_km, int | float) else repr(bin_km)
+        yield Problem("bad_bin", "bin_km", f"{given} km is not a length", "Give a length above 0")
     if not (isinstance(share_of_limit, Real) and 0.0 <= share_of_limit < np.inf):
         what = f"{share_of_limit} is no share of the damage limit"
         yield Problem("bad_share", "share_of_limit", what, "Give 0 or more, for instance 0.1")

@@ -1,5 +1,6 @@
 """What the program is called on a package index, and what it says where an optional package is missing."""
 
+import builtins
 import re
 import subprocess
 import tomllib
@@ -7,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from fatigue.cluster import cluster_executor
+from fatigue.errors import DataError
 from fatigue.extras import REQUIREMENTS, install_command
 
 ROOT = Path(__file__).parents[1]
@@ -61,6 +64,25 @@ def test_no_text_fetches_the_package_of_somebody_else():
     """Neither code nor documentation tells pip to install the name that is taken."""
     found = [f"{path.name}: {hit[0]}" for path, text in texts() if (hit := FOREIGN.search(text))]
     assert not found
+
+
+def test_a_missing_cluster_package_is_told(monkeypatch):
+    """Before anything is read: the package and the command that installs it."""
+    plain = builtins.__import__
+
+    def without(name, *args, **kwargs):
+        if name.startswith("distributed"):
+            raise ImportError(name)
+        return plain(name, *args, **kwargs)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with (
+        pytest.raises(
+            DataError, match=re.escape(f"distributed is not installed. Run: {install_command('distributed')}")
+        ),
+        cluster_executor("tcp://localhost:8786"),
+    ):
+        pass
 
 
 @pytest.mark.parametrize(

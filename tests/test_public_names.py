@@ -124,7 +124,7 @@ def test_options_of_a_conversion_may_be_text():
         (lambda case, folder: diagnose(folder, edges_hz="ab"), "edges_hz: ab does not ascend"),
         (lambda case, folder: diagnose(folder, edges_hz=[]), r"edges_hz: \[\] does not ascend"),
         (lambda case, folder: diagnose(folder, edges_hz=[1.0, float("inf")]), "does not ascend"),
-        (lambda case, folder: diagnose(folder, bin_km="long"), "bin_km: long km is not a length"),
+        (lambda case, folder: diagnose(folder, bin_km="long"), "bin_km: 'long' km is not a length"),
     ],
 )  # fmt: skip
 def test_senseless_arguments_are_refused(result, call, words):

@@ -12,7 +12,19 @@ import numpy as np
 
 from fatigue.readers.displacement.comparison import SHARE, Comparison, best_fit, fitted_factors
 
-Kind = Literal["units", "sign", "axis", "mode sign", "mode order", "numbering", "time", "factor", "mode factor", "fit"]
+Kind = Literal[
+    "units",
+    "sign",
+    "axis",
+    "mode sign",
+    "mode order",
+    "numbering",
+    "time",
+    "derivative",
+    "factor",
+    "mode factor",
+    "fit",
+]
 
 EXPLAINED = 0.05
 """Misfit, relative to the rms of the displacement, up to which a cause counts as explaining it."""
@@ -39,7 +51,7 @@ class Cause:
     remedy: str
 
 
-def explain(comparison: Comparison, shifts: list[Cause], base: float) -> tuple[Cause, ...]:
+def explain(comparison: Comparison, in_time: list[Cause], base: float) -> tuple[Cause, ...]:
     """Find the causes that explain a displacement alike: one is an answer, several are none.
 
     Where a simple cause leaves as little as any other, only simple ones count: every flip of one mode has pairs of
@@ -47,11 +59,12 @@ def explain(comparison: Comparison, shifts: list[Cause], base: float) -> tuple[C
 
     Parameters
     ----------
-    comparison, shifts : the records at common instants, and the shifts in time that `shifted` found
+    comparison : the records at common instants
+    in_time : causes that are no weights of the modes
     base : misfit without any cause; one that does not halve it explains nothing
     """
     limit = min(EXPLAINED, base / 2)
-    single = [*_whole(comparison), *_one_flip(comparison), *_numbering(comparison), *shifts]
+    single = [*_whole(comparison), *_one_flip(comparison), *_numbering(comparison), *in_time]
     double = [*_swaps(comparison), *_flips(comparison), *_factors(comparison)]
     best = min(cause.misfit for cause in (*single, *double))
     if best > limit:

@@ -66,6 +66,12 @@ class Comparison:
         return float(np.sqrt(max(0.0, float(self.weight @ self.products[0] @ self.weight))))
 
     @cached_property
+    def largest_rms(self) -> float:
+        """Rms of the sum about its mean in the direction in which the node moves most [mm]."""
+        weights = self.shape[self.number].T
+        return float(np.sqrt(np.einsum("ai,ij,aj->a", weights, self.products[0], weights).max(initial=0.0)))
+
+    @cached_property
     def rest(self) -> tuple[float, Floats]:
         """Mean square of what the sum misses, and its mean products with q (m,)."""
         qq, qy, yy = self.products

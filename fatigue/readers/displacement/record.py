@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.coordinate_units import states_no_unit
+from fatigue.readers.fe_results import is_sound
 from fatigue.readers.formats import read_coordinates
 
 Floats = NDArray[np.float64]
@@ -69,7 +70,12 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
             )
         )
     unit = _stated_unit(path, table.name[0], table.unit[0] if table.unit else "")
-    return DisplacementRecord(table.time, _IN_MM.get(unit, unit_of_length) * table.q[0].astype(np.float64))
+    value = _IN_MM.get(unit, unit_of_length) * table.q[0].astype(np.float64)
+    if not is_sound(value).all():
+        what = f"a value of {np.abs(table.q[0]).max():.3g} is no displacement"
+        raise DataError(Problem("not_a_number", f"{path}, column {table.name[0]!r}", what, "Export again"))
+    once = np.append(np.diff(table.time) > 0, True)  # of an instant written twice the later sample, as for coordinates
+    return DisplacementRecord(table.time[once], value[once])
 
 
 def _stated_unit(path: Path | str, name: str, unit: str) -> str:

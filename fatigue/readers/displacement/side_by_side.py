@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 from fatigue.readers.displacement.causes import EXPLAINED, Cause, explain
 from fatigue.readers.displacement.comparison import Comparison
 from fatigue.readers.displacement.record import DisplacementRecord
-from fatigue.readers.displacement.shifts import shifted
+from fatigue.readers.displacement.timing import derived, shifted
 from fatigue.readers.foreign_history import ForeignHistory
 
 Floats = NDArray[np.float64]
@@ -93,7 +93,8 @@ def causes_of(event: EventComparison, record: DisplacementRecord) -> tuple[Cause
     """Find the causes that explain the misfit of one event alike."""
     if event.comparison is not None and not np.isfinite(event.misfit):
         return ()
-    shifts = shifted(event.time, event.summed, record.time, record.value)
+    records = (event.time, event.summed, record.time, record.value)
+    shifts = shifted(*records)
     if event.comparison is None:
         return tuple(shift for shift in shifts if shift.misfit <= EXPLAINED)
-    return explain(event.comparison, shifts, event.misfit)
+    return explain(event.comparison, [*shifts, *derived(*records)], event.misfit)

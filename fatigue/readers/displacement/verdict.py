@@ -41,6 +41,9 @@ def judged(name: str, found: EventComparison, causes: tuple[Cause, ...], lacking
         return AuditRow(
             CHECK, "red", found.misfit, what, "Correct node or direction; at a constraint name another node"
         )
+    if c.rms < 1e-6 * c.largest_rms:
+        what = f"{where}: in this direction the node hardly moves, {c.rms:.3g} mm rms, which proves nothing"
+        return AuditRow(CHECK, "amber", found.misfit, what, "Give a direction in which the node moves")
     light: Light = "green" if found.misfit <= GREEN else "amber" if found.misfit <= RED else "red"
     if causes and all(cause.kind in _OF_MODES for cause in causes):
         light = "red" if len(causes) == 1 or light == "red" else "amber"
@@ -86,7 +89,7 @@ def _doubt(c: Comparison, misfit: float, causes: tuple[Cause, ...], lacking: Seq
     hertz = at / (rest.size * float(np.median(np.diff(c.time))))
     return (
         f"{fit:.2g} of it is no sum of these modes at this node, most of that near {hertz:.3g} Hz{also}",
-        "Modes are missing in the coordinates (left out with --ignore-modes?), or node or direction are others",
+        "Modes are missing in the coordinates (ignored ones?), it holds rigid motion, or node or direction are others",
     )
 
 

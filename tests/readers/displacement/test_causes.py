@@ -101,6 +101,21 @@ def test_a_shift_in_time_is_named(modes, shift):
     assert f"the displacement is {abs(shift):.4g} s {'late' if shift > 0 else 'early'}" in row.finding
 
 
+@pytest.mark.parametrize(("order", "word"), [(1, "a velocity"), (2, "an acceleration")])
+@pytest.mark.parametrize("factor", [1.0, 1e-3])
+def test_a_derivative_is_named(order, word, factor):
+    """Another channel of the simulation, in mm/s or in m/s."""
+    slow = resonances()
+    slow = replace(slow, time=slow.time / 4)
+    f = np.fft.rfftfreq(slow.time.size, slow.time[1])
+    rate = np.fft.irfft((2j * np.pi * f) ** order * np.fft.rfft(slow.weight @ slow.q), slow.time.size)
+    fine = np.repeat(slow.time, 4) + np.tile(np.arange(4) / 4 * slow.time[1], slow.time.size)
+    padded = np.fft.irfft(np.fft.rfft(slow.q, axis=1), 4 * slow.time.size, axis=1) * 4
+    row = row_of(replace(slow, time=fine, q=padded), factor * rate, time=slow.time)
+    assert row.light == "red"
+    assert f"it is {word}, not a displacement" in row.finding
+
+
 def test_one_mode_with_another_factor_is_named(modes):
     """One that is normalised otherwise, and one that the simulation leaves out."""
     weight = modes.weight
@@ -170,6 +185,14 @@ def test_nodes_that_do_not_move(modes, measured, shape, light, words):
     row = row_of(replace(modes, shape=shape * modes.shape), values)
     assert row.light == light
     assert words in row.finding
+
+
+def test_a_direction_in_which_the_node_hardly_moves_proves_nothing(modes):
+    """Round-off of a plane of symmetry fits, and is no proof."""
+    flat = replace(modes, shape=modes.shape * np.array([1.0, 1.0, 1e-12]))
+    row = row_of(flat, flat.weight @ flat.q)
+    assert row.light == "amber"
+    assert "in this direction the node hardly moves" in row.finding
 
 
 @pytest.mark.parametrize("kind", ["flip", "swap", "factor", "pair"])

@@ -68,6 +68,15 @@ def test_broken_files_are_refused_by_name(tmp_path):
         read_displacement(tmp_path / "none.csv", 1.0)
     with pytest.raises(DataError, match=r"u.csv"):
         read_displacement(written(tmp_path / "u.csv", "u_mm", values=(1.0, "nan", 2.0)), 1.0)
+    with pytest.raises(DataError, match=r"u.csv, column 'u_mm': a value of 1e\+200 is no displacement"):
+        read_displacement(written(tmp_path / "u.csv", "u_mm", values=(1.0, 1e200, 2.0)), 1.0)
     (tmp_path / "back.csv").write_text("time_s,u_mm\n0,1\n2,1\n1,1\n")
     with pytest.raises(DataError, match=r"back.csv, line 4, sample 3"):
         read_displacement(tmp_path / "back.csv", 1.0)
+
+
+def test_of_an_instant_written_twice_the_later_sample_counts(tmp_path):
+    """As it does of coordinates."""
+    path = tmp_path / "twice.csv"
+    path.write_text("time_s,u_mm\n0,1\n1,2\n1,3\n2,4\n")
+    assert read_displacement(path, 1.0).value.tolist() == [1.0, 3.0, 4.0]
