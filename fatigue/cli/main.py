@@ -15,7 +15,7 @@ from fatigue.cli.early import refuse_missing_case, refuse_missing_result
 from fatigue.cli.memory import hold_little
 from fatigue.cli.progress import narrated
 from fatigue.errors import DataError, FatigueError, Problem, refuse
-from fatigue.stages import stage
+from fatigue.stages import STAGES, stage
 
 log = logging.getLogger("fatigue")
 
@@ -51,6 +51,7 @@ def cli(quiet: bool, verbose: bool) -> None:
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(levelname)s %(message)s"))
     handler.setLevel(logging.ERROR if quiet else logging.INFO if verbose else logging.WARNING)
+    handler.addFilter(lambda record: record.name != STAGES)  # told by `narrated`
     log.handlers[:] = [handler]
     log.setLevel(logging.INFO)
     click.get_current_context().obj = {"quiet": quiet, "verbose": verbose}

@@ -34,6 +34,8 @@ def narrated(*, quiet: bool) -> Iterator[Progress]:
     with ExitStack() as stack:
         logger.addHandler(narrator)
         stack.callback(logger.removeHandler, narrator)
+        stack.callback(logger.setLevel, logger.level)
+        logger.setLevel(logging.INFO)
         stack.enter_context(_told_compilations(narrator))
         stack.callback(narrator.stop)
         yield narrator.progress
