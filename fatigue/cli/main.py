@@ -274,7 +274,7 @@ def diagnose(
     refuse_missing_result(folder, case_file)
     from fatigue.diagnose import diagnose as run
     from fatigue.documents import write_documents
-    from fatigue.results import PAGE
+    from fatigue.results import PAGE, is_derived, read_provenance
 
     with narrated(quiet=options["quiet"]) as progress:
         found = run(
@@ -285,8 +285,10 @@ def diagnose(
             bin_km=bin_km,
             progress=progress,
         )
-        if (folder / PAGE).exists():
+        if is_derived(folder, PAGE, read_provenance(folder)):
             write_documents(folder, [PAGE], case_file=case_file, verification=_verification)
+        elif (folder / PAGE).exists():
+            log.warning("%s was not written by fatigue, or was changed since: it stays as it is", folder / PAGE)
     if as_json:
         print_json(found.as_record())
     else:

@@ -24,6 +24,7 @@ from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.weld_lines import WeldSources, find_welds
 from fatigue.readers.weld_register import REGISTER, RegisterRow, register_text
+from fatigue.stages import stage
 
 CASE = "case.toml"
 
@@ -102,10 +103,13 @@ def convert(options: ConvertOptions) -> Conversion:
     """
     units = unit_system(options.force_units, "force units")
     coordinate_units = unit_system(options.coordinate_units, "coordinate units")
+    stage("reading forces and mesh")
     results, model = read_forces(options.forces, options.subcase), read_model(options.mesh)
     results = without_modes(results, options.ignore_modes)
     table = simulation_modes(options.simulation_modes)
+    stage("reading the coordinates of %d events", len(options.coordinates))
     histories = [_history(path, options, results, table) for path in options.coordinates]
+    stage("auditing")
     judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
     _refuse_red(judged, options)
     convention = options.convention or judged.convention
@@ -114,6 +118,7 @@ def convert(options: ConvertOptions) -> Conversion:
             Problem("no_convention", str(options.forces), "the files do not prove the sign of the forces", "State it")
         )
     results, remarks = common_modes(results, histories, options.forces, options.interface_modes)
+    stage("finding weld lines")
     metric = in_mm(model, units.length)
     register = options.welds.register or (options.out / REGISTER if (options.out / REGISTER).exists() else None)
     found = find_welds(metric, replace(options.welds, register=register))
@@ -123,6 +128,7 @@ def convert(options: ConvertOptions) -> Conversion:
         raise DataError(
             Problem("no_welds", str(options.mesh), f"no weld can be assessed: {'; '.join(reasons)}", "See the reasons")
         )
+    stage("turning forces into neutral ones, and writing")
     force = neutral_forces(results, model, units, options.normalisation)
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
