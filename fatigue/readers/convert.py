@@ -107,7 +107,7 @@ def convert(options: ConvertOptions) -> Conversion:
     results, model = read_forces(options.forces, options.subcase), read_model(options.mesh)
     results = without_modes(results, options.ignore_modes)
     table = simulation_modes(options.simulation_modes)
-    stage("reading the coordinates of %d events", len(options.coordinates))
+    stage("reading modes and coordinates (%d files)", len(options.coordinates))
     histories = [_history(path, options, results, table) for path in options.coordinates]
     stage("auditing")
     judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
