@@ -11,7 +11,7 @@ from fatigue.assess import assess
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
 from fatigue.example import write_example
-from fatigue.readers.convert import ConvertOptions
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.weld_lines import WeldSources
 from fatigue.report.export import write_csv
 from fatigue.report.page import report_page, write_report

@@ -6,6 +6,8 @@ import click
 
 from fatigue.cli.early import refuse_existing
 from fatigue.cli.main import cli, print_json
+from fatigue.cli.progress import is_quiet, narrated
+from fatigue.stages import stage
 
 _FOLDER = click.Path(path_type=Path, file_okay=False)
 
@@ -48,7 +50,10 @@ def synth(
     refuse_existing(folder / "case.toml", force=force, what=what, remedy=remedy)
     from fatigue.synth import Size, synthesize
 
-    click.echo(synthesize(folder, Size(nodes, modes, events, seconds, rate), seed))
+    with narrated(quiet=is_quiet()):
+        stage("writing %d nodes, %d modes and %d events", nodes, modes, events)
+        case_file = synthesize(folder, Size(nodes, modes, events, seconds, rate), seed)
+    click.echo(case_file)
 
 
 @cli.command()

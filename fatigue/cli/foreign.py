@@ -16,6 +16,8 @@ from fatigue.cli.early import (
     refuse_unknown_units,
 )
 from fatigue.cli.main import as_json, cli, print_json
+from fatigue.cli.progress import is_quiet, narrated, narrating
+from fatigue.stages import stage
 
 _FILE = click.Path(path_type=Path)
 ABOVE_ZERO = click.FloatRange(0.0, min_open=True)
@@ -171,13 +173,14 @@ def convert(
         refuse_bad_modes(option, modes)
     refuse_unknown_curve(curve)
     refuse_foreign_conversion(output, force=force)
-    from fatigue.readers.convert import ConvertOptions
-    from fatigue.readers.convert import convert as run
+    from fatigue.readers.convert import convert as read_and_write
+    from fatigue.readers.convert_options import ConvertOptions
     from fatigue.readers.displacement.record import Displacement
     from fatigue.readers.modal_basis import mode_list
     from fatigue.readers.weld_lines import WeldSources
     from fatigue.readers.weld_register import reasons
 
+    run = narrating(read_and_write)
     done = run(
         ConvertOptions(
             forces=forces,
@@ -287,7 +290,9 @@ def welds(
     from fatigue.report.vtp import write_line_picture
 
     sources = WeldSources(node_lists, sets, markers, detect, candidates, register)
-    found = list_welds(mesh, sources, units, output, force)
+    with narrated(quiet=is_quiet()):
+        stage("finding weld lines")
+        found = list_welds(mesh, sources, units, output, force)
     rows = [row for row in found.rows if only in row.weld]
     if not rows:
         what = f"none of the {len(found.rows)} weld lines has '{only}' in its name"

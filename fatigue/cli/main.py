@@ -15,7 +15,7 @@ from fatigue.cli.early import refuse_missing_case, refuse_missing_result
 from fatigue.cli.memory import hold_little
 from fatigue.cli.progress import narrated
 from fatigue.errors import DataError, FatigueError, Problem, refuse
-from fatigue.stages import stage
+from fatigue.stages import STAGES, stage
 
 log = logging.getLogger("fatigue")
 
@@ -51,6 +51,7 @@ def cli(quiet: bool, verbose: bool) -> None:
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(levelname)s %(message)s"))
     handler.setLevel(logging.ERROR if quiet else logging.INFO if verbose else logging.WARNING)
+    handler.addFilter(lambda record: record.name != STAGES)  # told by `narrated`
     log.handlers[:] = [handler]
     log.setLevel(logging.INFO)
     click.get_current_context().obj = {"quiet": quiet, "verbose": verbose}
@@ -274,7 +275,7 @@ def diagnose(
     refuse_missing_result(folder, case_file)
     from fatigue.diagnose import diagnose as run
     from fatigue.documents import write_documents
-    from fatigue.results import PAGE
+    from fatigue.results import PAGE, is_derived, read_provenance
 
     with narrated(quiet=options["quiet"]) as progress:
         found = run(
@@ -285,8 +286,10 @@ def diagnose(
             bin_km=bin_km,
             progress=progress,
         )
-        if (folder / PAGE).exists():
+        if is_derived(folder, PAGE, read_provenance(folder)):
             write_documents(folder, [PAGE], case_file=case_file, verification=_verification)
+        elif (folder / PAGE).exists():
+            log.warning("%s was not written by fatigue, or was changed since: it stays as it is", folder / PAGE)
     if as_json:
         print_json(found.as_record())
     else:

@@ -6,16 +6,23 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 import click
 
 from fatigue.stages import STAGES
 
+Given = TypeVar("Given")
+Result = TypeVar("Result")
 Progress = Callable[[str, int, int], None]
 
 BETWEEN_LINES_S = 10.0  # in a file or a pipe
 COMPILING = "compiling the loops, once for this version on this machine: half a minute or more"
+
+
+def is_quiet() -> bool:
+    """Whether the program was started with ``-q``."""
+    return bool(click.get_current_context().obj["quiet"])
 
 
 @contextmanager
@@ -34,10 +41,22 @@ def narrated(*, quiet: bool) -> Iterator[Progress]:
     with ExitStack() as stack:
         logger.addHandler(narrator)
         stack.callback(logger.removeHandler, narrator)
+        stack.callback(logger.setLevel, logger.level)
+        logger.setLevel(logging.INFO)
         stack.enter_context(_told_compilations(narrator))
         stack.callback(narrator.stop)
         yield narrator.progress
         narrator.end()
+
+
+def narrating(do: Callable[[Given], Result]) -> Callable[[Given], Result]:
+    """Tell the stages of a function while it runs."""
+
+    def told(given: Given) -> Result:
+        with narrated(quiet=is_quiet()):
+            return do(given)
+
+    return told
 
 
 class Narrator(logging.Handler):

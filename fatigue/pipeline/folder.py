@@ -24,7 +24,7 @@ from fatigue.results import (
 
 LAST = "provenance.json"  # a folder without it holds no finished result
 LOG = "fatigue.log"
-OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.html", LOG, LAST)
+OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.html", LIST, LOG, LAST)
 DERIVED = tuple(dict.fromkeys((*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST)))
 STATE = ".fatigue-state"  # of an interrupted run
 STAGING = ".fatigue-staging"

@@ -34,7 +34,7 @@ ROUNDS = 3  # of which the best counts
 
 # Processor time [s] of what is not timed, measured by `python -m benchmarks.estimate`
 START = 2.0  # imports and the known values
-SETTLED_LATE = 2.0  # bounds of several events settle fewer points than those of one
+SETTLED_LATE = 1.5  # bounds of several events settle fewer points than those of one
 CELL, CYCLE = 0.12e-6, 0.5e-6  # written in a table; counted and written
 DETAIL, PAGE = 0.19, 0.6  # a weld shown in detail, the rest of the page
 MOST_DETAILED = 40

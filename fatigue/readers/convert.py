@@ -2,113 +2,32 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-from numpy.typing import NDArray
 
-from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.readers.audit import Audit, AuditRow, audit
+from fatigue.errors import CaseError, DataError, Problem
+from fatigue.readers.audit import Audit
 from fatigue.readers.case_text import case_text
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_of_welds
-from fatigue.readers.displacement.check import displacement_row
-from fatigue.readers.displacement.record import Displacement, read_displacement
-from fatigue.readers.fe_model import FeModel, in_mm
+from fatigue.readers.fe_model import in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
-from fatigue.readers.forces import Convention
-from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform, with_own_frequencies
-from fatigue.readers.formats import read_coordinates, read_forces, read_model
-from fatigue.readers.modal_basis import (
-    SimulationModes,
-    column_map,
-    common_modes,
-    numbered,
-    simulated_frequencies,
-    simulation_modes,
-    with_declared_units,
-    with_known_frequencies,
-    without_modes,
-)
+from fatigue.readers.foreign_run import audited, read_run
+from fatigue.readers.modal_basis import SimulationModes, common_modes, mode_masses, mode_scale
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.shell_rows import elastic_modes, without_drilling
-from fatigue.readers.unit_loads import with_unit_loads
-from fatigue.readers.units import Normalisation, unit_system
+from fatigue.readers.units import unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
-from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds, no_welds
+from fatigue.readers.weld_lines import FoundWelds, find_welds, no_welds
 from fatigue.readers.weld_register import REGISTER, RegisterRow, reasons, register_text
-
-Floats = NDArray[np.float64]
+from fatigue.stages import stage
 
 CASE = "case.toml"
-_FREQUENCIES = "frequency match"  # the check of the audit
-
-
-@dataclass(frozen=True, slots=True)
-class ConvertOptions:
-    """What to convert, and how the foreign files are to be understood.
-
-    Attributes
-    ----------
-    forces, mesh : grid point forces and geometry; an MSC .h5 holds both
-    out : folder to write
-    unit_loads : grid point forces of static subcases in files of their own; each is an interface mode
-    coordinates : modal coordinates, one file for each event
-    convention : sign of the forces; None: as the audit proves it
-    subcase : which one, where the force file has several
-    force_units, coordinate_units : unit systems of the FE files and of the coordinates
-    normalisation : whether modes have unit generalised mass or unit displacement (for the conversion of units)
-    interface_modes : modes that are residual, constraint or attachment modes; static subcases among them are read, too
-    ignore_modes : modes to leave out on either side
-    match : how columns find their modes
-    columns : table of the columns ``column, mode``
-    time_column, resample_s : name of the time column; step to interpolate onto
-    simulation_modes : table ``mode, frequency_hz, modal_mass`` of the simulation's modes, to compare and scale
-    welds : where weld lines come from
-    displacements : elastic displacements of the simulation, to be compared with shapes times coordinates
-    accept : audit checks whose red light is accepted
-    curve, title, speed_km_h, target_km : for the first case.toml
-    force : overwrite foreign and changed files
-    keep_case : leave a case.toml in the folder as it is
-    """
-
-    forces: Path
-    mesh: Path
-    out: Path
-    unit_loads: tuple[Path, ...] = ()
-    coordinates: tuple[Path, ...] = ()
-    convention: Convention | None = None
-    subcase: int | None = None
-    force_units: str = "mm-t-s"
-    coordinate_units: str = "mm-t-s"
-    normalisation: Normalisation = "mass"
-    interface_modes: tuple[int, ...] = ()
-    ignore_modes: tuple[int, ...] = ()
-    match: Match = "id"
-    columns: Path | None = None
-    time_column: str | None = None
-    resample_s: float | None = None
-    simulation_modes: Path | None = None
-    welds: WeldSources = field(default_factory=WeldSources)
-    displacements: tuple[Displacement, ...] = ()
-    accept: tuple[str, ...] = ()
-    curve: str = "master-aluminium"
-    title: str = ""
-    speed_km_h: float = 100.0
-    target_km: float = 1.0e6
-    force: bool = False
-    keep_case: bool = False
-
-    def __post_init__(self) -> None:
-        """Take text for a path, and one file of coordinates for a tuple of one."""
-        for name in ("forces", "mesh", "out", "columns", "simulation_modes"):
-            if (given := getattr(self, name)) is not None:
-                object.__setattr__(self, name, Path(given))
-        files = (self.coordinates,) if isinstance(self.coordinates, Path | str) else self.coordinates
-        object.__setattr__(self, "coordinates", tuple(map(Path, files)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,34 +54,23 @@ def convert(options: ConvertOptions) -> Conversion:
     """
     units = unit_system(options.force_units, "force units")
     history_units = unit_system(options.coordinate_units, "coordinate units")
-    results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
-    for path in options.unit_loads:
-        loads = read_forces(path, None)
-        results = with_unit_loads(results, loads)
-        options = replace(options, interface_modes=(*options.interface_modes, *loads.mode.tolist()))
-    results = without_modes(results, options.ignore_modes)
-    table, of_table = simulation_modes(options.simulation_modes)
-    histories, simulated = _histories(options, results, table)
-    judged = audit(
-        results, model, options.convention, options.interface_modes, simulated_frequencies(histories, simulated)
-    )
-    judged = replace(judged, rows=(*judged.rows, *_displacement_rows(options, results, model, histories, simulated)))
-    _refuse_red(judged, options)
-    if _FREQUENCIES not in options.accept:
-        for history in histories:
-            with_own_frequencies(history, results.mode, results.frequency)
+    run = read_run(options)
+    judged = audited(run, options)
     convention = options.convention or judged.convention
     if convention is None:
         raise CaseError(
             Problem("no_convention", str(options.forces), "the files do not prove the sign of the forces", "State it")
         )
-    results, remarks = common_modes(results, histories, options.forces, options.interface_modes)
+    model, histories = run.model, run.histories
+    results, remarks = common_modes(run.results, histories, options.forces, run.interface_modes)
+    stage("finding weld lines")
     metric = in_mm(model, units.length)
     register = options.welds.register or (options.out / REGISTER if (options.out / REGISTER).exists() else None)
     found = find_welds(metric, replace(options.welds, register=register))
     found = with_forces_only(found, results)
     if not found.assessed():
         raise DataError(_nothing_to_assess(found, options.mesh))
+    stage("turning forces into neutral ones, and writing")
     force = neutral_forces(results, model, units, options.normalisation)
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
@@ -170,7 +78,7 @@ def convert(options: ConvertOptions) -> Conversion:
         force = without_drilling(force, results, model)
     force = to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
-        "modes.csv": _modes_table(results, options, simulated),
+        "modes.csv": _modes_table(results, run.interface_modes, run.simulated),
         "nodes.parquet": nodes_table(metric),
         "elements.parquet": elements_table(metric),
         "element_forces.parquet": forces_table(results, force, rows),
@@ -198,10 +106,9 @@ def convert(options: ConvertOptions) -> Conversion:
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
-    of_histories = [remark for history in histories for remark in history.remarks]
-    doubts = (*results.remarks, *model.remarks, *found.remarks, *of_table, *remarks, *of_histories)
+    doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *run.remarks)
     record = {
-        "inputs": {str(p): sha256(p) for p in _inputs(options, model)},
+        "inputs": {str(p): sha256(p) for p in run.inputs(options)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],
@@ -230,112 +137,21 @@ def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
     return Problem("no_welds", str(mesh), what, "Remove the reasons, or set the status of some in the register")
 
 
-def _refuse_red(judged: Audit, options: ConvertOptions) -> None:
-    """Turn red lights that are not accepted into a refusal."""
-    refuse(
-        DataError,
-        [
-            Problem("audit", f"{options.forces}, {row.check}", row.finding, row.remedy or "Correct the input")
-            for row in judged.rows
-            if row.light == "red" and row.check not in options.accept
-        ],
-    )
-
-
-def _histories(
-    options: ConvertOptions, results: FeResults, table: SimulationModes
-) -> tuple[list[ForeignHistory], SimulationModes]:
-    """Read the coordinates of all events, and give the modes of the simulation their numbers in the FE run."""
-    histories: list[ForeignHistory] = []
-    simulated: SimulationModes = {}
-    for path in options.coordinates:
-        history, own = _history(path, options, results, table)
-        histories.append(history)
-        simulated |= {fe: table[mode] for fe, mode in own.items() if mode in table}
-    return histories, simulated if histories else table
-
-
-def _displacement_rows(
-    options: ConvertOptions,
-    results: FeResults,
-    model: FeModel,
-    histories: Sequence[ForeignHistory],
-    simulated: SimulationModes,
-) -> list[AuditRow]:
-    """Compare the displacements given with mode shapes times coordinates."""
-    units = unit_system(options.force_units, "force units")
-    own, scale = unit_system(options.coordinate_units, "coordinate units"), _scale(results, simulated)
-    records = [read_displacement(asked.file, own.length) for asked in options.displacements]
-    return [
-        displacement_row(asked, record, results, model, histories, scale, units, own, options.normalisation)
-        for asked, record in zip(options.displacements, records, strict=True)
-    ]
-
-
-def _history(
-    path: Path, options: ConvertOptions, results: FeResults, table: SimulationModes
-) -> tuple[ForeignHistory, dict[int, int]]:
-    """Read one event and match its columns with the modes of the forces; the simulation's number of every FE mode."""
-    columns, doubts = (None, []) if options.columns is None else column_map(options.columns)
-    stated = read_coordinates(path, columns, options.time_column)
-    if options.match == "order":
-        stated = numbered(stated, table, options.simulation_modes or path)
-    history = with_known_frequencies(stated, table, options.simulation_modes or path)
-    if options.match == "frequency" or _FREQUENCIES in options.accept:
-        history = matched(history, results.mode, results.frequency, options.match)
-    else:  # what the file itself states is compared here, the table of the simulation's modes after the audit
-        joined = matched(stated, results.mode, results.frequency, options.match)
-        with_own_frequencies(joined, results.mode, results.frequency)
-        history = replace(history, mode=joined.mode)
-    own = dict(zip(history.mode.tolist(), stated.mode.tolist(), strict=True))
-    history = replace(history, remarks=(*doubts, *history.remarks))
-    history = with_declared_units(history, options.coordinate_units, options.normalisation, results.analysis)
-    keep = ~np.isin(history.mode, np.array(options.ignore_modes, np.int64))
-    history = replace(
-        history,
-        mode=history.mode[keep],
-        frequency=history.frequency[keep],
-        name=tuple(n for n, k in zip(history.name, keep, strict=True) if k),
-        unit=tuple(u for u, k in zip(history.unit, keep, strict=True) if k) if history.unit else (),
-        resolution=None if history.resolution is None else history.resolution[keep],
-        q=history.q[keep],
-    )
-    return uniform(history, options.resample_s), own
-
-
-def _modes_table(results: FeResults, options: ConvertOptions, table: SimulationModes) -> pa.Table:
+def _modes_table(results: FeResults, interface_modes: Sequence[int], table: SimulationModes) -> pa.Table:
     is_static = results.analysis == "static"
-    interface = np.isin(results.mode, np.array(options.interface_modes, np.int64))
+    interface = np.isin(results.mode, np.array(interface_modes, np.int64))
     rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
     kind = np.where(interface | is_static, "interface", np.where(rigid, "rigid", "normal"))
-    mass, simulated = _masses(results, table)
+    mass, simulated = mode_masses(results, table)
     return pa.table(
         {
             "mode": results.mode,
             "frequency_hz": np.nan_to_num(results.frequency),
             "modal_mass": np.where(np.isfinite(simulated), simulated, mass),
             "kind": kind.tolist(),
-            "scale": _scale(results, table),
+            "scale": mode_scale(results, table),
         }
     )
-
-
-def _masses(results: FeResults, table: SimulationModes) -> tuple[Floats, Floats]:
-    """Generalised masses (m,) of the FE run, and of the simulation (NaN: not given)."""
-    mass = np.where(results.modal_mass > 0, results.modal_mass, 1.0)
-    return mass, np.array([table.get(int(m), (np.nan, np.nan))[1] for m in results.mode])
-
-
-def _scale(results: FeResults, table: SimulationModes) -> Floats:
-    """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
-    mass, simulated = _masses(results, table)
-    return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
-
-
-def _inputs(options: ConvertOptions, model: FeModel) -> tuple[Path, ...]:
-    """Files whose hashes the record keeps."""
-    displacements = (asked.file for asked in options.displacements)
-    return (options.forces, options.mesh, *model.included, *options.unit_loads, *options.coordinates, *displacements)
 
 
 def _slug(name: str) -> str:

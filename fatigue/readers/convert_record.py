@@ -15,7 +15,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.weld_register import RegisterRow
 
 if TYPE_CHECKING:
-    from fatigue.readers.convert import ConvertOptions
+    from fatigue.readers.convert_options import ConvertOptions
 
 LINES, COMMAND = "welds", "command"
 

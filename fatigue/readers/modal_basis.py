@@ -1,12 +1,13 @@
 """The modes of the forces and those of the simulation: one modal basis, or a refusal that names the difference."""
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.channel_names import written
@@ -17,6 +18,7 @@ from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation
 
+Floats = NDArray[np.float64]
 SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency [Hz] and modal mass by mode
 
 _NORMALISED: dict[Normalisation, str] = {"mass": "unit generalised mass", "length": "unity"}
@@ -156,7 +158,7 @@ def numbered(history: ForeignHistory, table: SimulationModes, source: Path) -> F
     return replace(history, mode=np.array(list(table), np.int64))
 
 
-def simulated_frequencies(histories: list[ForeignHistory], table: SimulationModes) -> dict[int, float]:
+def simulated_frequencies(histories: Sequence[ForeignHistory], table: SimulationModes) -> dict[int, float]:
     """Frequencies of the simulation by FE mode."""
     if not histories:
         return {mode: frequency for mode, (frequency, _) in table.items()}
@@ -164,7 +166,7 @@ def simulated_frequencies(histories: list[ForeignHistory], table: SimulationMode
 
 
 def common_modes(
-    results: FeResults, histories: list[ForeignHistory], source: Path, interface_modes: Collection[int]
+    results: FeResults, histories: Sequence[ForeignHistory], source: Path, interface_modes: Collection[int]
 ) -> tuple[FeResults, list[Problem]]:
     """Leave out rigid modes the simulation does not have; any other difference of the bases is refused."""
     problems, remarks = [], []
@@ -222,3 +224,15 @@ def _in_order(history: ForeignHistory, results: FeResults) -> str:
 
 def _short(modes: list[int]) -> str:
     return ", ".join(str(m) for m in modes[:10]) + (f" and {len(modes) - 10} more" if len(modes) > 10 else "")
+
+
+def mode_masses(results: FeResults, table: SimulationModes) -> tuple[Floats, Floats]:
+    """Generalised masses (m,) of the FE run, and of the simulation (NaN: not given)."""
+    mass = np.where(results.modal_mass > 0, results.modal_mass, 1.0)
+    return mass, np.array([table.get(int(m), (np.nan, np.nan))[1] for m in results.mode])
+
+
+def mode_scale(results: FeResults, table: SimulationModes) -> Floats:
+    """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
+    mass, simulated = mode_masses(results, table)
+    return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)

@@ -97,6 +97,8 @@ def is_derived(folder: Path, name: str, record: Mapping[str, Any] | None) -> boo
     hash of a result. A table is ours unless it is a sound table of somebody else.
     """
     path = folder / name
+    if not path.exists():
+        return False
     if name in (f"{table}.parquet" for table in TABLES):
         return _is_ours_or_damaged(path, known=record is not None)
     if name not in DOCUMENTS:

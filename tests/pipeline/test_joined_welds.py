@@ -12,7 +12,8 @@ from fatigue.case import load_case
 from fatigue.check import check_case
 from fatigue.errors import DataError
 from fatigue.pipeline.model import read_model
-from fatigue.readers.convert import ConvertOptions, convert
+from fatigue.readers.convert import convert
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.weld_lines import WeldSources
 from fatigue.verify.recount import recount
 from tests.readers.box_model import HIGH, LOW, box, corner_nodes

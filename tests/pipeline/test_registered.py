@@ -17,7 +17,8 @@ from fatigue.check import check_case
 from fatigue.cli import cli
 from fatigue.errors import DataError
 from fatigue.pipeline.model import read_model
-from fatigue.readers.convert import ConvertOptions, convert
+from fatigue.readers.convert import convert
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.verify.recount import recount
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee

@@ -10,7 +10,8 @@ import pytest
 
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.body import read_mesh, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.convert import ConvertOptions, convert
+from fatigue.readers.convert import convert
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.forces import read_element_forces, read_weld_elements
 from fatigue.readers.history import read_history
 from fatigue.readers.modal_basis import mode_list

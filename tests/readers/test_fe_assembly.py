@@ -10,7 +10,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.audit import audit
 from fatigue.readers.body import read_modes
-from fatigue.readers.convert import ConvertOptions, convert
+from fatigue.readers.convert import convert
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_op2 import read_op2
 from tests.readers.op2_files import ROW

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from fatigue.errors import CaseError, DataError
-from fatigue.readers.convert import ConvertOptions, convert
+from fatigue.readers.convert import convert
+from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.displacement.record import Displacement
 from tests.readers.displacement.modal_records import resonances
 from tests.readers.op2_writer import modal_op2

@@ -1,0 +1,121 @@
+"""Typing mistakes are told before anything heavy is imported, in the words of those who would find them later."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fatigue.case import load_case
+from fatigue.cli.early import missing_foreign, missing_tables, refuse_bad_modes, refuse_missing_case
+from fatigue.errors import FatigueError
+from fatigue.readers.files import open_columns
+from fatigue.readers.formats import recognise
+from fatigue.readers.modal_basis import mode_list
+
+ROOT = Path(__file__).parents[1]
+HEAVY = "{'numba', 'scipy', 'plotly', 'jinja2'}"
+RUN = f"""
+import sys
+from fatigue.cli import main
+try:
+    main()
+except SystemExit as done:
+    print(done.code, sorted({HEAVY} & set(sys.modules)))
+"""
+
+
+def early(folder, *arguments):
+    """Run a command that is mistaken; give exit code, the error lines and which heavy packages it imported."""
+    done = subprocess.run(
+        [sys.executable, "-c", RUN, *map(str, arguments)],
+        cwd=folder,
+        env={**__import__("os").environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    code, _, imported = done.stdout.strip().partition(" ")
+    return code, [line for line in done.stderr.splitlines() if line.startswith(("error", "Error"))], imported
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Files that are there, so that only one thing is wrong."""
+    folder = tmp_path_factory.mktemp("early")
+    for name in ("model.bdf", "run.op2", "q.csv", "there.csv", "there.vtp", "case.toml"):
+        (folder / name).write_text("x")
+    for name, file in (("result", "nodes.parquet"), ("body", "modes.csv"), ("synth", "case.toml")):
+        (folder / name).mkdir()
+        (folder / name / file).write_text("mine")
+    return folder
+
+
+CONVERT = ("convert", "--mesh", "model.bdf", "--forces", "run.op2", "-o", "out")
+MISTAKES = {
+    "check": (("check", "none.toml"), "3", "none.toml: there is no such file"),
+    "assess": (("assess", "none.toml", "-o", "out"), "3", "none.toml: there is no such file"),
+    "show": (("show", "none"), "3", "none: no finished result in this folder"),
+    "report": (("report", "none"), "3", "none: no finished result in this folder"),
+    "diagnose": (("diagnose", "none"), "3", "none: no finished result in this folder"),
+    "verify": (("verify", "--results", "none"), "3", "none: no finished result in this folder"),
+    "welds": (("welds", "none.bdf"), "3", "none.bdf: the file cannot be read (No such file or directory)"),
+    "welds register": (("welds", "model.bdf", "--register", "none.csv"), "3", "none.csv: there is no such file"),
+    "welds output": (("welds", "model.bdf", "-o", "there.csv"), "3", "there.csv: the file exists"),
+    "welds picture": (("welds", "model.bdf", "--vtp", "there.vtp"), "3", "there.vtp: is there already"),
+    "welds units": (("welds", "model.bdf", "--units", "mm-kg"), "3", "units: unknown unit system 'mm-kg'"),
+    "convert mesh": ((*CONVERT, "--mesh", "none.bdf"), "3", "none.bdf: the file cannot be read"),
+    "convert coordinates": ((*CONVERT, "--coordinates", "none.csv"), "3", "none.csv: the file cannot be read"),
+    "convert columns": ((*CONVERT, "--columns", "none.csv"), "3", "none.csv: there is no such file"),
+    "convert units": ((*CONVERT, "--coordinate-units", "SI"), "3", "coordinate units: unknown unit system 'SI'"),
+    "convert modes": ((*CONVERT, "--ignore-modes", "1-6;9"), "3", "'1-6;9' is no mode or range"),
+    "convert curve": ((*CONVERT, "--curve", "master-alu"), "3", "--curve: there is no curve 'master-alu'"),
+    "convert speed": ((*CONVERT, "--speed", "0"), "2", "Invalid value for '--speed'"),
+    "convert folder": ((*CONVERT, "-o", "body"), "3", "modes.csv: the file exists and is not the work of an earlier"),
+    "tension patch": (("tension-patch", "there.csv"), "3", "there.csv: is there already"),
+    "patch results": (("tension-patch", "none.op2", "--results"), "3", "none.op2: the file cannot be read"),
+    "synth": (("synth", "synth"), "3", "case.toml: is there already"),
+    "example": (("example", "synth"), "3", "case.toml: is there already"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_typing_mistake_is_told_before_the_imports(folder, name):
+    """Exit code and one line as ever, and neither numba nor scipy nor plotly was waited for."""
+    arguments, code, said = MISTAKES[name]
+    found, errors, imported = early(folder, *arguments)
+    assert (found, imported) == (code, "[]")
+    (line,) = errors
+    assert said in line
+
+
+def refusal_of(do, *arguments):
+    """Problems that a call raises."""
+    with pytest.raises(FatigueError) as refused:
+        do(*arguments)
+    return refused.value.problems
+
+
+def test_the_words_are_those_of_the_readers(tmp_path):
+    """Who finds the mistake, early or late, makes no difference."""
+    for path in (tmp_path / "none.toml", tmp_path):
+        assert refusal_of(refuse_missing_case, path) == refusal_of(load_case, path)
+    for path in (tmp_path / "none.op2", tmp_path):
+        assert tuple(missing_foreign(path)) == refusal_of(recognise, path)
+    for path in (tmp_path / "none.csv", tmp_path):
+        assert tuple(missing_tables(path)) == refusal_of(open_columns, path, ())
+    for text in ("1-x", "1;2", "", "3,", "-4"):
+        if not text:
+            continue
+        early_one, late = (refusal_of(do, *of)[0] for do, of in ((refuse_bad_modes, ("o", text)), (mode_list, (text,))))
+        assert (early_one.what, early_one.remedy) == (late.what, late.remedy)
+    for text in ("1-6", "1-6,31-52", " 7 , 8-9"):
+        refuse_bad_modes("o", text)
+        assert mode_list(text)
+
+
+def test_all_missing_files_are_named_at_once(folder):
+    """Two of them, two lines."""
+    code, errors, _ = early(folder, "convert", "--mesh", "a.bdf", "--forces", "b.op2", "-o", "out")
+    assert code == "3"
+    assert len(errors) == 2
