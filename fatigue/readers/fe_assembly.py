@@ -1,6 +1,7 @@
 """Blocks of a result file, one for each mode or subcase, joined into one FE run."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,9 +9,13 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock, frequency_of
 from fatigue.readers.force_rows import common_rows
+from fatigue.readers.force_sign import LOWEST_HZ
 
 _NOT_GIVEN = 1e-37
 """A smaller eigenvalue is no number a solver computes: the word holds an integer or nothing."""
+
+_AGREE = 1.001
+"""Frequencies of one mode by two tables differ by less."""
 
 Key = tuple[int, int]
 """Subcase and mode; mode 0: a static subcase."""
@@ -22,7 +27,7 @@ def assemble(
     forces: list[ForceBlock],
     shapes: list[ShapeBlock],
     summary: list[Eigenvalue],
-    stated: Mapping[Key, float],
+    stated: Mapping[Key, Sequence[float]],
     subcase: int | None,
     unusable: Collection[UnusableBlock] = (),
     interface: Collection[int] = (),
@@ -32,7 +37,7 @@ def assemble(
     Parameters
     ----------
     summary : the eigenvalue summaries of the file
-    stated : eigenvalues that stand beside shapes or forces, used for modes of a file without summary
+    stated : eigenvalues beside shapes, reactions and forces, used for modes of a file without summary
     subcase : the subcase to take from a file with several modal ones; None if there is only one
     unusable : blocks that are refused if the choice falls on them
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
@@ -40,13 +45,13 @@ def assemble(
     Raises
     ------
     DataError : no blocks, a choice of subcase is needed, a mode or a row given twice, rows that differ between modes, a
-        value that is no number
+        value that is no number, eigenvalues that contradict each other
     """
     chosen, remarks = _choose(source, forces, unusable, subcase, interface)
     modal = {block.subcase for block in chosen if block.mode > 0}
     key = np.array([block.mode or block.subcase for block in chosen], np.int64)
     is_static = np.array([block.mode == 0 for block in chosen])
-    known = _summary_of(summary, modal)
+    known = _summary_of(summary, stated, modal)
     rows = common_rows(chosen)
     if absent := sorted(set(interface) - set(key.tolist())):
         remarks.append(
@@ -77,7 +82,7 @@ def assemble(
                 "Request GPFORCE for all modes that the simulation uses",
             )
         )
-    beside = {} if known else _given(stated, [(block.subcase, block.mode) for block in chosen if block.mode])
+    beside = {} if known else _given(source, stated, [(block.subcase, block.mode) for block in chosen if block.mode])
     frequency, mass = np.full(key.size, np.nan), np.full(key.size, np.nan)
     for k, block in enumerate(chosen):
         if block.mode and known:
@@ -194,28 +199,60 @@ def _left_out(source: str, subcases: list[int], modes: set[int]) -> list[Problem
     ]
 
 
-def _summary_of(summary: list[Eigenvalue], modal: set[int]) -> dict[int, Eigenvalue]:
-    """Lines of the chosen subcase by mode; those of any subcase if the file has one summary only."""
-    own = [line for line in summary if line.subcase in modal]
-    if not own and len({line.subcase for line in summary}) == 1 and modal:
-        own = summary
-    found = {line.mode: line for line in own}
-    is_one = all(found[line.mode].frequency == line.frequency for line in own)
-    return found if is_one else {}
+def _summary_of(
+    summary: list[Eigenvalue], stated: Mapping[Key, Sequence[float]], modal: set[int]
+) -> dict[int, Eigenvalue]:
+    """Lines of the chosen subcase by mode; where several summaries do not tell theirs, those that agree with shapes."""
+    own = [line for line in summary if line.subcase in modal] or (summary if modal else [])
+    found: dict[int, Eigenvalue] = {}
+    for mode in {line.mode for line in own}:
+        lines = [line for line in own if line.mode == mode]
+        if len({line.frequency for line in lines}) > 1:
+            beside = [frequency_of(v) for subcase in modal for v in stated.get((subcase, mode), ()) if v]
+            lines = [line for line in lines if any(np.isclose(line.frequency, f, rtol=1e-3) for f in beside)]
+        if not lines:
+            return {}
+        found[mode] = lines[0]
+    return found
 
 
-def _given(stated: Mapping[Key, float], wanted: list[Key]) -> dict[Key, float]:
+def _given(source: str, stated: Mapping[Key, Sequence[float]], wanted: list[Key]) -> dict[Key, float]:
     """Eigenvalues that are numbers; zero counts only beside others, as that of a rigid mode."""
-    found = {key: stated[key] for key in wanted if key in stated and np.isfinite(stated[key])}
-    found = {key: value if abs(value) > _NOT_GIVEN else 0.0 for key, value in found.items()}
-    return found if any(found.values()) else {}
+    found = {}
+    for key in wanted:
+        values = [v if abs(v) > _NOT_GIVEN else 0.0 for v in stated.get(key, ()) if np.isfinite(v)]
+        found[key] = max(values, key=abs, default=np.nan)
+        given = [frequency_of(v) for v in values if v]
+        if given and max(given) > _AGREE * min(given) and max(given) > LOWEST_HZ:
+            raise DataError(
+                Problem(
+                    "eigenvalues_contradict",
+                    source,
+                    f"mode {key[1]} of subcase {key[0]} is given with {min(given):.6g} and {max(given):.6g} Hz",
+                    "Copy the file again in binary mode, or give the results of one run",
+                )
+            )
+    return found if any(value for value in found.values() if np.isfinite(value)) else {}
 
 
 def _shapes(keys: list[Key], blocks: list[ShapeBlock]) -> tuple[NDArray[np.int64], NDArray[np.floating]]:
-    """Mode shapes of all modes, or none if one is missing or their grids differ."""
+    """Shapes of all modes by ascending grid, or none if one is missing or their grids differ.
+
+    A static subcase beside modes may lack its displacements: they are zero then, and prove nothing.
+    """
     found = {(block.subcase, block.mode): block for block in blocks}
+    is_mixed = any(mode for _, mode in keys)
     wanted = [found.get(key) for key in keys]
-    complete = [block for block in wanted if block is not None]
-    if len(complete) < len(wanted) or any(not np.array_equal(block.node, complete[0].node) for block in complete):
+    given = [_by_grid(block) for block in wanted if block is not None]
+    is_missing = any(block is None and (mode or not is_mixed) for block, (_, mode) in zip(wanted, keys, strict=True))
+    if is_missing or any(not np.array_equal(block.node, given[0].node) for block in given):
         return np.empty(0, np.int64), np.empty((len(keys), 0, 6))
-    return complete[0].node, np.stack([block.shape for block in complete])
+    shape = np.zeros((len(keys), *given[0].shape.shape), np.result_type(*(block.shape for block in given)))
+    shape[[block is not None for block in wanted]] = [block.shape for block in given]
+    return given[0].node, shape
+
+
+def _by_grid(block: ShapeBlock) -> ShapeBlock:
+    """Shape by ascending grid."""
+    order = np.argsort(block.node, kind="stable")
+    return block if (np.diff(order) > 0).all() else replace(block, node=block.node[order], shape=block.shape[order])

@@ -29,11 +29,12 @@ class FeResults:
     mode : (m,) mode number, or subcase number
     frequency : (m,) frequency [Hz], NaN if unknown
     modal_mass : (m,) generalised mass, NaN if unknown
-    node, element, kind : (r,) grid, element and row name ("QUAD4", "APP-LOAD", ...) of every force row; element 0: none
+    node, element, kind : (r,) grid, element and row name ("QUAD4", "APP-LOAD", ...) of every force row; rows that are
+        no element's have 0, or an id that a solver left over: see ``of_element``
     force : (m, r, 6) forces and moments of the rows, in the displacement frame of the node; NaN where a mode lacks a
         row that is no element's, such as the load of another subcase
-    shape_node : (n,) grids of the mode shapes, empty without eigenvectors
-    shape : (m, n, 6) mode shapes, in the displacement frame of the node
+    shape_node : (n,) grids of the mode shapes, ascending, empty without eigenvectors
+    shape : (m, n, 6) mode shapes, in the displacement frame of the node; zero for static modes without displacements
     remarks : doubts met while reading
     static_modes : modes that are static subcases beside modes of vibration
     """

@@ -24,6 +24,19 @@ class CommonRows(NamedTuple):
     force: NDArray[np.floating]
 
 
+def sharing_rows(block: ForceBlock, before: list[ForceBlock]) -> ForceBlock:
+    """Let a block use the ids and names of the one before where they are equal, which saves most of the memory."""
+    if not before:
+        return block
+    last = before[-1]
+    return replace(
+        block,
+        node=last.node if np.array_equal(block.node, last.node) else block.node,
+        element=last.element if np.array_equal(block.element, last.element) else block.element,
+        kind=last.kind if np.array_equal(block.kind, last.kind) else block.kind,
+    )
+
+
 def common_rows(blocks: list[ForceBlock]) -> CommonRows:
     """Bring the rows of all modes into one order; it is the file's own where all modes have it.
 
@@ -32,12 +45,14 @@ def common_rows(blocks: list[ForceBlock]) -> CommonRows:
     DataError : a value that is no number, no rows of elements, an element given twice or under two names, elements that
         have forces in some modes only
     """
-    blocks = [replace(block, kind=np.where(names_total(block.kind), TOTALS, block.kind)) for block in blocks]
+    blocks = [_with_one_total(block) for block in blocks]
     is_element = [block.of_element for block in blocks]
     refuse(DataError, _problems(blocks, is_element))
     first = blocks[0]
-    element = np.where(is_element[0], first.element, 0)
-    if all(_is_alike(block, which, first, element) for block, which in zip(blocks, is_element, strict=True)):
+    own = np.where(is_element[0], first.element, 0)
+    if all(_is_alike(block, which, first, own) for block, which in zip(blocks, is_element, strict=True)):
+        is_same = all(np.array_equal(block.element, first.element) for block in blocks)
+        element = first.element if is_same else own  # ids left over from elements may differ
         return CommonRows(first.node, element, first.kind, np.stack([block.force for block in blocks]))
     rows = np.flatnonzero(is_element[0])
     order = _order(first, rows)
@@ -52,6 +67,12 @@ def common_rows(blocks: list[ForceBlock]) -> CommonRows:
         np.concatenate([first.kind[rows], np.array([kind for _, kind, _ in others], np.str_)]),
         force,
     )
+
+
+def _with_one_total(block: ForceBlock) -> ForceBlock:
+    """Give every total the same name."""
+    other = names_total(block.kind) & (block.kind != TOTALS)
+    return replace(block, kind=np.where(other, TOTALS, block.kind)) if other.any() else block
 
 
 def _is_alike(block: ForceBlock, is_element: NDArray[np.bool_], first: ForceBlock, element: NDArray[np.int64]) -> bool:

@@ -11,20 +11,20 @@ ANALYSES = {
     4: "differential stiffness",
     5: "frequency response",
     6: "transient response",
-    7: "pre-buckling",
+    7: "buckling (pre-buckling)",
     8: "buckling (post-buckling)",
     9: "complex eigenvalues",
     10: "nonlinear statics",
     11: "geometric nonlinear statics",
     12: "contran",
 }
-_BUCKLING = (7, 8)
+BUCKLING = (7, 8)
 
 
-def wrong_analysis(where: str, number: int) -> Problem:
-    """Say of which solution the forces are; buckling shapes have a load factor, no frequency."""
+def wrong_analysis(where: str, number: int, found: str = "forces") -> Problem:
+    """Say of which solution the forces or shapes are; buckling shapes have a load factor, no frequency."""
     remedy = REQUEST
-    if number in _BUCKLING:
+    if number in BUCKLING:
         remedy = "Buckling shapes (SOL 105) are no modes of vibration: give the modal run, SOL 103 with GPFORCE"
     name = f"{ANALYSES[number]} (analysis type {number})" if number in ANALYSES else f"analysis type {number}"
-    return Problem("wrong_analysis", where, f"the forces belong to a solution of {name}", remedy)
+    return Problem("wrong_analysis", where, f"the {found} belong to a solution of {name}", remedy)

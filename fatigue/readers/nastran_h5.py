@@ -13,6 +13,7 @@ from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.readers.fe_assembly import assemble
 from fatigue.readers.fe_model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.fe_results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock
+from fatigue.readers.force_rows import sharing_rows
 from fatigue.readers.nastran_analysis import MODES, STATIC, wrong_analysis
 from fatigue.readers.nastran_frames import FrameCard, Frames
 
@@ -48,7 +49,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
         domains = {int(d["ID"]): d for d in read("NASTRAN/RESULT/DOMAINS", required=False)}
         forces: list[ForceBlock] = []
         unusable: list[UnusableBlock] = []
-        stated: dict[tuple[int, int], float] = {}
+        stated: dict[tuple[int, int], list[float]] = {}
         for key, rows in _by_domain(forces_table):
             if (domain := domains.get(key)) is None:
                 raise DataError(
@@ -60,8 +61,8 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
             if (other := _unusable(domain, where)) is not None:
                 unusable.append(UnusableBlock(int(domain["SUBCASE"]), other))
                 continue
-            forces.append(_force_block(domain, rows, where))
-            stated[_key(domain)] = float(domain["TIME_FREQ_EIGR"])
+            forces.append(sharing_rows(_force_block(domain, rows, where), forces))
+            stated[_key(domain)] = [float(domain["TIME_FREQ_EIGR"])]
         shapes = [
             ShapeBlock(*_key(domains[key]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE))
             for name in ("EIGENVECTOR", "DISPLACEMENT")

@@ -4,8 +4,9 @@ Only the tables that hold them are decoded; whatever else a solver writes is ste
 """
 
 import re
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from collections import defaultdict
+from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,8 +24,10 @@ from fatigue.readers.fe_results import (
     frequency_of,
     is_sound,
 )
-from fatigue.readers.nastran_analysis import ANALYSES, MODES, STATIC, wrong_analysis
-from fatigue.readers.op2_records import Op2File, Op2Table, Record, characters, read_records, text_of
+from fatigue.readers.force_rows import sharing_rows
+from fatigue.readers.nastran_analysis import ANALYSES, BUCKLING, MODES, STATIC, wrong_analysis
+from fatigue.readers.op2_blocks import Identification, blocks, damaged, heads
+from fatigue.readers.op2_records import Op2File, Op2Table, Record, characters, read_records
 
 _FORCE_TABLES = ("OGPFB1",)
 _SORT2_TABLES = ("OGPFB2",)
@@ -34,35 +37,6 @@ _STATES_EIGENVALUE = re.compile(r"B?OUG|OQM?G")
 """Tables with the eigenvalue in word 6 of their identification: displacements in any frame, reactions."""
 _GRID_POINT_FORCE, _EIGENVECTOR, _DISPLACEMENT = 19, 7, 1
 _GRID = 1
-_ID_WORDS = 146
-_FIELD_WORDS = 32  # of title, subtitle and label, from word 51 on
-_SUPERELEMENT_AT = 99  # first character in the subtitle
-_SUPERELEMENT = re.compile(r"SUPERELEMENT\s+(\d+)\b")
-
-
-@dataclass(frozen=True, slots=True)
-class _Identification:
-    """The words of an identification record that say what the next record holds."""
-
-    approach: int
-    table_code: int
-    subcase: int
-    mode: int
-    words_per_row: int
-    is_thermal: bool
-    eigenvalue: float  # word 6
-    own: tuple[float, float]  # words 14 and 16, in force tables of MSC Nastran the eigenvalue and the frequency
-    superelement: int
-
-    @property
-    def key(self) -> tuple[int, int]:
-        """Subcase and mode; word 5 of a static subcase is a load set or nothing."""
-        return self.subcase, self.mode if self.approach == MODES else 0
-
-    @property
-    def is_modal(self) -> bool:
-        """Whether the block is that of a mode, sorted by mode."""
-        return self.approach == MODES and self.mode > 0 and self.table_code < 1000
 
 
 def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
@@ -83,27 +57,27 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
     forces: list[ForceBlock] = []
     unusable: list[UnusableBlock] = []
     shapes: list[ShapeBlock] = []
-    stated: dict[tuple[int, int], float] = {}
-    beside_forces: dict[tuple[int, int], float] = {}
+    stated: defaultdict[tuple[int, int], list[float]] = defaultdict(list)
     for table in _tables(op2):
         if table.name in _FORCE_TABLES:
-            for head, body in _blocks(op2, table):
+            for head, body in blocks(op2, table):
                 if (other := _unusable(op2, table, head)) is not None:
                     unusable.append(UnusableBlock(head.subcase, other))
                 else:
-                    forces.append(_force_block(op2, table, head, op2.record(body)))
-                    beside_forces[head.key] = _own_eigenvalue(head)
+                    forces.append(sharing_rows(_force_block(op2, table, head, op2.record(body)), forces))
+                    stated[head.key].append(_own_eigenvalue(head))
         elif table.name in _SHAPE_TABLES:
-            shapes += [block for pair in _blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
+            shapes += [block for pair in blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
         if _STATES_EIGENVALUE.match(table.name):
-            stated |= {head.key: head.eigenvalue for head in _heads(op2, table) if head.is_modal}
+            for head in heads(op2, table):
+                if head.is_modal:
+                    stated[head.key].append(head.eigenvalue)
     summary: list[Eigenvalue] = []
     if any(block.mode for block in forces) or not (forces or unusable):
         tables = [table for table in _tables(op2) if table.name in _EIGENVALUE_TABLES]
-        summary = [line for t in tables for pair in _blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
+        summary = [line for t in tables for pair in blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
     if not forces and not unusable:
         raise _without_forces(op2)
-    stated = beside_forces | stated
     results = assemble(str(path), op2.label, forces, shapes, summary, stated, subcase, unusable, interface)
     return results if op2.is_closed else replace(results, remarks=(*results.remarks, _unclosed(op2)))
 
@@ -143,78 +117,15 @@ def _without_forces(op2: Op2File) -> DataError:
                 "sort2", str(op2.path), "the grid point forces are sorted by node (OGPFB2)", "Request SORT1 results"
             )
         )
+    shapes = [head for t in op2.tables if _STATES_EIGENVALUE.match(t.name) for head in heads(op2, t)]
+    if buckling := next((head for head in shapes if head.approach in BUCKLING), None):
+        return DataError(wrong_analysis(str(op2.path), buckling.approach, "shapes"))
     return DataError(
         Problem("no_forces", str(op2.path), f"no grid point forces (table OGPFB1); tables found: {found}", REQUEST)
     )
 
 
-def _is_head(op2: Op2File, record: Record) -> bool:
-    """Whether a record has the length of an identification, which no number of whole rows has."""
-    return sum(chunk.length * chunk.number for chunk in record) == _ID_WORDS * op2.word
-
-
-def _heads(op2: Op2File, table: Op2Table) -> Iterator[_Identification]:
-    """Identifications of a table that is not decoded further."""
-    return (_identification(op2, record) for record in table.records if _is_head(op2, record))
-
-
-def _blocks(op2: Op2File, table: Op2Table) -> Iterator[tuple[_Identification, Record]]:
-    """Identification and data of every block of a results table; the data may be cut into several records."""
-    starts = [k for k, record in enumerate(table.records) if _is_head(op2, record)]
-    if table.records and starts[:1] != [0]:
-        words = sum(chunk.length * chunk.number for chunk in table.records[0]) // op2.word
-        raise _damaged(op2, table, f"an identification record of {words} words, not {_ID_WORDS}")
-    for start, end in zip(starts, [*starts[1:], len(table.records)], strict=True):
-        head = _identification(op2, table.records[start])
-        body = tuple(chunk for record in table.records[start + 1 : end] for chunk in record)
-        if end == start + 1:
-            raise _damaged(op2, table, f"no data follow the identification of subcase {head.subcase} mode {head.mode}")
-        yield head, body
-
-
-def _damaged(op2: Op2File, table: Op2Table, found: str) -> DataError:
-    """Refusal of a table whose content contradicts itself."""
-    return DataError(
-        Problem(
-            "op2_table_damaged",
-            f"{op2.path}, table {table.name}",
-            found,
-            "Copy the file again in binary mode, or repeat the run",
-        )
-    )
-
-
-def _identification(op2: Op2File, record: Record) -> _Identification:
-    """Decode an identification record."""
-    raw = op2.record(record)
-    words, reals = raw.view(f"{op2.order}i{op2.word}"), raw.view(f"{op2.order}f{op2.word}")
-    return _Identification(
-        approach=int(words[0]) // 10,  # the last digit is the device
-        table_code=int(words[1]),
-        subcase=int(words[3]),
-        mode=int(words[4]),
-        words_per_row=int(words[9]),
-        is_thermal=int(words[22]) == 1,
-        eigenvalue=float(reals[5]),
-        own=(float(reals[13]), float(reals[15])),
-        superelement=_superelement(op2, raw),
-    )
-
-
-def _superelement(op2: Op2File, raw: NDArray[np.uint8]) -> int:
-    """Find the superelement's number behind the subtitle, 0: residual structure; a user's title may hold the word."""
-    size = _FIELD_WORDS * op2.word
-    fields = [raw[at : at + size].tobytes() for at in range(raw.size - 3 * size, raw.size, size)]
-    title, subtitle, label = (text_of(field, op2.word) for field in fields)
-    if found := _SUPERELEMENT.match(characters(fields[1], op2.word)[_SUPERELEMENT_AT:].strip()):
-        return int(found[1])
-    for text in (title, subtitle, label):
-        if found := _SUPERELEMENT.fullmatch(text):
-            return int(found[1])
-    return 0
-
-
-def _own_eigenvalue(head: _Identification) -> float:
+def _own_eigenvalue(head: Identification) -> float:
     """Eigenvalue in the identification of forces, if its frequency stands beside it; NaN otherwise."""
     eigenvalue, frequency = head.own
     if head.approach != MODES or not 0 < abs(eigenvalue) < np.inf:
@@ -222,7 +133,7 @@ def _own_eigenvalue(head: _Identification) -> float:
     return eigenvalue if np.isclose(frequency_of(eigenvalue), frequency, rtol=1e-4, atol=0) else np.nan
 
 
-def _unusable(op2: Op2File, table: Op2Table, head: _Identification) -> Problem | None:
+def _unusable(op2: Op2File, table: Op2Table, head: Identification) -> Problem | None:
     """Why a block is no real SORT1 grid point force balance of the residual structure; None if it is."""
     where = f"{op2.path}, {table.name} subcase {head.subcase}"
     if head.approach not in (STATIC, MODES):
@@ -241,18 +152,18 @@ def _unusable(op2: Op2File, table: Op2Table, head: _Identification) -> Problem |
     return None
 
 
-def _force_block(op2: Op2File, table: Op2Table, head: _Identification, record: NDArray[np.uint8]) -> ForceBlock:
+def _force_block(op2: Op2File, table: Op2Table, head: Identification, record: NDArray[np.uint8]) -> ForceBlock:
     """Rows of one mode."""
     if head.table_code != _GRID_POINT_FORCE or head.words_per_row != 10:
-        raise _damaged(
+        raise damaged(
             op2, table, f"table code {head.table_code} with {head.words_per_row} words in a row, not 19 with 10"
         )
     if head.subcase < (0 if head.approach == MODES else 1) or (head.approach == MODES and head.mode < 1):
-        raise _damaged(op2, table, f"subcase {head.subcase} mode {head.mode} is impossible")
+        raise damaged(op2, table, f"subcase {head.subcase} mode {head.mode} is impossible")
     o, w = op2.order, op2.word
     dtype = np.dtype([("key", f"{o}i{w}"), ("element", f"{o}i{w}"), ("kind", f"S{2 * w}"), ("force", f"{o}f{w}", 6)])
     if record.size % dtype.itemsize:
-        raise _damaged(op2, table, f"a record of {record.size // w} words is no whole number of rows")
+        raise damaged(op2, table, f"a record of {record.size // w} words is no whole number of rows")
     rows = record.view(dtype)
     subcase, mode = head.key
     where = f"{op2.path}, {table.name} subcase {subcase}"
@@ -270,7 +181,7 @@ def _force_block(op2: Op2File, table: Op2Table, head: _Identification, record: N
 def _nodes(op2: Op2File, table: Op2Table, key: NDArray[np.signedinteger]) -> NDArray[np.int64]:
     """Grid ids of keys 10 x grid + device code; the code may be another than that of the identification."""
     if (key < 10).any():
-        raise _damaged(op2, table, f"the key {key[key < 10][0]} is no grid")
+        raise damaged(op2, table, f"the key {key[key < 10][0]} is no grid")
     return np.asarray(key // 10, np.int64)
 
 
@@ -281,11 +192,11 @@ def _kinds(op2: Op2File, table: Op2Table, raw: NDArray[np.bytes_]) -> NDArray[np
     names = [characters(name, op2.word).strip(" \0") for name in raw[first].tolist()]
     for name in names:
         if not (name.isascii() and name.isprintable()):
-            raise _damaged(op2, table, f"a row is named {name!r}")
+            raise damaged(op2, table, f"a row is named {name!r}")
     return np.array(names, dtype=np.str_)[which]
 
 
-def _shape_block(op2: Op2File, table: Op2Table, head: _Identification, body: Record) -> ShapeBlock | None:
+def _shape_block(op2: Op2File, table: Op2Table, head: Identification, body: Record) -> ShapeBlock | None:
     """Mode shape of one mode; None for what the audit has no use for."""
     if head.approach not in (STATIC, MODES) or head.table_code not in (_EIGENVECTOR, _DISPLACEMENT) or head.is_thermal:
         return None
@@ -293,18 +204,18 @@ def _shape_block(op2: Op2File, table: Op2Table, head: _Identification, body: Rec
     o, w = op2.order, op2.word
     dtype = np.dtype([("key", f"{o}i{w}"), ("type", f"{o}i{w}"), ("shape", f"{o}f{w}", 6)])
     if head.words_per_row != 8 or record.size % dtype.itemsize:
-        raise _damaged(op2, table, f"rows of {head.words_per_row} words in a record of {record.size // w}, not 8")
+        raise damaged(op2, table, f"rows of {head.words_per_row} words in a record of {record.size // w}, not 8")
     rows = record.view(dtype)
     rows = rows[rows["type"] == _GRID]
     if not is_sound(rows["shape"]).all():
-        raise _damaged(op2, table, f"mode {head.mode} holds a value that is no number")
+        raise damaged(op2, table, f"mode {head.mode} holds a value that is no number")
     node = _nodes(op2, table, rows["key"])
     if np.unique(node).size < node.size:
-        raise _damaged(op2, table, f"a grid is given twice in mode {head.mode}")
+        raise damaged(op2, table, f"a grid is given twice in mode {head.mode}")
     return ShapeBlock(*head.key, node, rows["shape"].astype(f"=f{w}"))
 
 
-def _eigenvalues(op2: Op2File, table: Op2Table, head: _Identification, body: Record) -> list[Eigenvalue]:
+def _eigenvalues(op2: Op2File, table: Op2Table, head: Identification, body: Record) -> list[Eigenvalue]:
     """Frequencies and generalised masses of the eigenvalue summary, 7 words a mode; none of load factors."""
     if head.approach in ANALYSES and head.approach not in (STATIC, MODES):
         return []
@@ -312,18 +223,18 @@ def _eigenvalues(op2: Op2File, table: Op2Table, head: _Identification, body: Rec
     o, w = op2.order, op2.word
     dtype = np.dtype([("mode", f"{o}i{w}"), ("order", f"{o}i{w}"), ("value", f"{o}f{w}", 5)])
     if record.size % dtype.itemsize:
-        raise _damaged(op2, table, f"a record of {record.size // w} words is no whole number of 7-word rows")
+        raise damaged(op2, table, f"a record of {record.size // w} words is no whole number of 7-word rows")
     found = []
     for row in record.view(dtype):
         eigenvalue, omega, frequency, mass, _ = (float(v) for v in row["value"])
         if row["mode"] < 1 or not is_sound(row["value"]).all() or mass < 0:
-            raise _damaged(
+            raise damaged(
                 op2, table, f"mode {row['mode']} with eigenvalue {eigenvalue:g} and mass {mass:g} is impossible"
             )
         is_zero = eigenvalue < 0 and omega == frequency == 0  # what some solvers state for rigid modes
         size = np.sqrt(abs(eigenvalue))
         if not is_zero and not np.allclose(np.abs([omega, 2 * np.pi * frequency]), size, rtol=1e-3, atol=1e-6):
-            raise _damaged(
+            raise damaged(
                 op2, table, f"eigenvalue {eigenvalue:g} and {frequency:g} Hz of mode {row['mode']} contradict"
             )
         found.append(Eigenvalue(head.subcase, int(row["mode"]), frequency_of(eigenvalue), mass))

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,11 +10,13 @@ import numpy as np
 from fatigue.errors import DataError, Problem
 from fatigue.readers.fe_assembly import assemble
 from fatigue.readers.fe_results import REQUEST, FeResults, ForceBlock
+from fatigue.readers.force_sign import LOWEST_HZ
 
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
 _SUBCASE = re.compile(r"\$SUBCASE ID\s*=\s*(\d{1,9})", re.ASCII)
 _OTHER_SOLUTIONS = ("$TIME", "$FREQUENCY", "$LOAD FACTOR", "$LOAD STEP", "$COMPLEX EIGENVALUE")
+_PERHAPS_BUCKLING_HZ = 1.0
 _SORT2 = ("$POINT ID", "$ELEMENT ID")
 
 
@@ -36,12 +39,26 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
     heads = [k for k, line in enumerate(lines) if line.startswith(_HEADING)]
     if not heads:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
-    stated: dict[tuple[int, int], float] = {}
+    stated: dict[tuple[int, int], list[float]] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
-    return assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
+    results = assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
+    highest = float(np.max(results.frequency, initial=0.0, where=results.frequency > LOWEST_HZ))
+    if 0 < highest < _PERHAPS_BUCKLING_HZ:
+        return replace(results, remarks=(*results.remarks, _perhaps_buckling(path, highest)))
+    return results
 
 
-def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int], float]) -> ForceBlock:
+def _perhaps_buckling(path: Path, highest: float) -> Problem:
+    """Doubt about modes all of which are very slow: a punch file does not tell its solution."""
+    return Problem(
+        "perhaps_buckling",
+        str(path),
+        f"no mode is above {highest:.3g} Hz: in a run of SOL 105 load factors stand where eigenvalues are read",
+        "Make sure that the run was SOL 103; buckling shapes are no modes of vibration",
+    )
+
+
+def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int], list[float]]) -> ForceBlock:
     """One balance: its $ lines, then three lines for each row."""
     where = f"{path}, line {head + 1}"
     number, mode, eigenvalue, at = 0, 0, np.nan, head + 1
@@ -51,6 +68,8 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
             number = int(found[1])
         if found := _EIGENVALUE.match(line):
             mode, eigenvalue = int(found[2]), _real(path, at, found[1])
+        elif line.startswith("$EIGENVALUE"):
+            raise _bad(path, at, f"in {line.strip()!r} the eigenvalue or the mode is no number")
         if line.startswith(("$REAL-IMAGINARY", "$MAGNITUDE-PHASE")):
             raise DataError(
                 Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103")
@@ -65,7 +84,7 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         at += 1
     if number < 1:
         raise DataError(Problem("no_subcase", where, "no line $SUBCASE ID follows", "Copy the punch file again"))
-    stated[number, mode] = eigenvalue
+    stated[number, mode] = [eigenvalue]
     node, element, kind, force = [], [], [], []
     while at < len(lines) and not lines[at].startswith("$"):
         if not lines[at].strip():

@@ -100,6 +100,7 @@ class _Cursor:
     def __init__(self, path: Path, data: mmap.mmap) -> None:
         self.path, self.data, self.position = path, data, 0
         self.table = ""
+        self.between: dict[int, bytes] = {}  # words of one chunk and those of the next, by their number
         if data[:4] not in _LAYOUTS:
             raise DataError(
                 Problem(
@@ -160,8 +161,10 @@ class _Cursor:
     def chunks(self, count: int) -> Chunks:
         """Step over a record announced as ``count`` words and over those like it that follow."""
         one = self.words(count)
-        mark, own = self.bytes_of(self.word), self.bytes_of(one.length)
-        between = own + mark + self.bytes_of(count, self.word) + mark + own  # of one chunk's words and the next one's
+        if count not in self.between:
+            mark, own = self.bytes_of(self.word), self.bytes_of(one.length)
+            self.between[count] = own + mark + self.bytes_of(count, self.word) + mark + own
+        between = self.between[count]
         at = one.first + one.length
         if self.data[at : at + len(between)] != between:
             return one

@@ -42,7 +42,7 @@ def convention_of(patch: FeResults) -> Convention:
     ------
     DataError : the forces of element 1 at the pulled grids are not 100 N of either sign
     """
-    rows = (patch.element == 1) & np.isin(patch.node, _LOADED)
+    rows = (patch.element == 1) & patch.of_element & np.isin(patch.node, _LOADED)
     total = float(patch.force[0, rows, 0].sum())
     if int(rows.sum()) != len(_LOADED) or abs(abs(total) - LOAD_N) > 1e-3 * LOAD_N:
         raise DataError(

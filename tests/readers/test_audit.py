@@ -208,6 +208,8 @@ def test_tension_patch(tmp_path, sign, convention):
     assert convention_of(results) == convention
     found = audit(results, read_bdf(path))
     assert found.convention == convention
+    left_over = replace(results, element=np.where(results.kind == "APP-LOAD", 1, results.element))
+    assert convention_of(left_over) == convention
     with pytest.raises(DataError, match=r"carries .* N at the pulled grids"):
         convention_of(replace(results, force=0.9 * results.force))
 

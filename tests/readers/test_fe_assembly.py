@@ -1,5 +1,6 @@
 """Blocks joined into a run: which subcases, which frequencies, static subcases beside modes."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +13,12 @@ from fatigue.readers.body import read_modes
 from fatigue.readers.convert import ConvertOptions, convert
 from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.nastran_op2 import read_op2
+from tests.readers.op2_files import ROW
 from tests.readers.op2_writer import OPTISTRUCT, Op2Writer, modal_op2, modal_tables
 from tests.readers.tee_model import bulk, tee
 from tests.readers.unit_loads import SUBCASES, unit_load_op2, unit_loads
 
 GENUINE = Path(__file__).parents[1] / "data" / "nastran"
-ROW = (1, 1, "QUAD4", [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
 LAMBDA = [(2 * np.pi * f) ** 2 for f in (3.0, 8.0)]
 
 
@@ -142,7 +143,7 @@ def test_modes_without_frequency_are_red(tmp_path, model):
 
 
 def test_own_words_of_forces_must_agree(tmp_path):
-    """Words 14 and 16 of the forces count if they are an eigenvalue and its frequency, and after all other sources."""
+    """Words 14 and 16 of the forces count if they are an eigenvalue and its frequency; none may contradict."""
     own = ((LAMBDA[0], 3.0), (LAMBDA[1], 8.0))
     assert read_op2(written(tmp_path / "a.op2", lambda w: two_modes(w, own=own))).frequency == pytest.approx([3, 8])
     own = ((LAMBDA[0], 3.1), (LAMBDA[1], 8.0))
@@ -151,7 +152,8 @@ def test_own_words_of_forces_must_agree(tmp_path):
     path = written(
         tmp_path / "a.op2", lambda w: beside(w, "OQG1", [4 * v for v in LAMBDA]), lambda w: two_modes(w, own=own)
     )
-    assert read_op2(path).frequency == pytest.approx([6.0, 16.0])
+    with pytest.raises(DataError, match="mode 2 of subcase 1 is given with 8 and 16 Hz"):
+        read_op2(path)
     path = written(path, lambda w: summary(w, LAMBDA), lambda w: beside(w, "OQG1", [1.0, 1.0]), two_modes)
     assert read_op2(path).frequency == pytest.approx([3.0, 8.0])
 
@@ -168,6 +170,14 @@ def test_summaries_of_several_subcases(tmp_path):
     )
     assert read_op2(path, 1).frequency == pytest.approx([3.0, 8.0])
     assert read_op2(path, 2).frequency == pytest.approx([6.0, 16.0])
+    path = written(
+        path,
+        *(lambda w, v=v: summary(w, v, 0) for v in (LAMBDA, four)),
+        lambda w: beside(w, "OUGV1", four),
+        two_modes,
+    )
+    assert read_op2(path).frequency == pytest.approx([6.0, 16.0])
+    assert read_op2(path).modal_mass.tolist() == [2.0, 2.0]
     path = written(path, lambda w: summary(w, LAMBDA, 9), two_modes)
     assert read_op2(path).frequency == pytest.approx([3.0, 8.0])
     path = written(path, lambda w: summary(w, LAMBDA, 8), lambda w: summary(w, four, 9), two_modes)
@@ -189,6 +199,11 @@ def test_buckling_shapes_are_refused_as_such(tmp_path):
     def static(writer):
         writer.table("OGPFB1", [writer.identification(1, 19, 0, 10), writer.forces([ROW])])
 
+    def shapes(writer):
+        writer.table("OUGV1", [writer.identification(7, 7, 1, 8), writer.shape([(1, [0.0] * 6)])])
+
+    with pytest.raises(DataError, match=r"the shapes belong to a solution of buckling"):
+        read_op2(written(tmp_path / "a.op2", shapes))
     with pytest.raises(DataError, match=r"solution of buckling.*no modes of vibration") as caught:
         read_op2(written(tmp_path / "a.op2", buckling))
     assert [problem.code for problem in caught.value.problems] == ["wrong_analysis"]
@@ -241,6 +256,21 @@ def test_unit_loads_beside_modes(tmp_path, model):
     assert set(lights(found, model, interface_modes=(21, 23)).values()) == {"green"}
     assert read_op2(path, subcase=1, interface=(21,)).mode.tolist() == [1, 2, 3, 4, 5, 21]
     assert read_op2(path, subcase=22).mode.tolist() == [22]
+
+
+def test_shapes_in_any_order_of_grids(tmp_path, model):
+    """Shapes whose grids do not ascend prove the sign as well; unit loads without displacements do not disturb it."""
+    case = tee().results
+    order = np.random.default_rng(2).permutation(case.shape_node.size)
+    turned = replace(case, shape_node=case.shape_node[order], shape=case.shape[:, order])
+    writer = modal_tables(Op2Writer(8), turned)
+    path = tmp_path / "a.op2"
+    path.write_bytes(unit_load_op2(writer, shapes=False).close())
+    found = read_op2(path, interface=SUBCASES)
+    assert np.array_equal(found.shape_node, case.shape_node)
+    assert np.array_equal(found.shape[:5], case.shape)
+    assert not found.shape[5:].any()
+    assert lights(found, model, interface_modes=SUBCASES)["sign"] == "green"
 
 
 def test_a_unit_load_with_the_number_of_a_mode(tmp_path):

@@ -54,12 +54,14 @@ def test_names(names, is_element, is_total):
 
 
 def test_equal_rows_keep_the_order_of_the_file():
-    """Blocks with the same rows are stacked as they are; ids left over from elements are dropped."""
+    """Blocks with the same rows are stacked as they are; ids left over from elements are dropped where they differ."""
     rows = [(2, 8, "TRIA3", 3.0), (1, 99, "APP-LOAD", 5.0), (1, 7, "QUAD4", 1.0), (1, 98, "*TOTALS*", 6.0)]
     found = common_rows([block(rows), block(rows, 2)])
     assert found.node.tolist() == [2, 1, 1, 1]
-    assert found.element.tolist() == [8, 0, 7, 0]
+    assert found.element.tolist() == [8, 99, 7, 98]
     assert found.force[1, :, 0].tolist() == [3.0, 5.0, 1.0, 6.0]
+    other = [(n, 55 if kind == "APP-LOAD" else e, kind, f) for n, e, kind, f in rows]
+    assert common_rows([block(rows), block(other, 2)]).element.tolist() == [8, 0, 7, 0]
 
 
 def test_rows_that_are_no_elements_differ():

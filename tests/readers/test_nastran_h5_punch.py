@@ -2,6 +2,7 @@
 
 import builtins
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -311,6 +312,19 @@ def test_punch_of_other_solutions(tmp_path, line):
     path = tmp_path / "a.pch"
     path.write_text(punch(tee().results).replace("$EIGENVALUE =", line + "\n$EIGENVALUE ="))
     with pytest.raises(DataError, match=line[1:5].lower()):
+        read_punch(path)
+
+
+def test_punch_of_load_factors(tmp_path):
+    """Modes below 1 Hz only may be buckling shapes, which a punch file does not tell: a doubt, not a refusal."""
+    text = punch(replace(tee().results, frequency=np.array([0.1, 0.2, 0.3, 0.4, 0.5])))
+    path = tmp_path / "a.pch"
+    path.write_text(text)
+    assert "no mode is above 0.5 Hz" in read_punch(path).remarks[-1].what
+    path.write_text(punch(tee().results))
+    assert not read_punch(path).remarks
+    path.write_text(text.replace("MODE =     3", "MODE =      "))
+    with pytest.raises(DataError, match="the eigenvalue or the mode is no number"):
         read_punch(path)
 
 
