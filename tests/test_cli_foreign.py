@@ -47,6 +47,7 @@ def test_a_converted_folder_can_be_assessed_and_keeps_its_audit(converted):
     assert done.returncode == 0, done.stderr
     record = json.loads((folder / "result" / "provenance.json").read_text())
     assert record["conversion"]["convention"] == "on_node"
+    assert "193 CBUSH (line 6849)" in " ".join(record["conversion"]["remarks"])
     assert {row["light"] for row in record["conversion"]["audit"]} == {"green"}
     welds = pd.read_parquet(folder / "result" / "welds.parquet")
     assert welds.status.value_counts().to_dict() == {"assessed": 24, "excluded": 6}

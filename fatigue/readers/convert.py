@@ -10,7 +10,7 @@ import pyarrow as pa
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.audit import Audit, audit
 from fatigue.readers.case_text import case_text
-from fatigue.readers.fe_model import in_mm
+from fatigue.readers.fe_model import FeModel, in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.forces import Convention
@@ -165,9 +165,7 @@ def convert(options: ConvertOptions) -> Conversion:
         check_folder(options.out, [*files, RECORD], REGISTER)
     doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
     record = {
-        "inputs": {
-            str(p): sha256(p) for p in (options.forces, options.mesh, *options.unit_loads, *options.coordinates)
-        },
+        "inputs": {str(p): sha256(p) for p in _inputs(options, model)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],
@@ -183,6 +181,11 @@ def convert(options: ConvertOptions) -> Conversion:
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
         files=(*files, RECORD),
     )
+
+
+def _inputs(options: ConvertOptions, model: FeModel) -> tuple[Path, ...]:
+    """Every file that was read."""
+    return (options.forces, options.mesh, *model.included, *options.unit_loads, *options.coordinates)
 
 
 def _refuse_red(judged: Audit, options: ConvertOptions) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ class FeModel:
     marker_edges : pairs of grids joined by plot elements or bars, (p, 2), by card name ("PLOTEL", "CBAR", "CBEAM")
     other_cards : how many cards of elements other than shells there are, by name
     remarks : doubts met while reading
+    included : files it was read from besides ``source``
     """
 
     source: str
@@ -38,6 +40,7 @@ class FeModel:
     marker_edges: Mapping[str, NDArray[np.int64]] = field(default_factory=dict)
     other_cards: Mapping[str, int] = field(default_factory=dict)
     remarks: tuple[Problem, ...] = ()
+    included: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

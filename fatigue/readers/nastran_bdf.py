@@ -1,7 +1,7 @@
 """Shell geometry from NASTRAN or OptiStruct bulk data: the cards that weld lines need; all others are only counted."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.fe_model import FeModel, Shell, shell_mesh
-from fatigue.readers.nastran_cards import Card, LeftOut, cards
+from fatigue.readers.nastran_cards import Card, cards
 from fatigue.readers.nastran_frames import FrameCard, Frames
 from fatigue.readers.nastran_lines import Deck, read_deck
-from fatigue.readers.nastran_sets import case_sets, set_on_card
+from fatigue.readers.nastran_notes import LeftOut, Twice
+from fatigue.readers.nastran_sets import joined_sets, set_on_card
 from fatigue.readers.nastran_shells import SHELLS, Property, pcomp, pshell, shell
 from fatigue.readers.nastran_twice import same_card, same_grid
 
@@ -36,7 +37,7 @@ class _Bulk:
     sets: dict[int, list[int]] = field(default_factory=dict)
     markers: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
     bars: dict[str, int] = field(default_factory=dict)
-    again: list[tuple[str, Card]] = field(default_factory=list)  # what stands twice with equal content
+    twice: Twice = field(default_factory=Twice)
     remarks: list[Problem] = field(default_factory=list)
 
     def default(self, at: int) -> int:
@@ -61,8 +62,7 @@ def read_bdf(path: Path) -> FeModel:
             _HANDLERS[card.name](bulk, card)
         except DataError as error:
             problems += error.problems
-    _refuse_some(problems + _grids_twice(bulk))
-    return _model(bulk, deck, left_out)
+    return _model(bulk, deck, left_out, problems + _grids_twice(bulk))
 
 
 def _refuse_some(problems: list[Problem]) -> None:
@@ -73,8 +73,8 @@ def _refuse_some(problems: list[Problem]) -> None:
     refuse(DataError, first)
 
 
-def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
-    """Resolve coordinates and references."""
+def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -> FeModel:
+    """Resolve coordinates and references; refuse with the problems met before and here."""
     xyz: dict[int, NDArray[np.float64]] = {}
     default_cp, default_cd = bulk.default(1), bulk.default(5)
 
@@ -93,7 +93,6 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
     cd: dict[int, int] = {}
     shells: list[Shell] = []
     properties = {pid: found for pid, (found, _) in bulk.properties.items()}
-    problems: list[Problem] = []
     for grid, card in bulk.grids.items():
         try:
             position(grid)
@@ -105,9 +104,9 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
             shells.append(shell(card, properties))
         except DataError as error:
             problems += error.problems
-    _refuse_some(list(dict.fromkeys(problems)))
+    _refuse_some(list(dict.fromkeys(_with_unread_frames(problems, left_out))))
     turned = sorted(grid for grid, c in cd.items() if c)
-    sets, set_remarks = case_sets(deck.control)
+    sets, set_remarks = joined_sets(bulk.sets, deck.control)
     return FeModel(
         source=bulk.source,
         mesh=shell_mesh(bulk.source, xyz, shells, {pid: found.section for pid, found in properties.items()}),
@@ -115,11 +114,19 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut) -> FeModel:
         frame=np.array([frames.axes_at(cd[g], xyz[g]) for g in turned]).reshape(-1, 3, 3),
         section_doubt=_section_doubts(properties, shells),
         element_doubt={s.element: s.doubt for s in shells if s.doubt},
-        node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in (bulk.sets | sets).items()},
+        node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in sets.items()},
         marker_edges={name: np.array(pairs, np.int64) for name, pairs in bulk.markers.items()},
         other_cards=bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)},
-        remarks=(*deck.remarks, *bulk.remarks, *set_remarks, *_remarks(bulk, left_out)),
+        included=deck.included,
+        remarks=(*deck.remarks, *bulk.remarks, *set_remarks, *bulk.twice.remarks(), *left_out.remarks(bulk.source)),
     )
+
+
+def _with_unread_frames(problems: list[Problem], left_out: LeftOut) -> list[Problem]:
+    """Name the cards that may define a missing coordinate system in a way that is not read."""
+    unread = ", ".join(name for name in left_out.count if name.startswith("CORD"))
+    remedy = f"Give it as CORD1 or CORD2; {unread} cards are not read"
+    return [replace(p, remedy=remedy) if unread and p.code == "no_frame" else p for p in problems]
 
 
 def _output_frame(card: Card, default: int) -> int:
@@ -140,38 +147,6 @@ def _section_doubts(properties: dict[int, Property], shells: list[Shell]) -> dic
     for pid in {s.pid for s in shells if s.thickness is None} - properties.keys():
         doubts[pid] = f"property {pid} is not a PSHELL, PCOMP or PCOMPG of this model"
     return doubts
-
-
-def _remarks(bulk: _Bulk, left_out: LeftOut) -> list[Problem]:
-    """List what stands twice, and the cards left out, each with its number and its first place."""
-    remarks = []
-    if bulk.again:
-        kinds = dict.fromkeys(kind for kind, _ in bulk.again)
-        numbers = ", ".join(f"{sum(k == kind for k, _ in bulk.again)} {kind}" for kind in kinds)
-        what = f"{numbers} stand twice with equal content, {bulk.again[0][0]} {bulk.again[0][1].text(0)} the first"
-        remarks.append(
-            Problem("twice", bulk.again[0][1].where, f"{what}; each is taken once", "Nothing to do", len(bulk.again))
-        )
-    if left_out.unread:
-        what = f"{len(left_out.unread)} lines hold text behind column 72 that is no continuation mark; it is not read"
-        remedy = "Nothing to do if it is no data"
-        remarks.append(Problem("unread_text", left_out.unread[0], what, remedy, len(left_out.unread)))
-    if left_out.count:
-        folder = f"{Path(bulk.source).parent}/"
-        listed = ", ".join(
-            f"{n} {name} ({left_out.first[name].removeprefix(f'{bulk.source}, ').removeprefix(folder)})"
-            for name, n in sorted(left_out.count.items())
-        )
-        remarks.append(
-            Problem(
-                "cards_left_out",
-                bulk.source,
-                f"cards that weld lines do not need are left out, number, name and first place: {listed}",
-                "Nothing to do, unless a name is misspelt",
-                sum(left_out.count.values()),
-            )
-        )
-    return remarks
 
 
 def _grid(bulk: _Bulk, card: Card) -> None:
@@ -203,7 +178,7 @@ def _grids_twice(bulk: _Bulk) -> list[Problem]:
             problems.append(Problem("grid_twice", card.where, what, "Give it another id"))
             continue
         bulk.grids[grid] = same
-        bulk.again.append(("GRID", card))
+        bulk.twice.add(card.name, card.text(0), card.where)
     return problems
 
 
@@ -238,7 +213,7 @@ def _add_frame(bulk: _Bulk, card: Card, cid: int, frame: FrameCard) -> None:
     if known is None:
         bulk.frames[cid] = frame, card
     elif known[0] == frame:
-        bulk.again.append((card.name, card))
+        bulk.twice.add(card.name, card.text(0), card.where)
     else:
         what = f"coordinate system {cid} is defined twice, the first time at {known[1].where}"
         raise DataError(Problem("frame_twice", card.where, what, "Rename one"))
@@ -258,7 +233,7 @@ def _add_property(bulk: _Bulk, card: Card, found: Property) -> None:
     if known is None:
         bulk.properties[pid] = found, card
     elif same_card(known[1], card):
-        bulk.again.append((card.name, card))
+        bulk.twice.add(card.name, card.text(0), card.where)
     else:
         what = f"property {pid} is defined twice, the first time at {known[1].where}"
         raise DataError(Problem("property_twice", card.where, what, "Rename one"))
@@ -270,7 +245,7 @@ def _shell(bulk: _Bulk, card: Card) -> None:
     if known is None:
         bulk.shells[element] = card
     elif same_card(known, card):
-        bulk.again.append((card.name, card))
+        bulk.twice.add(card.name, card.text(0), card.where)
     else:
         what = f"the element id {element} is used twice, the first time at {known.where}"
         raise DataError(Problem("element_twice", card.where, what, "Give it another id"))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fatigue.errors import DataError, Problem
 from fatigue.readers.nastran_fields import FREE, ROW, Split, split_commas, split_line
 from fatigue.readers.nastran_lines import Line, place
+from fatigue.readers.nastran_notes import LeftOut
 from fatigue.readers.nastran_numbers import integer, real
 from fatigue.readers.nastran_replication import repeats, replicated
 
@@ -80,25 +81,6 @@ class Card:
 
 
 @dataclass(slots=True)
-class LeftOut:
-    """Cards nobody asked for: how many there are of each name, and the place of the first.
-
-    ``unread`` has the places of lines with text in columns 73 to 80 that is no continuation mark, or beyond.
-    """
-
-    count: dict[str, int] = field(default_factory=dict)
-    first: dict[str, str] = field(default_factory=dict)
-    unread: list[str] = field(default_factory=list)
-
-    def add(self, name: str, source: str, number: int) -> None:
-        """Count one more."""
-        if name in self.count:
-            self.count[name] += 1
-        else:
-            self.count[name], self.first[name] = 1, place(source, number)
-
-
-@dataclass(slots=True)
 class _Open:
     """A card that may go on, or stray continuation lines, without a name and kept as ``lines``.
 
@@ -166,7 +148,8 @@ class _Joining:
     def leave_unread(self, now: _Open) -> None:
         """Note text behind the fields of a line that turned out to be no mark."""
         if now.unread and now.wanted:
-            self.left_out.unread.append(place(now.source, now.line))
+            self.left_out.first_unread = self.left_out.first_unread or place(now.source, now.line)
+            self.left_out.unread += 1
         now.unread = ""
 
 

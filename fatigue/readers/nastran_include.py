@@ -8,10 +8,11 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 
-_STATEMENT = re.compile(r"\s*INCLUDE(?=[\s,='\"])[\s,=]*", re.IGNORECASE)
+_STATEMENT = re.compile(r"\s*INCLUDE(?=[\s,='\"]|\Z)[\s,=]*", re.IGNORECASE)
 _SYMBOL = re.compile(r"([A-Za-z_]\w+):(.*)\Z", re.DOTALL)
 _DRIVE = re.compile(r"([A-Za-z]):([\\/].*)\Z", re.DOTALL)
 _BLANK = "\0"
+_LONGEST = 1000
 _VARIABLE = re.compile(r"\$\{(\w+)\}|\$(\w+)|%(\w+)%")
 
 
@@ -47,7 +48,7 @@ def include_name(line: str, following: Iterator[tuple[int, str]], where: str) ->
             break
         name = name if quote else name[:-1].rstrip(_BLANK)
         following_line = next(following, None)
-        if following_line is None:
+        if following_line is None or len(name) > _LONGEST:
             raise DataError(Problem("bad_include", where, "the file name has no end", "Close the quotation"))
         text = following_line[1].strip()
         if not quote and text.startswith("$"):
@@ -94,9 +95,11 @@ def find_include(name: str, including: Path, root: Path, where: str) -> Found:
         if found:
             return Found(found[0], _two_files(found, name, where))
     tried = " and ".join(str(place / wanted) for place in ([Path()] if wanted.is_absolute() else places))
-    raise DataError(
-        Problem("no_include", where, f"INCLUDE {name!r} is not found, looked for {tried}", "Correct or bring the file")
-    )
+    what, remedy = f"INCLUDE '{name}' is not found, looked for {tried}", "Correct the path, or bring the file"
+    if os.name != "nt" and (drive := _DRIVE.match(name)):
+        what = f"INCLUDE '{name}' names a drive of Windows"
+        remedy = f"Set the environment variable DOS_DRIVE_{drive[1].upper()} to the folder that stands for it"
+    raise DataError(Problem("no_include", where, what, remedy))
 
 
 def _expanded(name: str, where: str) -> str:
@@ -122,7 +125,7 @@ def _variable(symbol: str, name: str, where: str) -> str:
         Problem(
             "no_symbol",
             where,
-            f"INCLUDE {name!r} needs the logical symbol {symbol}, which is not set",
+            f"INCLUDE '{name}' needs the logical symbol {symbol}, which is not set",
             f"Set the environment variable {symbol} to its folder",
         )
     )
@@ -130,21 +133,21 @@ def _variable(symbol: str, name: str, where: str) -> str:
 
 def _in_any_case(path: Path) -> Path | None:
     """Give the file itself, or the only one whose path differs in letter case alone, or its gzip."""
-    if path.is_file():
-        return path
     at = Path(path.anchor)
-    for part in path.parts[1:] if path.anchor else path.parts:
-        if (at / part).exists():
-            at /= part
-            continue
-        try:
+    try:
+        if path.is_file():
+            return path
+        for part in path.parts[1:] if path.anchor else path.parts:
+            if (at / part).exists():
+                at /= part
+                continue
             same = [entry for entry in at.iterdir() if entry.name.lower() in (part.lower(), f"{part.lower()}.gz")]
-        except OSError:
-            return None
-        if len(same) != 1:
-            return None
-        at = same[0]
-    return at if at.is_file() else None
+            if len(same) != 1:
+                return None
+            at = same[0]
+        return at if at.is_file() else None
+    except OSError:  # no folder, no right to look into it, a name too long
+        return None
 
 
 def _two_files(found: list[Path], name: str, where: str) -> Problem | None:
@@ -154,6 +157,6 @@ def _two_files(found: list[Path], name: str, where: str) -> Problem | None:
     return Problem(
         "two_includes",
         where,
-        f"INCLUDE {name!r} may mean {found[0]} or {found[1]}, which differ; the first is read",
+        f"INCLUDE '{name}' may mean {found[0]} or {found[1]}, which differ; the first is read",
         "Remove or rename the other",
     )

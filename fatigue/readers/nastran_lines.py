@@ -20,15 +20,17 @@ _ENDDATA = re.compile(r"\s*ENDDATA\b", re.IGNORECASE)
 _BESIDE = ("AUXMODEL", "ARBMODEL", "HYPRBEAM", "MASSID", "UDS", "TRMC")  # blocks that are no part of the model
 _PARTS = ("SUPER", "FEMODEL", "MODULE")
 _DEEPEST = 50
+_MOST_CONTROL = 10_000  # lines
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Deck:
-    """A NASTRAN input file with its INCLUDEs: the lines before BEGIN BULK, the bulk data lines, and doubts."""
+    """A NASTRAN input file with its INCLUDEs: lines before BEGIN BULK, bulk data lines, doubts, and included files."""
 
     control: list[Line]
     bulk: list[Line]
     remarks: tuple[Problem, ...] = ()
+    included: tuple[Path, ...] = ()
 
 
 @dataclass(slots=True)
@@ -38,8 +40,10 @@ class _Reading:
     root: Path
     begins: bool  # the root deck itself has BEGIN BULK
     in_control: bool = True
+    beside: tuple[str, int] | None = None  # first line of a block beside the model, and how many followed
     remarks: list[Problem] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
+    included: dict[Path, None] = field(default_factory=dict)
 
 
 def place(source: str, number: int) -> str:
@@ -58,73 +62,68 @@ def read_deck(path: Path) -> Deck:
     reading = _Reading(path, begins=_BEGIN_BULK.search(text) is not None)
     control: list[Line] = []
     bulk: list[Line] = []
-    skipped: tuple[str, int, int] | None = None  # a block beside the model: its first line, and how many follow
     lines = _lines(path, text, (), reading)
     for source, number, line in lines:
         if line[0] in _SPECIAL:
             if _ENDDATA.match(line):
                 _after_end(lines, source, number, reading)
                 break
-            if found := _BEGIN.match(line):
-                words = re.split(r"[\s,=]+", found[1].upper().strip())
-                opens = _opens(words, place(source, number), line, reading)
-                if opens == "model":
-                    if reading.in_control:
-                        control, bulk, reading.in_control = bulk, [], False
-                    _note_skipped(skipped, reading)
-                    skipped = None
-                    continue
-                if opens == "beside":
-                    _note_skipped(skipped, reading)
-                    skipped = (source, number, 0)
-                    continue
-            if skipped and _END.match(line):
-                _note_skipped(skipped, reading)
-                skipped = None
+            if opened := _opened(line, place(source, number), reading):
+                _note_beside(reading)
+                if opened == "model" and reading.in_control:
+                    control, bulk, reading.in_control = bulk, [], False
+                reading.beside = (place(source, number), 0) if opened == "beside" else None
                 continue
-        if skipped:
-            skipped = (skipped[0], skipped[1], skipped[2] + 1)
+        if reading.beside:
+            reading.beside = (reading.beside[0], reading.beside[1] + 1)
         else:
             bulk.append((source, number, line))
-    _note_skipped(skipped, reading)
+    _note_beside(reading)
+    if reading.in_control:
+        reading.problems += _without_begin(bulk)
     refuse(DataError, reading.problems[:10])
-    return Deck(control, bulk, tuple(reading.remarks))
+    return Deck(control, bulk, tuple(reading.remarks), tuple(reading.included))
 
 
-def _opens(words: list[str], where: str, line: str, reading: _Reading) -> str:
-    """Tell what a BEGIN line opens: the model, a block beside it, or nothing (a line of the control sections)."""
+def _without_begin(lines: list[Line]) -> list[Problem]:
+    """Refuse control sections that no BEGIN BULK ends; pure bulk data has neither."""
+    return [
+        Problem(
+            "no_begin_bulk", place(source, number), "CEND stands here and no BEGIN BULK anywhere", "Write that line"
+        )
+        for source, number, line in lines[:_MOST_CONTROL]
+        if line.strip().upper() == "CEND"
+    ]
+
+
+def _opened(line: str, where: str, reading: _Reading) -> str:
+    """Tell what a line opens, with BEGIN or with the END of a block: the "model", a block "beside" it, or nothing."""
+    if reading.beside and _END.match(line):
+        return "model"
+    found = _BEGIN.match(line)
+    if not found:
+        return ""
+    words = re.split(r"[\s,=]+", found[1].upper().strip())
     kind = next((word for word in words if word in (*_BESIDE, *_PARTS)), "")
     if kind in _PARTS and not (kind == "SUPER" and words[-1] == "0"):
-        raise DataError(
-            Problem(
-                "superelement",
-                where,
-                f"the model has superelements or parts ({line.strip()})",
-                "Give a model without them",
-            )
-        )
+        what = f"the model has superelements or parts ({line.strip()})"
+        raise DataError(Problem("superelement", where, what, "Give a model without them"))
     if kind in _BESIDE:
         return "beside"
     if words[0] in ("BULK", "SUPER") or (words[0] == "" and not reading.begins):
         return "model"
     if reading.in_control:
         return ""  # a statement of DMAP
-    raise DataError(
-        Problem("unknown_block", where, f"an unknown block begins here ({line.strip()})", "Give a model without it")
-    )
+    what = f"an unknown block begins here ({line.strip()})"
+    raise DataError(Problem("unknown_block", where, what, "Give a model without it"))
 
 
-def _note_skipped(skipped: tuple[str, int, int] | None, reading: _Reading) -> None:
-    if skipped:
-        reading.remarks.append(
-            Problem(
-                "block_left_out",
-                place(skipped[0], skipped[1]),
-                f"the block that begins here is no part of the model; its {skipped[2]} lines are left out",
-                "Nothing to do if its shells carry no weld to assess",
-                skipped[2],
-            )
-        )
+def _note_beside(reading: _Reading) -> None:
+    if reading.beside:
+        where, count = reading.beside
+        what = f"the block that begins here is no part of the model; its {count} lines are left out"
+        remedy = "Nothing to do if its shells carry no weld to assess"
+        reading.remarks.append(Problem("block_left_out", where, what, remedy, count))
 
 
 def _after_end(lines: Iterator[Line], source: str, number: int, reading: _Reading) -> None:
@@ -158,7 +157,7 @@ def _lines(path: Path, text: str, parents: tuple[Path, ...], reading: _Reading) 
             yield from _included(path, number, include_name(raw, numbered, place(source, number)), parents, reading)
             continue
         line = (raw[: raw.index("$")] if "$" in raw else raw).rstrip()
-        if line:
+        if line and line[0] != "#" and line[:2] != "//":  # comments of OptiStruct
             yield source, number, line
 
 
@@ -182,6 +181,7 @@ def _included(path: Path, number: int, name: str, parents: tuple[Path, ...], rea
     parents = (*parents, path.resolve())
     if found.path.resolve() in parents or len(parents) > _DEEPEST:
         raise DataError(Problem("include_loop", where, f"the file {found.path} includes itself", "Remove the INCLUDE"))
+    reading.included[found.path] = None
     yield from _lines(found.path, text, parents, reading)
 
 

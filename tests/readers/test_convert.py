@@ -258,6 +258,18 @@ def test_audit_is_kept(files):
     assert len(record["inputs"]) == 3
 
 
+def test_notes_and_files_of_the_deck_are_kept(files):
+    """What was left out of the deck is told and recorded, and an included file has its hash."""
+    part = files.mesh.parent / "part.inc"
+    part.write_text("DEQATN  1       F(A,B)= A/B\n$ 5\nFORCE,1,2,3\n")
+    files.mesh.write_text(files.mesh.read_text().replace("BEGIN BULK\n", "BEGIN BULK\nINCLUDE 'part.inc'\n"))
+    said = " ".join(str(r) for r in convert(files).remarks)
+    record = json.loads((files.out / "convert.json").read_text())
+    assert "1 DEQATN (part.inc, line 1), 1 FORCE (part.inc, line 3)" in said
+    assert "1 DEQATN (part.inc, line 1)" in " ".join(record["remarks"])
+    assert set(record["inputs"]) == {str(p) for p in (files.mesh, part, files.forces, *files.coordinates)}
+
+
 def test_simulation_modes_scale_and_compare(files, tmp_path):
     """Masses of the simulation give the scale sqrt(M_sim / M_fe); frequencies 2 % apart are refused."""
     table = tmp_path / "modes_sim.csv"

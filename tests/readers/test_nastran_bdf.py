@@ -57,6 +57,8 @@ def test_real_files():
         "grid*,9,,15.,-0.25,*B\n*B,3.0",
         "GRID    9               15.     -.25    +3.E0   $ comment",
         "GRID\t9\t\t15.\t-.25\t3.",
+        "GRID,9,,15,-.25,3",
+        "GRID,9,,+1.5e1,-25-2,+3",
     ],
 )
 def test_spellings_of_a_card(read, card):
@@ -264,7 +266,11 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
         (QUAD + "GRID,9,,1_0.,0.,0.\n", "not a number of sensible size"),
         (QUAD + "GRID,9,,1e999,0.,0.\n", "sensible size"),
         (QUAD + "GRID,,,0.,0.,0.\n", "field 2 is empty"),
-        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist"),
+        (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist. Include the file"),
+        (
+            QUAD + "GRID,9,4,0.,0.,0.\nCORD3G,4,E313\n",
+            "does not exist. Give it as CORD1 or CORD2; CORD3G cards are not read",
+        ),
         (QUAD + "GRID,9,,0.,0.,0.,-1\n", "fluid point"),
         (QUAD + "GRID,9,,0.,0.,0.,,,5\n", "superelement 5"),
         (QUAD + "GRDSET,,,,,,,,5\n", "superelement 5"),
@@ -290,6 +296,31 @@ def test_refusals(read, text, words):
     """Every mistake is named with its place."""
     with pytest.raises(DataError, match=words):
         read(text)
+
+
+def test_one_missing_system_is_one_problem(read):
+    """Grids in a system whose own reference is missing all name that, and none calls it a loop."""
+    cards = "CORD2R,5,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n" + "".join(f"GRID,{k},5\n" for k in range(10, 20))
+    with pytest.raises(DataError) as error:
+        read(QUAD + cards)
+    assert [str(p).partition(", ")[2] for p in error.value.problems] == [
+        "coordinate system 4: it does not exist. Include the file that defines it."
+    ]
+
+
+def test_all_mistakes_are_named(read):
+    """Cards that cannot be read, points and shells are refused together, and the rest is counted."""
+    with pytest.raises(DataError) as error:
+        read("GRID,1,,x\nCQUAD4,1,1,1,2\nPSHELL,1,1,-2.\nCORD2R,x\n" + "".join(f"GRID,{k},7\n" for k in range(10, 14)))
+    assert [p.code for p in error.value.problems] == [
+        "bad_thickness",
+        "bad_field",
+        "bad_field",
+        "no_frame",
+        "bad_field",
+    ]
+    with pytest.raises(DataError, match="5 more problems follow"):
+        read("".join(f"GRID,{k},,x\n" for k in range(15)))
 
 
 def test_missing_file(tmp_path):

@@ -333,8 +333,12 @@ def test_the_audit_of_converted_files_is_shown(tmp_path, page):
     folder = write_result(tmp_path, Recipe())
     record = json.loads((folder / "provenance.json").read_text())
     row = {"check": "sign", "light": "amber", "value": -0.98, "finding": "forces <on> node", "remedy": "State it"}
-    remarks = ["a.bdf: 2 <FORCE> are left out."]
-    record["conversion"] = {"convention": "on_node", "audit": [row], "inputs": {}, "remarks": remarks}
+    record["conversion"] = {
+        "convention": "on_node",
+        "audit": [row],
+        "inputs": {},
+        "remarks": ["a.bdf: 2 <FORCE> are left out."],
+    }
     (folder / "provenance.json").write_text(json.dumps(record))
     shown = Page(report_page(folder))
     assert shown.tables["audit"][-1] == ["sign", "amber", "−0.9800", "forces <on> node", "State it"]
