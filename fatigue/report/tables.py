@@ -151,7 +151,7 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
 
 
 def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
-    """Every weld of the case: assessed, or excluded and why."""
+    """Every weld of the case: assessed, or not and why."""
     rows = tuple(_register_row(row, links) for row in welds.itertuples())
     headings = (
         WELD,
@@ -174,11 +174,11 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
 
 def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
     """Cells of a weld; one that is not assessed has a name, a reason and perhaps a length, and dashes."""
-    is_assessed = row.status == "assessed"
+    is_assessed, is_candidate = row.status == "assessed", str(row.reason).startswith("candidate")
     return (
         _linked(row.weld, links),
         text(row.description),
-        text(row.status if not row.reason else f"{row.status}: {row.reason}"),
+        text(row.status if not row.reason else row.reason if is_candidate else f"{row.status}: {row.reason}"),
         verdict(row.fulfilled) if is_assessed else text(None),
         num(row.length_mm),
         integer(row.nodes, grouped=True),

@@ -115,7 +115,7 @@ def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summa
         for row in left_out[left_out["weld"] == unknown[0]].itertuples():
             what = f"weld '{row.weld}' is not assessed: {row.reason}"
             raise DataError(Problem("not_assessed", str(folder), what, "Change its status in the weld register"))
-        names = ", ".join(welds["weld"].head(MOST_WELDS))
+        names = ", ".join(sorted(welds["weld"])[:MOST_WELDS])
         raise DataError(Problem("unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {names}"))
     if only:
         welds, left_out = welds[welds["weld"].isin(only)], left_out[:0]
