@@ -8,7 +8,12 @@ from fatigue.readers.units import SYSTEMS
 from tests.mystran.plates import Plates
 
 YOUNG_MPA = 210_000.0
-FRAMES = ("CORD2R,7,,0.,0.,0.,1.,2.,3.", ",3.,-1.,0.5", "CORD2C,8,,-500.,-400.,0.,-500.,-300.,700.", ",9.,9.,9.")
+FRAMES = {
+    7: ("CORD2R", (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), (3.0, -1.0, 0.5)),
+    8: ("CORD2C", (-500.0, -400.0, 0.0), (-500.0, -300.0, 700.0), (9.0, 9.0, 9.0)),
+    9: ("CORD2S", (-500.0, -400.0, -300.0), (-500.0, -300.0, 700.0), (9.0, 9.0, 9.0)),
+}
+"""Coordinate systems: card, origin, a point on the z axis, and one in the x-z plane [mm]."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +25,8 @@ class Deck:
     plates : model in mm, N, t, s
     sol : 101 or 103
     node_ids, shell_ids : (n,), (e,) ids of nodes and shells, any unique ones
-    frames : (n,) displacement frame of every node: 0 basic, 7 rectangular, 8 cylindrical
+    frames : (n,) displacement frame of every node: 0 basic, else one of FRAMES
+    places : (n,) coordinate system its position is given in, likewise
     modes : how many normal modes
     units : unit system to write in
     extra : more lines of bulk data
@@ -34,6 +40,7 @@ class Deck:
     node_ids: np.ndarray
     shell_ids: np.ndarray
     frames: np.ndarray
+    places: np.ndarray
     modes: int = 6
     units: str = "mm-t-s"
     extra: tuple[str, ...] = ()
@@ -63,12 +70,14 @@ class Deck:
         """Material, frames, grids, shells and supports."""
         p, ids, system = self.plates, self.node_ids, SYSTEMS[self.units]
         pressure, density = system.force / system.length**2, system.mass / system.length**3
-        yield from FRAMES if self.frames.any() else ()
+        for cid in sorted({*self.frames.tolist(), *self.places.tolist()} - {0}):
+            card, *points = FRAMES[cid]
+            yield large(card, cid, 0, *(c / system.length for point in points for c in point))
         yield large("MAT1", 1, YOUNG_MPA / pressure, "", self.poisson, self.density / density)
         for k, t in enumerate(p.thickness, start=1):
             yield large("PSHELL", k, 1, float(t) / system.length, 1, "", 1)
-        for n, xyz, frame in zip(ids, p.xyz, self.frames, strict=True):
-            yield large("GRID", int(n), "", *(float(x) / system.length for x in xyz), int(frame) or "")
+        for n, xyz, place, frame in zip(ids, p.xyz, self.places.tolist(), self.frames.tolist(), strict=True):
+            yield large("GRID", int(n), place or "", *coordinates(xyz, place, system.length), frame or "")
         for number, pid, nodes in zip(self.shell_ids, p.pid, p.shells, strict=True):
             name = {3: "CTRIA3", 4: "CQUAD4", 8: "CQUAD8"}[len(nodes)]
             yield small(name, int(number), int(pid), *(int(ids[n]) for n in nodes))
@@ -106,6 +115,23 @@ class Deck:
                         yield large(name, k, int(self.node_ids[n]), 0, 1.0, *(float(x) / unit for x in part))
 
 
+def coordinates(xyz, cid, length):
+    """Coordinates of a point in a system, lengths in units of ``length`` mm, angles in degrees."""
+    if not cid:
+        return [float(x) / length for x in xyz]
+    card, origin, on_z, in_xz = FRAMES[cid]
+    z = np.subtract(on_z, origin)
+    y = np.cross(z, np.subtract(in_xz, origin))
+    axes = np.array([np.cross(y, z), y, z])
+    a, b, c = axes / np.linalg.norm(axes, axis=1, keepdims=True) @ (xyz - origin)
+    around, across = float(np.degrees(np.arctan2(b, a))), float(np.hypot(a, b))
+    if card == "CORD2R":
+        return [float(a) / length, float(b) / length, float(c) / length]
+    if card == "CORD2C":
+        return [across / length, around, float(c) / length]
+    return [float(np.hypot(across, c)) / length, float(np.degrees(np.arctan2(across, c))), around]
+
+
 def small(name, *fields):
     """Return a card of fields of 8 characters, continued as needed."""
     cells = [f"{f:<8}" for f in fields]
@@ -124,4 +150,4 @@ def large(name, *fields):
 def plain(plates, sol, **options):
     """Number nodes and shells from 1 on, all in the basic frame."""
     n, e = len(plates.xyz), len(plates.shells)
-    return Deck(plates, sol, np.arange(1, n + 1), np.arange(1, e + 1), np.zeros(n, int), **options)
+    return Deck(plates, sol, np.arange(1, n + 1), np.arange(1, e + 1), np.zeros(n, int), np.zeros(n, int), **options)

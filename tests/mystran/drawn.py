@@ -6,7 +6,7 @@ import numpy as np
 
 from fatigue.readers.units import SYSTEMS
 from tests.mystran import plates as joints
-from tests.mystran.decks import Deck, plain
+from tests.mystran.decks import FRAMES, Deck, plain
 
 JOINTS = (joints.tee, joints.cruciform, joints.lap, joints.bracket, joints.box)
 _MODES = 4
@@ -54,11 +54,17 @@ def drawn(seed: int) -> Drawn:
         node_ids, shell_ids = (rng.choice(np.arange(1, 10_000_000), k, replace=False) for k in (n, e))
     frames = np.zeros(n, int)
     if chance(0.6, "frames"):
-        frames = rng.choice([0, 7, 8], n)
+        frames = rng.choice([0, *FRAMES], n)
         for card, head, nodes in plates.spiders:
             if card == "RBE3":  # MYSTRAN's depends on the displacement frames of its nodes
                 frames[[head, *nodes]] = 0
+    places = np.zeros(n, int)
+    if chance(0.4, "places"):
+        places = rng.choice([0, *FRAMES], n)
     units = str(rng.choice(list(SYSTEMS)))
     story.append(units)
-    runs = [Deck(plates, sol, node_ids, shell_ids, frames, modes=_MODES, units=units, quad=quad) for sol in (101, 103)]
+    runs = [
+        Deck(plates, sol, node_ids, shell_ids, frames, places, modes=_MODES, units=units, quad=quad)
+        for sol in (101, 103)
+    ]
     return Drawn(*runs, " ".join(story), *twins)
