@@ -213,7 +213,7 @@ def test_a_line_without_forces_names_the_command_that_gets_them(body, sources, t
     excluded = next(k for k, row in enumerate(rows_of(body.out)) if row["status"] == "excluded")
     edited(body.out, *({"status": "assess"} if k == excluded else {} for k in range(3)))
     said = refusal(body.out)
-    assert "is to be assessed, and the tables have no forces for it. Run `fatigue convert --forces" in said
+    assert "is to be assessed, and the tables have no forces for it (reason given: not now). Run `fatigue conv" in said
     command = shlex.split(re.search(r"`fatigue (.*)`", said).group(1))
     done = CliRunner().invoke(cli, command, standalone_mode=False)
     assert done.exception is None, done.output
@@ -221,6 +221,20 @@ def test_a_line_without_forces_names_the_command_that_gets_them(body, sources, t
     assert case_of(body.out).mission.target_km == 5e6
     with pytest.raises(DataError, match="not the work of an earlier conversion"):
         convert(body)
+
+
+def test_several_lines_without_forces_are_one_command(body):
+    """All are named, the command once; tables by hand get the name that was meant instead."""
+    edited(body.out, {"status": "excluded"}, {"status": "candidate"})
+    convert(body)
+    changes = [{"status": "assess"} if row["status"] != "assess" else {} for row in rows_of(body.out)]
+    edited(body.out, *changes)
+    said = refusal(body.out)
+    assert said.count("fatigue convert") == 1
+    assert said.startswith(f"{REGISTER}: 2 lines are to be assessed, and the tables have no forces for them: tee_")
+    (body.out / "convert.json").unlink()
+    (body.out / REGISTER).write_text(f"weld,status\n{rows_of(body.out)[0]['line'][:-1]},assess\n")
+    assert f"(meant is perhaps {pd.read_csv(body.out / 'welds.csv').weld[0]})" in refusal(body.out)
 
 
 def test_a_weld_that_nobody_registered_is_assessed_with_a_warning(body):
