@@ -73,7 +73,7 @@ def with_known_frequencies(
     problems = []
     own = StatedFrequencies(history.name, history.mode, history.frequency, history.resolution)
     listed = StatedFrequencies(history.name, history.mode, known, None)
-    for k in np.flatnonzero(np.isfinite(known) & np.isfinite(own.frequency)):
+    for k in np.flatnonzero(np.isfinite(known) & np.isfinite(own.frequency)).tolist():
         if abs(known[k] - own.frequency[k]) > own.half_digit(k) + listed.half_digit(k):
             what = f"mode {own.mode[k]} has {known[k]:.6g} Hz, and {own.frequency[k]:.6g} Hz in {history.source}"
             problems.append(Problem("frequency", str(source), what, "Give the modes of this simulation"))
