@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.readers.channel_names import written
 from fatigue.readers.coordinate_units import SYSTEM_UNITS, compared
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
+from fatigue.readers.mode_frequencies import StatedFrequencies
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation
 
@@ -77,15 +77,11 @@ def with_known_frequencies(history: ForeignHistory, table: SimulationModes, sour
     """
     known = np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
     problems = []
-    for k in np.flatnonzero(np.isfinite(known) & np.isfinite(history.frequency)):
-        half = np.nan if history.resolution is None else history.resolution[k]
-        digits = (written(repr(float(history.frequency[k])))[1] if np.isnan(half) else half) + written(
-            repr(float(known[k]))
-        )[1]
-        if abs(known[k] - history.frequency[k]) > digits:
-            what = (
-                f"mode {history.mode[k]} has {known[k]:.6g} Hz, and {history.frequency[k]:.6g} Hz in {history.source}"
-            )
+    own = StatedFrequencies(history.name, history.mode, history.frequency, history.resolution)
+    listed = StatedFrequencies(history.name, history.mode, known, None)
+    for k in np.flatnonzero(np.isfinite(known) & np.isfinite(own.frequency)).tolist():
+        if abs(known[k] - own.frequency[k]) > own.half_digit(k) + listed.half_digit(k):
+            what = f"mode {own.mode[k]} has {known[k]:.6g} Hz, and {own.frequency[k]:.6g} Hz in {history.source}"
             problems.append(Problem("frequency", str(source), what, "Give the modes of this simulation"))
     refuse(DataError, problems)
     return replace(history, frequency=np.where(np.isnan(history.frequency), known, history.frequency))
