@@ -28,12 +28,15 @@ _TRIAL_ROWS, _TRIAL_SAMPLES = 64, 4096
 class CheckedCase:
     """Sizes of a case that passed every check, and the doubts that remain.
 
-    ``samples`` are stress samples of one face: stations times kept samples, over all events. ``warnings`` are summed up
-    as those of an assessment are.
+    Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded, ``candidates`` are
+    candidates; ``samples`` are stress samples of one face: stations times kept samples, over all events. ``warnings``
+    are summed up as those of an assessment are.
     """
 
     title: str
     welds: int
+    excluded: int
+    candidates: int
     parts: int
     stations: int
     modes: int
@@ -42,6 +45,11 @@ class CheckedCase:
     distance_km: float
     estimated_s: float
     warnings: tuple[Problem, ...]
+
+    @property
+    def has_left_out(self) -> bool:
+        """Whether the weld register lists lines that are not assessed."""
+        return self.excluded + self.candidates > 0
 
     def as_record(self) -> dict[str, Any]:
         """For machines."""
@@ -55,6 +63,7 @@ class CheckedCase:
             [
                 f"{self.title}: the case is complete and consistent",
                 f"  welds            {self.welds} in {self.parts} straight parts, {self.stations} stations, both faces",
+                *([f"  not assessed     {self.excluded} excluded, {self.candidates} candidates"] * self.has_left_out),
                 f"  modes            {self.modes}",
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",
@@ -87,6 +96,8 @@ def check_case(case: Case, *, strict: bool) -> CheckedCase:
     return CheckedCase(
         title=case.title,
         welds=len(body.welds),
+        excluded=sum(row.status == "excluded" for row in body.excluded),
+        candidates=sum(row.status == "candidate" for row in body.excluded),
         parts=parts,
         stations=stations,
         modes=len(body.modes.mode),

@@ -1,6 +1,8 @@
 """Foreign files on the command line: convert, assess, and the weld lines of a mesh."""
 
 import json
+import re
+import shlex
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -129,3 +131,87 @@ def test_the_tension_patch_tells_the_sign_of_a_solver(tmp_path, sign, convention
     (tmp_path / "patch.op2").write_bytes(modal_op2(solved))
     done = fatigue("tension-patch", tmp_path / "patch.op2", "--results")
     assert done.stdout == f'force_convention = "{convention}"\n'
+
+
+PLATE = """BEGIN BULK
+MAT1,1,70000.,,0.33
+PSHELL,1,1,5.,1,,1
+GRID,1,,0.,0.,0.
+GRID,2,,10.,0.,0.
+GRID,3,,10.,10.,0.
+GRID,4,,0.,10.,0.
+CQUAD4,1,1,1,2,3,4
+ENDDATA
+"""
+
+
+@pytest.mark.parametrize(
+    "options", [(), ("--json",), ("-o", "r.csv"), ("--vtp", "p.vtp"), ("-o", "r.csv", "--vtp", "p.vtp")]
+)
+def test_a_mesh_without_welds_says_so(tmp_path, options):
+    """One line and what to do; neither register nor picture is written."""
+    (tmp_path / "plate.bdf").write_text(PLATE)
+    done = fatigue("welds", tmp_path / "plate.bdf", *(tmp_path / o if "." in o else o for o in options))
+    assert done.returncode == 3
+    assert done.stderr.count("\n") == 1
+    assert "plate.bdf: the mesh has no weld lines" in done.stderr
+    assert "Mark the lines with --node-lists, --set or --marker" in done.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["plate.bdf"]
+
+
+def test_names_that_no_line_has(tmp_path):
+    """`--only` with a text in no name: said, with a name there is; the register is whole all the same."""
+    out = tmp_path / "r.csv"
+    done = fatigue("welds", NASTRAN / f"{WING}.bdf", "--only", "nonsense", "-o", out, "--vtp", tmp_path / "p.vtp")
+    assert done.returncode == 3
+    assert "none of the 30 weld lines has 'nonsense' in its name" in done.stderr
+    assert len(pd.read_csv(out)) == 30
+
+
+def test_convert_tells_all_kinds_of_reasons_with_their_counts(converted, tmp_path):
+    """Of the lines left out when it goes well, and of all when nothing can be assessed: nothing is cut off."""
+    _, said = converted
+    assert "6 weld lines not assessed: a fold of one property: perhaps bent sheet (line fold_18_382_p2a)" in said
+    register = tmp_path / "r.csv"
+    assert fatigue("welds", NASTRAN / f"{WING}.bdf", "-o", register).returncode == 0
+    table = pd.read_csv(register)
+    kinds = ["bolted", "glued", "ground flush", "no weld at all", "see drawing"]
+    tee = table.index[table.kind == "tee"]
+    table.loc[tee, "status"] = "excluded"
+    table.loc[tee, "reason"] = [f"{kinds[k % 5]} {k}" for k in range(len(tee))]
+    table.to_csv(register, index=False)
+    done = fatigue(
+        "convert", "--mesh", NASTRAN / f"{WING}.bdf", "--forces", NASTRAN / f"{WING}.op2", "-o", tmp_path / "body",
+        "--register", register,
+    )  # fmt: skip
+    assert done.returncode == 3
+    assert "none of the 30 weld lines can be assessed: " in done.stderr
+    for number, kind in zip((5, 5, 5, 5, 4), kinds, strict=True):
+        assert f"{number} because {kind} " in done.stderr
+    assert "6 because a fold of one property: perhaps bent sheet (line fold_18_382_p2a)" in done.stderr
+
+
+def test_register_and_case_edited_then_assessed(converted, tmp_path):
+    """What `convert` prints is true: excluded, renamed and a fold assessed after the one command that is named."""
+    folder, _ = converted
+    shutil.copytree(folder / "body", tmp_path / "body")
+    register = tmp_path / "body" / "welds_register.csv"
+    table = pd.read_csv(register, dtype=str, keep_default_na=False)
+    table.loc[0, ["status", "reason"]] = ["excluded", "ground flush"]
+    table.loc[1, "weld"] = "front spar, lower"
+    table.to_csv(register, index=False, sep=";", encoding="cp1252")
+    done = assess(tmp_path / "body" / "case.toml", "-o", tmp_path / "result", "--exit-zero")
+    assert done.returncode == 0, done.stderr
+    assert "front spar, lower" in done.stdout
+    assert f"{table.loc[0, 'weld']}  ground flush" in done.stdout.replace("   ", "  ")
+    fold = table.index[table.kind == "fold"][0]
+    table.loc[fold, "status"] = "assess"
+    table.to_csv(register, index=False)
+    checked = fatigue("check", tmp_path / "body" / "case.toml")
+    assert checked.returncode == 3
+    command = shlex.split(re.search(r"`fatigue (convert .*)`", checked.stderr).group(1))
+    assert fatigue(*command).returncode == 0
+    checked = fatigue("check", tmp_path / "body" / "case.toml")
+    assert checked.returncode == 0, checked.stderr
+    assert "welds            24 in 24 straight parts" in checked.stdout
+    assert "not assessed     1 excluded, 5 candidates" in checked.stdout

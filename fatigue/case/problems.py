@@ -90,7 +90,7 @@ def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -
     place, value = details["loc"], details["input"]
     where = _named(place, raw)
     *table, key = _keys(place)
-    fields = models[tuple(table)].model_fields
+    fields = {field.alias or name: field for name, field in models[tuple(table)].model_fields.items()}
     remedy = f"Give {fields[key].description}" if key in fields else ""
     match details["type"]:
         case "missing":

@@ -58,6 +58,11 @@ class Body(_Table):
         default=None, description="the file of all nodes [mm], for the balance check and for pictures"
     )
     elements: _Text | None = Field(default=None, description="the file of the elements' corner nodes, for pictures")
+    weld_register: _Text | None = Field(
+        default=None,
+        alias="register",  # which is a method of every class that has abstract ones
+        description="the weld register (.csv), by default the welds_register.csv beside the welds if there is one",
+    )
     force_convention: Literal["on_element", "on_node"] = Field(
         description="the sense of the nodal forces: 'on_element' (K_e u_e) or 'on_node' (the opposite; MSC Nastran, "
         "ANSYS and Abaqus write this one)"
@@ -272,6 +277,7 @@ class Case(_Table):
     def input_files(self) -> dict[str, Path]:
         """List every file the case names, by its key: ``body.modes``, ``mission.event[1].history``."""
         body = {f"body.{key}": getattr(self.body, key) for key in BODY_FILES}
+        body["body.register"] = self.body.weld_register
         histories = {f"mission.event[{i}].history": event.history for i, event in enumerate(self.mission.event, 1)}
         return {key: self.resolve(name) for key, name in (body | histories).items() if name is not None}
 

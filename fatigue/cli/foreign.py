@@ -89,6 +89,7 @@ def weld_sources(command: Any) -> Any:
 @click.option("--speed", type=float, default=100.0, show_default=True, help="Speed of the first case.toml [km/h].")
 @click.option("--target-km", type=float, default=1.0e6, show_default=True, help="Target of the first case.toml [km].")
 @click.option("--force", is_flag=True, help="Overwrite foreign and changed files in DIR.")
+@click.option("--keep-case", is_flag=True, help="Keep the case.toml in DIR as it is, edited or not.")
 @weld_sources
 @as_json
 def convert(
@@ -114,6 +115,7 @@ def convert(
     speed: float,
     target_km: float,
     force: bool,
+    keep_case: bool,
     register: Path | None,
     node_lists: Path | None,
     sets: tuple[int, ...],
@@ -136,6 +138,7 @@ def convert(
     from fatigue.readers.convert import convert as run
     from fatigue.readers.modal_basis import mode_list
     from fatigue.readers.weld_lines import WeldSources
+    from fatigue.readers.weld_register import reasons
 
     done = run(
         ConvertOptions(
@@ -162,6 +165,7 @@ def convert(
             speed_km_h=speed,
             target_km=target_km,
             force=force,
+            keep_case=keep_case,
         )
     )
     assessed = [row for row in done.welds if row.status == "assess"]
@@ -177,6 +181,7 @@ def convert(
                 ],
                 "welds_assessed": len(assessed),
                 "welds_listed": len(done.welds),
+                "not_assessed": [{"lines": number, "reason": reason} for number, reason in reasons(done.welds)],
                 "remarks": [str(problem) for problem in done.remarks],
             }
         )
@@ -191,6 +196,8 @@ def convert(
     click.echo(
         f"{done.modes} modes, {done.force_rows} force rows, {len(assessed)} of {len(done.welds)} weld lines assessed"
     )
+    for number, reason in reasons(done.welds):
+        click.echo(f"{number} weld line{'s' * (number > 1)} not assessed: {reason}")
     click.echo(f"written to {done.folder}: edit case.toml and welds_register.csv, then `fatigue assess` the case")
 
 
@@ -228,12 +235,16 @@ def welds(
     """
     from dataclasses import asdict
 
+    from fatigue.errors import DataError, Problem
     from fatigue.readers.weld_lines import WeldSources, list_welds
     from fatigue.report.vtp import write_line_picture
 
     sources = WeldSources(node_lists, sets, markers, detect, candidates, register)
     found = list_welds(mesh, sources, units, output, force)
     rows = [row for row in found.rows if only in row.weld]
+    if not rows:
+        what = f"none of the {len(found.rows)} weld lines has '{only}' in its name"
+        raise DataError(Problem("no_welds", str(mesh), what, f"Give a part of a name, such as {found.rows[0].weld}"))
     if vtp is not None:
         write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
     for problem in found.remarks:

@@ -73,7 +73,7 @@ def check(case_file: Path, strict: bool, as_json: bool) -> None:
         print_json(found.as_record())
         return
     click.echo(found.as_text())
-    _print_warnings(found.warnings)
+    _print_warnings(found.warnings, "--json lists them")
 
 
 @cli.command()
@@ -389,14 +389,14 @@ def print_json(record: Any) -> None:
     click.echo(json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False))
 
 
-def _print_warnings(problems: tuple[Problem, ...]) -> None:
-    """Log the first warning of each kind and how many more there are; all of them are in provenance.json."""
+def _print_warnings(problems: tuple[Problem, ...], others_are: str = "see provenance.json") -> None:
+    """Log the first warning of each kind, and how many more there are and where."""
     kinds: dict[str, list[Problem]] = {}
     for problem in problems:
         kinds.setdefault(problem.code, []).append(problem)
     for same in kinds.values():
         others = sum(problem.count for problem in same) - 1
-        more = f" (and {others} more of this kind, see provenance.json)" if others else ""
+        more = f" (and {others} more of this kind, {others_are})" if others else ""
         log.warning("%s%s", same[0], more)
 
 

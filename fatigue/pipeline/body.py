@@ -8,11 +8,14 @@ from typing import Any
 from fatigue.case import Case, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.rated_curves import RatedCurve, curves_of_case, rated_curves
-from fatigue.readers.body import Mesh, Modes, Weld, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.body import Mesh, Modes, Weld, checked_lines, read_lines, read_mesh, read_modes, read_welds
+from fatigue.readers.convert_record import convert_record
 from fatigue.readers.line_file import LineFile, line_file
 from fatigue.readers.neutral_folder import RECORD, read_record
+from fatigue.readers.registered import Registered, registered, unregistered
+from fatigue.readers.registered_lines import Joints, registered_lines
 from fatigue.readers.spare_memory import give_back
-from fatigue.readers.weld_register import REGISTER, RegisterRow, read_register
+from fatigue.readers.weld_register import REGISTER, RegisterRow, open_register
 from fatigue.weld.line_units import unit_problems, unit_warnings
 
 
@@ -20,22 +23,30 @@ from fatigue.weld.line_units import unit_problems, unit_warnings
 class Body:
     """One body under one case.
 
-    ``lines`` has one line per weld, in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve
-    a weld asks for; ``mesh`` serves the balance check and pictures; ``excluded`` are the lines the weld register lists
-    as not assessed; ``conversion`` is what `fatigue convert` recorded, its audit included; ``warnings`` are the doubts
-    about these files.
+    ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
+    ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
+    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
+    the balance check and pictures; ``conversion`` is what `fatigue convert` recorded, its audit included; ``warnings``
+    are the doubts about these files.
     """
 
     case: Case
     modes: Modes
     welds: tuple[Weld, ...]
+    in_tables: tuple[Weld, ...]
+    register: Registered
+    joints: Joints
     lines: LineFile
     curves: Mapping[str, RatedCurve]
     mesh: Mesh | None
-    excluded: tuple[RegisterRow, ...]
     conversion: Mapping[str, Any] | None
     strict: bool
     warnings: tuple[Problem, ...]
+
+    @property
+    def excluded(self) -> tuple[RegisterRow, ...]:
+        """Rows of the register that are not assessed."""
+        return self.register.left_out
 
     def curve_of(self, weld: Weld) -> str:
         """Key of the curve of a weld: its own, else that of the case."""
@@ -53,10 +64,16 @@ def read_body(case: Case, *, strict: bool) -> Body:
     files = case.body
     known_curves = curves_of_case(case)
     modes, warnings = read_modes(case.resolve(files.modes), files.ignore_modes, strict=strict)
-    welds, doubts = read_welds(case.resolve(files.welds), known_curves, strict=strict)
+    register = register_file(case)
+    in_tables, doubts = read_welds(case.resolve(files.welds), None if register else known_curves, strict=strict)
     warnings += doubts
-    curves = rated_curves(case, known_curves, welds)
-    lines, doubts = _lines_on_disk(case, welds, strict=strict)
+    plan = unregistered(in_tables)
+    if register:
+        conversion = convert_record(conversion_file(case))
+        plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
+    warnings += plan.warnings
+    curves = rated_curves(case, known_curves, plan.welds)
+    welds, lines, joints, doubts = _lines_on_disk(case, in_tables, plan, strict=strict)
     warnings += doubts
     give_back()
     mesh: Mesh | None = None
@@ -65,23 +82,41 @@ def read_body(case: Case, *, strict: bool) -> Body:
         mesh, doubts = read_mesh(case.resolve(files.nodes), elements, strict=strict)
         warnings += doubts
     record = conversion_file(case)
-    conversion = read_record(record) if record else None
-    register = register_file(case)
-    rows = read_register(register).values() if register else ()
-    excluded = tuple(row for row in rows if row.status != "assess")
-    return Body(case, modes, welds, lines, curves, mesh, excluded, conversion, strict, tuple(warnings))
+    return Body(
+        case=case,
+        modes=modes,
+        welds=welds,
+        in_tables=in_tables,
+        register=plan,
+        joints=joints,
+        lines=lines,
+        curves=curves,
+        mesh=mesh,
+        conversion=read_record(record) if record else None,
+        strict=strict,
+        warnings=tuple(warnings),
+    )
 
 
-def _lines_on_disk(case: Case, welds: Sequence[Weld], *, strict: bool) -> tuple[LineFile, list[Problem]]:
-    """Read and check the lines of all welds; in memory they are together only here."""
-    lines, doubts = read_weld_nodes(case.resolve(case.body.weld_nodes), welds, strict=strict)
+def _lines_on_disk(
+    case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
+) -> tuple[tuple[Weld, ...], LineFile, Joints, list[Problem]]:
+    """Read and check the lines of all welds to assess; in memory they are together only here."""
+    path = case.resolve(case.body.weld_nodes)
+    lines, doubts = read_lines(path, in_tables, plan.names, strict=strict)
+    welds: tuple[Weld, ...] = plan.welds
+    joints: Joints = {}
+    if plan.file:
+        welds, lines, joints = registered_lines(lines, plan, summed=case.body.nodal_forces is not None)
+    doubts += checked_lines(lines, path.name)
     refuse(DataError, unit_problems(lines, case.body.weld_nodes))
-    return line_file(lines), doubts + unit_warnings(lines, case.body.weld_nodes)
+    return welds, line_file(lines), joints, doubts + unit_warnings(lines, case.body.weld_nodes)
 
 
 def register_file(case: Case) -> Path | None:
-    """Find the register that `fatigue convert` wrote beside the welds; None where there is none."""
-    return _beside_the_welds(case, REGISTER)
+    """Find the weld register: the one the case names, else that beside the welds; None where there is none."""
+    named = case.body.weld_register
+    return _beside_the_welds(case, REGISTER) if named is None else case.resolve(named)
 
 
 def conversion_file(case: Case) -> Path | None:

@@ -12,7 +12,7 @@ from fatigue.pipeline.group import GroupResult
 from fatigue.pipeline.mission_block import MissionBlock
 from fatigue.pipeline.model import Model, toe_faces
 from fatigue.pipeline.rows import FACES
-from fatigue.readers.weld_register import RegisterRow
+from fatigue.readers.weld_register import RegisterRow, description_of
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
 
@@ -97,8 +97,13 @@ def excluded_rows(excluded: Sequence[RegisterRow]) -> dict[str, Any]:
     return rows | {
         "weld": [row.weld for row in excluded],
         "status": ["excluded"] * len(excluded),
-        "reason": [row.reason or row.status for row in excluded],
-        "description": [row.description for row in excluded],
-        "nodes": [row.nodes for row in excluded],
+        "reason": [_reason(row) for row in excluded],
+        "description": [description_of([row]) for row in excluded],
+        "nodes": [row.nodes or None for row in excluded],
         "length_mm": [row.length for row in excluded],
     }
+
+
+def _reason(row: RegisterRow) -> str:
+    """Say why a line is not assessed, and that it might be where the register calls it a candidate."""
+    return f"candidate: {row.reason}" if row.reason and row.status == "candidate" else row.reason or row.status

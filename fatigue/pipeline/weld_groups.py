@@ -16,6 +16,7 @@ from fatigue.readers.body import Mesh, Modes
 from fatigue.readers.force_check import NotRegular
 from fatigue.readers.force_pieces import ForcePieces
 from fatigue.readers.forces import check_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
+from fatigue.readers.registered_lines import registered_sides
 from fatigue.readers.spare_memory import give_back
 from fatigue.weld.element_forces import ElementForces, balance, side_forces
 from fatigue.weld.line import LineStack, WeldLine, stacked
@@ -148,7 +149,9 @@ def _open_groups(body: Body, group: NDArray[np.number], portion: NDArray[np.numb
     if path is None:
         return WeldGroups(body, of_groups, of_portions, portions_of, _side_forces(body))
     names = [body.lines.weld[run] for run in of_portions]
-    forces = ForcePieces(body.case.resolve(path), names, scratch)
+    in_file = {weld.name: source for weld, (source,) in zip(body.welds, body.register.sources, strict=True)}
+    skipped = {weld.name for weld in body.in_tables} - set(in_file.values())
+    forces = ForcePieces(body.case.resolve(path), names, scratch, in_file, skipped)
     return WeldGroups(body, of_groups, of_portions, portions_of, forces)
 
 
@@ -166,7 +169,9 @@ def _side_forces(body: Body) -> SideForces:
     forces, warnings = read_element_forces(
         path, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
-    sides, doubts = read_weld_elements(case.resolve(files.weld_elements), body.welds, strict=body.strict)
+    weld_elements, needed = case.resolve(files.weld_elements), body.register.names
+    of_tables, doubts = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
+    sides = registered_sides(of_tables, forces, body.register, body.joints)
     warnings += doubts + _checked_balance(path, forces, body.mesh)
     return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
 

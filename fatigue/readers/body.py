@@ -111,10 +111,10 @@ def read_modes(path: Path, ignore_modes: Collection[int], *, strict: bool) -> tu
     return modes, table.warnings
 
 
-def read_welds(path: Path, curves: Collection[str], *, strict: bool) -> tuple[tuple[Weld, ...], list[Problem]]:
+def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> tuple[tuple[Weld, ...], list[Problem]]:
     """Read ``weld`` and, where present, ``closed, surface, curve, end_length_mm, description``, in the file's order.
 
-    ``curves`` are the names a weld's curve may have.
+    ``curves`` are the names a weld's curve may have; None: any, for they are looked at later.
     """
     table = open_table(path, texts=("weld", "surface", "curve", "description"))
     table.expect(("weld",), ("closed", "surface", "curve", "end_length_mm", "description"), strict=strict)
@@ -124,7 +124,8 @@ def read_welds(path: Path, curves: Collection[str], *, strict: bool) -> tuple[tu
     surface = table.texts("surface", default="both")
     table.choices("surface", surface, SURFACES)
     curve, curve_code = table.groups("curve", default="")
-    table.known("curve", curve, curve_code, {"", *curves}, "the curves")
+    if curves is not None:
+        table.known("curve", curve, curve_code, {"", *curves}, "the curves")
     end_length = table.numbers("end_length_mm", default=np.nan, least=0.0)
     description = table.texts("description", default="")
     table.refuse()
@@ -145,13 +146,26 @@ def read_welds(path: Path, curves: Collection[str], *, strict: bool) -> tuple[tu
 def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple[LineStack, list[Problem]]:
     """Read the line of every weld, in the order of ``welds`` and sorted by ``order``, and check its geometry.
 
+    Raises
+    ------
+    DataError : as ``read_lines`` and ``checked_lines``
+    """
+    lines, warnings = read_lines(path, welds, {weld.name for weld in welds}, strict=strict)
+    return lines, warnings + checked_lines(lines, path.name)
+
+
+def read_lines(
+    path: Path, welds: Sequence[Weld], needed: Collection[str], *, strict: bool
+) -> tuple[LineStack, list[Problem]]:
+    """Read the line of every weld, in the order of ``welds`` and sorted by ``order``; those ``needed`` must be there.
+
     Columns: ``weld, order, node, x_mm, y_mm, z_mm, thickness_mm, normal_x|y|z, outward_x|y|z`` and, where present,
     ``edge_mid``.
 
     Raises
     ------
     DataError
-        a weld without nodes, nodes of an unknown weld, a repeated order or node, a line unfit for assessment
+        a needed weld without nodes, nodes of an unknown weld, a repeated order or node
     """
     table = open_table(path, texts=("weld",))
     vectors = {name: [f"{name}_{axis}" for axis in "xyz"] for name in ("normal", "outward")}
@@ -171,7 +185,7 @@ def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple
     table.unique({"weld": code, "order": order}, {"weld": names})
     table.unique({"weld": code, "node": node}, {"weld": names})
     table.known("weld", names, code, {weld.name for weld in welds}, "the welds")
-    table.complete("weld", names, [weld.name for weld in welds], "nodes")
+    table.complete("weld", names, [weld.name for weld in welds if weld.name in needed], "nodes")
     table.refuse()
     place = {weld.name: i for i, weld in enumerate(welds)}
     of_weld = np.array([place[name] for name in names])[code]
@@ -194,7 +208,7 @@ def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple
         outward=outward[at],
         edge_mid=edge_mid[at],
     )
-    return lines, table.warnings + _checked(lines, path.name)
+    return lines, table.warnings
 
 
 def _vectors(table: Table, names: Sequence[str]) -> NDArray[np.float64]:
@@ -205,7 +219,7 @@ def _vectors(table: Table, names: Sequence[str]) -> NDArray[np.float64]:
     return vectors
 
 
-def _checked(lines: LineStack, file: str) -> list[Problem]:
+def checked_lines(lines: LineStack, file: str) -> list[Problem]:
     """Refuse the unfit lines of all welds together; return the doubts about the others."""
     problems: list[Problem] = []
     warnings: list[Problem] = []

@@ -15,6 +15,7 @@ element_forces = "element_forces.parquet"
 weld_elements = "weld_elements.csv"
 nodes = "nodes.parquet"
 elements = "elements.parquet"
+register = "welds_register.csv"   # EDIT: which lines are assessed, their names, faces, thickness, curves
 force_convention = "{convention}"
 ignore_modes = {ignore}
 

@@ -10,6 +10,7 @@ import pyarrow as pa
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.audit import Audit, audit
 from fatigue.readers.case_text import case_text
+from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_of_welds
 from fatigue.readers.fe_model import in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
@@ -28,8 +29,8 @@ from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_f
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
-from fatigue.readers.weld_lines import WeldSources, find_welds
-from fatigue.readers.weld_register import REGISTER, RegisterRow, register_text
+from fatigue.readers.weld_lines import FoundWelds, WeldSources, find_welds, no_welds
+from fatigue.readers.weld_register import REGISTER, RegisterRow, reasons, register_text
 
 CASE = "case.toml"
 _FREQUENCIES = "frequency match"  # the check of the audit
@@ -58,6 +59,7 @@ class ConvertOptions:
     accept : audit checks whose red light is accepted
     curve, title, speed_km_h, target_km : for the first case.toml
     force : overwrite foreign and changed files
+    keep_case : leave a case.toml in the folder as it is
     """
 
     forces: Path
@@ -83,6 +85,7 @@ class ConvertOptions:
     speed_km_h: float = 100.0
     target_km: float = 1.0e6
     force: bool = False
+    keep_case: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,10 +132,7 @@ def convert(options: ConvertOptions) -> Conversion:
     found = find_welds(metric, replace(options.welds, register=register))
     found = with_forces_only(found, results)
     if not found.assessed():
-        reasons = sorted({row.reason for row in found.rows if row.reason})[:3] or ["the mesh has no weld edges"]
-        raise DataError(
-            Problem("no_welds", str(options.mesh), f"no weld can be assessed: {'; '.join(reasons)}", "See the reasons")
-        )
+        raise DataError(_nothing_to_assess(found, options.mesh))
     force = neutral_forces(results, model, units, options.normalisation)
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
@@ -161,6 +161,9 @@ def convert(options: ConvertOptions) -> Conversion:
         options.speed_km_h,
         options.target_km,
     )
+    kept = options.keep_case and (options.out / CASE).is_file()
+    if kept:
+        del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
     doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
@@ -169,6 +172,8 @@ def convert(options: ConvertOptions) -> Conversion:
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],
+        LINES: lines_of_welds(found.rows),
+        COMMAND: arguments_of(options),
     }
     write_folder(options.out, files, record, CASE)
     return Conversion(
@@ -181,6 +186,15 @@ def convert(options: ConvertOptions) -> Conversion:
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
         files=(*files, RECORD),
     )
+
+
+def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
+    """Say why no weld line can be assessed: all kinds of reasons, with their numbers."""
+    if not found.rows:
+        return no_welds(mesh)
+    kinds = "; ".join(f"{number} because {reason}" for number, reason in reasons(found.rows))
+    what = f"none of the {len(found.rows)} weld lines can be assessed: {kinds}"
+    return Problem("no_welds", str(mesh), what, "Remove the reasons, or set the status of some in the register")
 
 
 def _refuse_red(judged: Audit, options: ConvertOptions) -> None:

@@ -42,20 +42,27 @@ CSV_KINDS = {"weld": pa.string(), "node": pa.int64(), "mode": pa.int64()} | dict
 class WeldCodes:
     """The welds of all groups, numbered group by group.
 
-    ``groups`` are their names, ``code`` the number of each, ``group``, (w,), the group of each number.
+    ``groups`` are their names, ``code`` the number of each by its name in the file, ``group``, (w,), the group of each
+    number. ``skipped`` are welds of the file that nobody asks for.
     """
 
     groups: tuple[tuple[str, ...], ...]
     code: Mapping[str, int]
     group: NDArray[np.int32]
+    skipped: frozenset[str]
+
+    @property
+    def are_those_of_the_file(self) -> bool:
+        """Whether the file has these welds, under these names, and no others."""
+        return not self.skipped and all(name in self.code for group in self.groups for name in group)
 
     def of(self, welds: pa.ChunkedArray) -> NDArray[np.int32]:
-        """Numbers of a column of names, (r,); -1 where there is no such weld."""
+        """Numbers of a column of names, (r,); -1 where there is no such weld, -2 where it is skipped."""
         numbers = [known[place] for known, place in self.coded(welds)]
         return numbers[0] if len(numbers) == 1 else np.concatenate([np.zeros(0, dtype=np.int32), *numbers])
 
     def among(self, welds: pa.ChunkedArray) -> NDArray[np.int32]:
-        """Distinct numbers in a column of names, ascending; -1 where there is a name that no weld has."""
+        """Distinct numbers in a column of names, ascending; below 0 as in ``of``."""
         present = [np.zeros(0, dtype=np.int32)]
         for known, place in self.coded(welds):
             used = np.zeros(known.size, dtype=np.bool_)
@@ -69,15 +76,21 @@ class WeldCodes:
             welds = welds.cast(pa.string()).dictionary_encode()
         for chunk in welds.chunks:
             names = chunk.dictionary.cast(pa.string()).to_pylist()
-            known = np.array([*(self.code.get(composed(name or ""), -1) for name in names), -1], dtype=np.int32)
+            known = np.array([*(self._number(composed(name or "")) for name in names), -1], dtype=np.int32)
             yield known, codes_of(chunk, len(names))
 
+    def _number(self, name: str) -> int:
+        return self.code.get(name, -2 if name in self.skipped else -1)
 
-def weld_codes(groups: Sequence[Sequence[str]]) -> WeldCodes:
-    """Give the welds of all groups their numbers."""
+
+def weld_codes(
+    groups: Sequence[Sequence[str]], in_file: Mapping[str, str] | None = None, skipped: Collection[str] = ()
+) -> WeldCodes:
+    """Give the welds of all groups their numbers; ``in_file`` are the names they have there if these are others."""
     names = [weld for group in groups for weld in group]
+    code = {name if in_file is None else in_file[name]: i for i, name in enumerate(names)}
     group = np.repeat(np.arange(len(groups), dtype=np.int32), [len(group) for group in groups])
-    return WeldCodes(tuple(map(tuple, groups)), {name: i for i, name in enumerate(names)}, group)
+    return WeldCodes(tuple(map(tuple, groups)), code, group, frozenset(skipped))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,16 +131,16 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
     if max(rows) > most_rows:
         return None
     first = np.cumsum([0, *rows])
-    strays = _Strays(header)
+    strays = Strays(header)
     pieces: list[list[int]] = [[] for _ in welds.groups]
     for i in range(len(rows)):
         column = _decoded(path, partial(file.read_row_group, i, [weld])).column(0)
         present = welds.among(column)
-        if present.size and present[0] < 0:
+        if (present == -1).any():
             strays.look(column, welds.of(column), int(first[i]))
         for group in np.unique(welds.group[present[present >= 0]]):
             pieces[group].append(i)
-    strays.refuse(welds.code)
+    strays.refuse(welds)
 
     def read(piece: int) -> pa.Table:
         table = _decoded(path, partial(file.read_row_group, piece, list(columns)))
@@ -181,7 +194,7 @@ def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: Wel
     part_of_group = np.arange(groups) * parts // groups
     files = [scratch / f"forces-{part:03d}.arrow" for part in range(parts)]
     size = np.zeros(parts, dtype=np.int64)
-    strays = _Strays(header)
+    strays = Strays(header)
     first = 0
     with ExitStack() as stack:
         writers: dict[int, pa.ipc.RecordBatchFileWriter] = {}
@@ -200,7 +213,7 @@ def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: Wel
                     writers[i] = stack.enter_context(pa.ipc.new_file(sink, ordered.schema, options=options))
                 writers[i].write_table(ordered.slice(ends[i], ends[i + 1] - ends[i]))
             size += np.diff(ends)
-    strays.refuse(welds.code)
+    strays.refuse(welds)
 
     def read(part: int) -> pa.Table:
         with pa.OSFile(str(files[part])) as stored:
@@ -210,7 +223,7 @@ def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: Wel
     return Source(header, tuple(size.tolist()), pieces, read, numbered.schema.empty_table())
 
 
-class _Strays:
+class Strays:
     """Rows of a file whose weld nobody knows, to be told all together."""
 
     def __init__(self, header: Table) -> None:
@@ -220,13 +233,13 @@ class _Strays:
 
     def look(self, weld: pa.ChunkedArray, code: NDArray[np.int32], first: int) -> None:
         """Note the rows of a piece that begins at row ``first`` of the file."""
-        rows = np.flatnonzero(code < 0)
+        rows = np.flatnonzero(code == -1)
         if rows.size and sum(map(len, self.numbers)) < MOST_STRAYS:
             name = weld.take(rows)
             self.names.append(name.cast(name.type.value_type) if pt.is_dictionary(name.type) else name)
             self.numbers.append(first + rows)
 
-    def refuse(self, known: Collection[str]) -> None:
+    def refuse(self, welds: WeldCodes) -> None:
         """Refuse the file if there were any."""
         if not self.names:
             return
@@ -235,7 +248,7 @@ class _Strays:
         header = self.header
         rows = Columns(header.columns.names, header.columns.kinds, number.size, lambda _: names, number)
         table = Table(header.path, rows, header.position)
-        table.known("weld", *table.groups("weld"), known, "the welds")
+        table.known("weld", *table.groups("weld"), {*welds.code, *welds.skipped}, "the welds")
         table.refuse()
 
 

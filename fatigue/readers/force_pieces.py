@@ -1,6 +1,6 @@
 """The modal nodal forces of a body, group of welds by group of welds, in memory that does not grow with the body."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fatigue.readers.body import Modes
 from fatigue.readers.files import Columns
 from fatigue.readers.force_check import RegularCheck, regular_check
-from fatigue.readers.force_order import CODE, ROW, Source, WeldCodes, in_place, parted, weld_codes
+from fatigue.readers.force_order import CODE, ROW, Source, Strays, WeldCodes, in_place, parted, weld_codes
 from fatigue.readers.forces import open_nodal_forces
 from fatigue.readers.line_file import LineFile
 from fatigue.readers.tables import Table
@@ -41,8 +41,9 @@ class _Piece:
 class ForcePieces:
     """The rows of each group of welds as a table of its own.
 
-    ``groups`` are the names of the welds of each group. Any group may be asked for at any time, by several threads at
-    once; those near the groups asked for last come without decoding anything again, and of groups asked for in turn
+    ``groups`` are the names of the welds of each group, ``in_file`` those they have in the file if these are others,
+    ``skipped`` the welds of the file that are not asked for. Any group may be asked for at any time, by several threads
+    at once; those near the groups asked for last come without decoding anything again, and of groups asked for in turn
     hardly more than one piece is in memory. ``scratch`` is a folder for a parted copy of the file, should it need one;
     no other process may use it.
 
@@ -51,9 +52,16 @@ class ForcePieces:
     DataError : the file is no table, has no column ``weld`` or an unknown weld in it
     """
 
-    def __init__(self, path: Path, groups: Sequence[Sequence[str]], scratch: Path) -> None:
+    def __init__(
+        self,
+        path: Path,
+        groups: Sequence[Sequence[str]],
+        scratch: Path,
+        in_file: Mapping[str, str] | None = None,
+        skipped: Collection[str] = (),
+    ) -> None:
         self._path = path
-        self._welds = weld_codes(groups)
+        self._welds = weld_codes(groups, in_file, skipped)
         self._lock = Lock()
         self._decoded: dict[int, _Piece] = {}
         if len(groups) > 1:
@@ -63,9 +71,10 @@ class ForcePieces:
         """Rows of one group of welds."""
         names = self._welds.groups[group]
         if len(self._welds.groups) == 1:
-            return open_nodal_forces(self._path)
+            table = open_nodal_forces(self._path)
+            return table if self._welds.are_those_of_the_file else _renamed(table, self._welds)
         rows = self._rows(group)
-        header, code = self._source.header, rows.column(CODE).to_numpy() - self._welds.code[names[0]]
+        header, code = self._source.header, rows.column(CODE).to_numpy() - np.searchsorted(self._welds.group, group)
         weld = pa.chunked_array([pa.DictionaryArray.from_arrays(code.astype(np.int32), pa.array(names))])
         stored = {i: name for name, i in header.position.items()}
 
@@ -111,12 +120,39 @@ class ForcePieces:
     def _piece(self, number: int) -> _Piece:
         """Decode a piece and bring its rows into the order of the groups, those of a group in that of the file."""
         rows = self._source.read(number)
+        if self._welds.skipped:
+            rows = rows.filter(pa.array(rows.column(CODE).to_numpy() >= 0))
         group = self._welds.group[rows.column(CODE).to_numpy()]
         if np.any(group[1:] < group[:-1]):
             order = np.argsort(group, kind="stable")
             rows, group = rows.take(order), group[order]
         begin = np.searchsorted(group, np.arange(len(self._welds.groups) + 1))
         return _Piece(rows, begin, set(np.flatnonzero(np.diff(begin)).tolist()))
+
+
+def _renamed(table: Table, welds: WeldCodes) -> Table:
+    """Give the rows of a whole file the names that are asked for, those of skipped welds left out.
+
+    Raises
+    ------
+    DataError : an unknown weld
+    """
+    if "weld" not in table.position:
+        return table
+    position, columns = table.position["weld"], table.columns
+    column = columns.read(position)
+    code = welds.of(column)
+    strays = Strays(table)
+    strays.look(column, code, 0)
+    strays.refuse(welds)
+    kept = np.flatnonzero(code >= 0)
+    (names,) = welds.groups
+    weld = pa.chunked_array([pa.DictionaryArray.from_arrays(code[kept].astype(np.int32), pa.array(names, pa.string()))])
+
+    def read(at: int) -> pa.ChunkedArray:
+        return weld if at == position else columns.read(at).take(pa.array(kept))
+
+    return Table(table.path, Columns(columns.names, columns.kinds, kept.size, read, kept), table.position)
 
 
 def _source(path: Path, welds: WeldCodes, scratch: Path) -> Source:

@@ -101,14 +101,16 @@ def read_element_forces(
 
 
 def read_weld_elements(
-    path: Path, welds: Sequence[Weld], *, strict: bool
+    path: Path, welds: Sequence[Weld], *, strict: bool, needed: Collection[str] | None = None
 ) -> tuple[dict[str, NDArray[np.int64]], list[Problem]]:
     """Read ``weld, element``: the elements of the assessed side of each weld, ascending.
+
+    ``needed`` are the names of the welds that must have some, by default all.
 
     Raises
     ------
     DataError
-        a weld without elements, an unknown weld, an element named twice
+        a needed weld without elements, an unknown weld, an element named twice
     """
     table = open_table(path, texts=("weld",))
     table.expect(("weld", "element"), (), strict=strict)
@@ -116,7 +118,8 @@ def read_weld_elements(
     element = table.integers("element")
     table.known("weld", names, code, {weld.name for weld in welds}, "the welds")
     table.unique({"weld": code, "element": element}, {"weld": names})
-    table.complete("weld", names, [weld.name for weld in welds], "elements")
+    wanted = [weld.name for weld in welds if needed is None or weld.name in needed]
+    table.complete("weld", names, wanted, "elements")
     table.refuse()
     return {name: np.sort(element[code == i]) for i, name in enumerate(names)}, table.warnings
 

@@ -9,6 +9,7 @@ from fatigue.readers.fe_results import FeResults
 from fatigue.readers.forces import COMPONENTS
 from fatigue.readers.foreign_history import ForeignHistory
 from fatigue.readers.weld_lines import FoundWelds
+from fatigue.readers.weld_register import RegisterRow, description_of
 
 
 def nodes_table(model: FeModel) -> pa.Table:
@@ -44,6 +45,10 @@ def forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[
 def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
     """Build the tables welds, weld_nodes and weld_elements of the welds to assess."""
     chosen = found.assessed()
+    of_weld: dict[str, list[RegisterRow]] = {}
+    for row in found.rows:
+        if row.status == "assess":
+            of_weld.setdefault(row.weld, []).append(row)
     lines = [cut.line for _, cut in chosen]
     sizes = [line.node.size for line in lines]
     vectors = {"normal": [line.normal for line in lines], "outward": [line.outward for line in lines]}
@@ -55,7 +60,7 @@ def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
                 "surface": [row.surface for row, _ in chosen],
                 "curve": pa.array([row.curve or None for row, _ in chosen], pa.string()),
                 "end_length_mm": pa.array([cut.line.end_length for _, cut in chosen], pa.float64()),
-                "description": [row.description or f"{row.kind} {row.pids}" for row, _ in chosen],
+                "description": [description_of(of_weld[row.weld]) for row, _ in chosen],
             }
         ),
         "weld_nodes.csv": pa.table(

@@ -45,27 +45,31 @@ def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
         present.setdefault(int(element), set()).add(int(node))
     strange = results.of_element & ~np.isin(results.kind, sorted(SHELL_KINDS | _CONNECTORS))
     strange_at = dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))
-    rows = []
-    for row in found.rows:
-        cut = found.cuts.get(row.line)
-        reason = _force_gap(cut, present, strange_at) if cut is not None and row.status == "assess" else ""
-        rows.append(replace(row, status="excluded", reason=reason) if reason else row)
+    gaps = {row.weld: _force_gap(cut, present, strange_at) for row, cut in found.assessed()}
+    rows = (
+        replace(row, status="excluded", reason=gaps[row.weld]) if row.status == "assess" and gaps[row.weld] else row
+        for row in found.rows
+    )
     return replace(found, rows=tuple(rows))
 
 
 def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int, str]) -> str:
-    """Why a cut cannot be assessed with the forces at hand; empty if it can."""
+    """Every reason why a cut cannot be assessed with the forces at hand; empty if it can."""
     silent = [int(e) for e in cut.elements if int(e) not in present]
+    found = []
     if silent:
-        return f"{len(silent)} of {cut.elements.size} elements have no grid point forces, element {silent[0]} the first"
-    covered = set().union(*(present[int(e)] for e in cut.elements))
+        many = f"{len(silent)} of {cut.elements.size} elements"
+        found.append(f"{many} have no grid point forces, element {silent[0]} the first")
+    covered = set().union(*(present.get(int(e), ()) for e in cut.elements))
     bare = [int(n) for n in cut.line.node if int(n) not in covered]
-    if bare:
-        return f"node {bare[0]} has no grid point forces"
-    touching = [int(n) for n in cut.line.node if int(n) in strange_at]
-    if touching:
-        return f"an element of kind {strange_at[touching[0]]} touches the line at node {touching[0]}"
-    return ""
+    if bare and not silent:
+        found.append(f"node {bare[0]} has no grid point forces")
+    touching: dict[str, int] = {}
+    for node in cut.line.node.tolist():
+        if node in strange_at:
+            touching.setdefault(strange_at[node], node)
+    found += [f"an element of kind {kind} touches the line at node {node}" for kind, node in touching.items()]
+    return "; ".join(found)
 
 
 def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:

@@ -10,9 +10,10 @@ import numpy as np
 from fatigue.errors import DataError, Problem
 from fatigue.readers.fe_model import FeModel, in_mm
 from fatigue.readers.formats import read_model
+from fatigue.readers.joined_cuts import joined_cuts
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import unit_system
-from fatigue.readers.weld_register import RegisterRow, merged, proposed, read_register, register_text
+from fatigue.readers.weld_register import RegisterRow, kind_of, merged, open_register, proposed, register_text
 from fatigue.weld.cuts import WeldCut, trace
 from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
@@ -47,17 +48,23 @@ class FoundWelds:
     Attributes
     ----------
     cuts : by line name; named, faced and dimensioned as the register has it
+    joined : by weld name, of lines that have one name and are one weld
     rows : the register
     remarks : doubts
     """
 
     cuts: dict[str, WeldCut]
+    joined: dict[str, WeldCut]
     rows: tuple[RegisterRow, ...]
     remarks: tuple[Problem, ...]
 
     def assessed(self) -> list[tuple[RegisterRow, WeldCut]]:
-        """Rows to assess with their cuts."""
-        return [(row, self.cuts[row.line]) for row in self.rows if row.status == "assess"]
+        """Welds to assess, of joined lines the first row, with their cuts."""
+        first: dict[str, RegisterRow] = {}
+        for row in self.rows:
+            if row.status == "assess":
+                first.setdefault(row.weld, row)
+        return [(row, self.joined.get(name) or self.cuts[row.line]) for name, row in first.items()]
 
 
 def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
@@ -81,11 +88,12 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
         is_weld = cut.kind not in ("flat", "fold") or sources.candidates
         rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
         failed[cut.name] = _doubt(cut, doubts)
-    edited = read_register(sources.register) if sources.register else {}
-    rows, remarks = merged(rows, edited)
+    edited = open_register(sources.register, strict=False) if sources.register else None
+    rows, remarks = merged(rows, edited) if edited else (rows, [])
     by_name = {cut.name: cut for cut in cuts}
     final = [_settled(row, by_name.get(row.line), failed.get(row.line, "")) for row in rows]
     by_name = {row.line: _as_registered(by_name[row.line], row) for row in final if row.line in by_name}
+    joined = joined_cuts(topo, final, by_name, sources.register)
     stacked = stacked_elements(model.mesh)
     if stacked.size:
         remarks.append(
@@ -96,7 +104,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
                 "Their edges look like welds; exclude them in the register",
             )
         )
-    return FoundWelds(by_name, tuple(final), tuple(remarks))
+    return FoundWelds(by_name, joined, tuple(final), tuple(remarks))
 
 
 def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, overwrite: bool) -> FoundWelds:
@@ -109,10 +117,13 @@ def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, o
 
     Raises
     ------
-    DataError : as ``find_welds``; ``out`` exists, is not the register that was read, and may not be overwritten
+    DataError : as ``find_welds``; there are none; ``out`` exists, is not the register that was read, and may not be
+        overwritten
     """
     model = in_mm(read_model(mesh), unit_system(units, "units").length)
     found = find_welds(model, sources)
+    if not found.rows:
+        raise DataError(no_welds(mesh))
     if out is not None:
         if out.exists() and out != sources.register and not overwrite:
             raise DataError(
@@ -120,6 +131,12 @@ def list_welds(mesh: Path, sources: WeldSources, units: str, out: Path | None, o
             )
         out.write_text(register_text(found.rows), "utf-8")
     return replace(found, remarks=(*model.remarks, *found.remarks))
+
+
+def no_welds(mesh: Path) -> Problem:
+    """Say that a mesh has nothing to list."""
+    what = "the mesh has no weld lines: no edge where three shells, two properties or two planes meet"
+    return Problem("no_welds", str(mesh), what, "Mark the lines with --node-lists, --set or --marker")
 
 
 _CANDIDATE_REASON = {
@@ -142,8 +159,11 @@ def _element_doubts(model: FeModel) -> dict[int, str]:
 
 
 def _doubt(cut: WeldCut, doubts: dict[int, str]) -> str:
-    """First doubt about the section of a cut's elements."""
-    return next((doubts[int(e)] for e in cut.elements if int(e) in doubts), "")
+    """Say what is doubtful about the sections of a cut's elements: of each kind the first, and how many more."""
+    kinds: dict[str, list[str]] = {}
+    for doubt in dict.fromkeys(doubts[e] for e in cut.elements.tolist() if e in doubts):
+        kinds.setdefault(kind_of(doubt), []).append(doubt)
+    return "; ".join(some[0] + (f" (and {len(some) - 1} more)" if len(some) > 1 else "") for some in kinds.values())
 
 
 def _settled(row: RegisterRow, cut: WeldCut | None, doubt: str) -> RegisterRow:
@@ -159,7 +179,7 @@ def _settled(row: RegisterRow, cut: WeldCut | None, doubt: str) -> RegisterRow:
     try:
         check_line(_as_registered(cut, row).line, row.line)
     except DataError as error:
-        return replace(row, status="excluded", reason=error.problems[0].what)
+        return replace(row, status="excluded", reason="; ".join(problem.what for problem in error.problems))
     return row
 
 

@@ -28,7 +28,8 @@ def lives(result: Result, figs: Figures) -> Shown:
 def where(result: Result, body: Body | None, links: Mapping[str, str], figs: Figures) -> dict[str, Any]:
     """Draw the weld lines in space, on paper and unrolled; with the data behind a click in space."""
     stations = figures.worst_faces(result.nodes)
-    closed = frozenset(result.welds.loc[result.welds["closed"] & (result.welds["parts"] == 1), "weld"])
+    welds = result.assessed
+    closed = frozenset(welds.loc[welds["closed"] & (welds["parts"] == 1), "weld"])
     rows = figures.line_rows(stations, closed)
     scene = figures.scene(stations, rows, result.target_km, body)
     views = figures.projections(stations, rows, result.target_km, body)
@@ -47,7 +48,7 @@ def where(result: Result, body: Body | None, links: Mapping[str, str], figs: Fig
 def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, links: Mapping[str, str]) -> Markup:
     """Pack what a click in the scene shows and what its lines can be coloured by, in the order of drawing."""
     drawn = stations.iloc[np.maximum(rows, 0)]  # nobody asks for what stands at the gaps between the lines
-    welds, events = list(result.welds["weld"]), [event["event"] for event in result.events]
+    welds, events = list(result.assessed["weld"]), [event["event"] for event in result.events]
 
     def index(column: str, names: Sequence[str]) -> dict[str, str]:
         place = {name: i for i, name in enumerate(names)}

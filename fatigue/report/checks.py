@@ -24,7 +24,7 @@ class Recomputed:
 def recomputed(result: Result) -> list[Recomputed]:
     """Recompute the damage of every detailed weld's worst point from its cycles, and from the damage of its events."""
     from_cycles, from_events = [0.0], [0.0]
-    welds = result.welds.set_index("weld")
+    welds = result.assessed.set_index("weld")
     for weld in result.detailed:
         known = result.worst(weld)["damage_per_km"]
         cycles = result.cycles(weld, ["event", "count", "equivalent_range_dS"])

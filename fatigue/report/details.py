@@ -96,7 +96,7 @@ def _add_records(detail: Detail, record: Record, weld: _Weld) -> None:
 
 
 def _welds(result: Result) -> dict[str, _Weld]:
-    governing = result.welds.set_index("weld")["governing_event"]
+    governing = result.assessed.set_index("weld")["governing_event"]
     welds = {}
     for name, (stations, shapes) in result.stress_shapes(list(COMPONENTS.values())).items():
         components = dict(zip(COMPONENTS, shapes, strict=True))

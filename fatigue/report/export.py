@@ -112,8 +112,8 @@ def _cells(values: pd.Series, column: Column) -> list[str | bool | float | None]
     if column.type == "text":
         return [None if pd.isna(v) else str(v) for v in values]
     if column.type == "flag":
-        return [bool(v) for v in values]
-    numbers = values.to_numpy(dtype=np.float64)
+        return [None if pd.isna(v) else bool(v) for v in values]
+    numbers = values.to_numpy(dtype=np.float64, na_value=np.nan)
     return [f"> {LONGEST:g}" if v == np.inf else float(v) if np.isfinite(v) else None for v in numbers]
 
 
@@ -153,7 +153,7 @@ def write_csv(folder: Path) -> list[Path]:
         paths.append(folder / f"{name}.csv")
         with paths[-1].open("w", encoding="utf-8", newline="") as file:
             for number, piece in enumerate(row_groups(folder, name)):
-                frame = piece.to_pandas()
+                frame = piece.to_pandas(types_mapper={pa.int64(): pd.Int64Dtype()}.get)  # "33", not "33.0", beside none
                 for text in texts:
                     frame[text] = frame[text].map(_harmless, na_action="ignore")
                 frame.to_csv(file, index=False, header=number == 0, lineterminator="\n")

@@ -69,7 +69,7 @@ def report_page(folder: Path, case_path: Path | None = None, verification: Seque
         "head": _head(result),
         "assumptions": method.assumptions(record),
         "warnings": _warnings(record),
-        "worst_welds": tables.weld_table(result.welds, links),
+        "worst_welds": tables.weld_table(result.assessed, links),
         "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
         # figures are numbered in the order of these lines, which is that of the page
         "weld_lives": body_sections.lives(result, figs),
@@ -140,7 +140,7 @@ def _head(result: Result) -> dict[str, Any]:
     """Collect what the first lines of the page say."""
     welds = result.assessed
     mission = result.record["mission"]
-    missed = int((~welds["fulfilled"].astype(bool)).sum())
+    missed = int((~welds["fulfilled"]).sum())
     return {
         "fulfilled": missed == 0,
         "missed": missed,

@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.report.domains import Domains, read_domains
-from fatigue.results import read_provenance, read_rows, read_table, rows_of_welds, worst_toes
+from fatigue.results import assessed, read_provenance, read_rows, read_table, read_welds, rows_of_welds, worst_toes
 
 POINT = ("weld", "part", "order", "surface")
 _WORST = ("weld", "worst_part", "worst_order", "worst_surface")
@@ -24,7 +24,8 @@ class Result:
     Attributes
     ----------
     record : provenance
-    welds : the register, worst first
+    welds : the register, worst first, those that were not assessed last
+    assessed : the register without these
     drawn : the welds, worst first, whose lines are drawn
     nodes : all points of the drawn welds
     worst_points : the worst toe points of all welds, worst first
@@ -38,6 +39,7 @@ class Result:
 
     record: Mapping[str, Any]
     welds: pd.DataFrame
+    assessed: pd.DataFrame
     drawn: tuple[str, ...]
     nodes: pd.DataFrame
     worst_points: pd.DataFrame
@@ -47,11 +49,6 @@ class Result:
     damage: pd.DataFrame
     cycle_rows: Mapping[str, NDArray[np.int64]]
     folder: Path
-
-    @property
-    def assessed(self) -> pd.DataFrame:
-        """The register without the excluded welds, worst first."""
-        return self.welds[self.welds["status"] == "assessed"]
 
     @property
     def target_km(self) -> float:
@@ -93,7 +90,7 @@ class Result:
 
     def _worst_of(self, weld: str, rows: pd.DataFrame) -> pd.DataFrame:
         """Keep the rows of the worst point among those of a weld."""
-        row = self.welds.set_index("weld").loc[weld]
+        row = self.assessed.set_index("weld").loc[weld]
         at = (rows["part"] == row["worst_part"]) & (rows["order"] == row["worst_order"])
         return rows[at & (rows["surface"] == row["worst_surface"])]
 
@@ -115,22 +112,22 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     domains = read_domains(folder, [event["event"] for event in record["mission"]["events"]])
     toes = int(np.count_nonzero(read_table(folder, "nodes", ["toe"])["toe"].to_numpy()))
     worst = read_rows(folder, "nodes", worst_toes(folder, worst_points)).to_pandas()
-    welds = read_table(folder, "welds").to_pandas()
-    welds = welds.sort_values("utilisation", ascending=False, kind="stable", na_position="last", ignore_index=True)
-    assessed = welds[welds["status"] == "assessed"]
-    detailed = tuple(assessed["weld"].head(most_detailed))
-    fitting = int(np.searchsorted(assessed["nodes"].cumsum(), most_stations, side="right"))
-    drawn = tuple(assessed["weld"].head(max(fitting, most_detailed)))
+    welds = read_welds(folder)
+    rows = assessed(welds)
+    detailed = tuple(rows["weld"].head(most_detailed))
+    fitting = int(np.searchsorted(rows["nodes"].cumsum(), most_stations, side="right"))
+    drawn = tuple(rows["weld"].head(max(fitting, most_detailed)))
     return Result(
         record=record,
         welds=welds,
+        assessed=rows,
         drawn=drawn,
         nodes=rows_of(folder, "nodes", drawn),
         worst_points=worst,
         toes=toes,
         domains=domains,
         detailed=detailed,
-        damage=rows_of_worst_points(folder, "damage", welds, detailed),
+        damage=rows_of_worst_points(folder, "damage", rows, detailed),
         cycle_rows=rows_of_welds(folder, "cycles", detailed),
         folder=folder,
     )

@@ -62,7 +62,9 @@ def num(value: Any) -> Cell:
 
 
 def integer(value: Any, *, grouped: bool = False) -> Cell:
-    """Cell with a count (grouped) or an id."""
+    """Cell with a count (grouped) or an id; a dash where there is none."""
+    if pd.isna(value):
+        return num(None)
     return Cell(whole(int(value)) if grouped else str(int(value)), float(value))
 
 
@@ -149,26 +151,8 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
 
 
 def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
-    """Every weld of the case: assessed, or excluded and why."""
-    rows = tuple(
-        (
-            _linked(row.weld, links),
-            text(row.description),
-            text(row.status if not row.reason else f"{row.status}: {row.reason}"),
-            verdict(row.fulfilled) if row.status == "assessed" else text(None),
-            num(row.length_mm),
-            integer(row.nodes, grouped=True),
-            integer(row.parts),
-            text("closed" if row.closed else "open"),
-            Cell(_span(row.thickness_min_mm, row.thickness_max_mm), float(row.thickness_min_mm)),
-            text(row.surface),
-            text(row.curve),
-            text(row.survival),
-            Cell("plate thickness" if row.end_length_mm != row.end_length_mm else number(row.end_length_mm), 0.0),
-            *(num(getattr(row, name)) for name in LIFE_COLUMNS),
-        )
-        for row in welds.itertuples()
-    )
+    """Every weld of the case: assessed, or not and why."""
+    rows = tuple(_register_row(row, links) for row in welds.itertuples())
     headings = (
         WELD,
         Heading("description", numeric=False),
@@ -186,6 +170,27 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
         *LIFE,
     )
     return Table("weld-register", headings, rows, "Find a weld")
+
+
+def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
+    """Cells of a weld; one that is not assessed has a name, a reason and perhaps a length, and dashes."""
+    is_assessed, is_candidate = row.status == "assessed", str(row.reason).startswith("candidate")
+    return (
+        _linked(row.weld, links),
+        text(row.description),
+        text(row.status if not row.reason else row.reason if is_candidate else f"{row.status}: {row.reason}"),
+        verdict(row.fulfilled) if is_assessed else text(None),
+        num(row.length_mm),
+        integer(row.nodes, grouped=True),
+        integer(row.parts),
+        text(None if pd.isna(row.closed) else "closed" if row.closed else "open"),
+        Cell(_span(row.thickness_min_mm, row.thickness_max_mm), num(row.thickness_min_mm).value),
+        text(row.surface),
+        text(row.curve),
+        text(row.survival),
+        Cell("plate thickness", 0.0) if is_assessed and pd.isna(row.end_length_mm) else num(row.end_length_mm),
+        *(num(getattr(row, name)) for name in LIFE_COLUMNS),
+    )
 
 
 def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str], steps: Mapping[str, float]) -> Table:
@@ -293,4 +298,4 @@ def _linked(weld: str, links: Mapping[str, str]) -> Cell:
 
 
 def _span(low: float, high: float) -> str:
-    return number(low) if low == high else f"{number(low)} to {number(high)}"
+    return number(low) if low == high or pd.isna(low) else f"{number(low)} to {number(high)}"

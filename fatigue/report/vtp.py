@@ -103,8 +103,10 @@ def write_line_picture(path: Path, lines: Sequence[WeldLine], *, overwrite: bool
 
     Raises
     ------
-    DataError : the file exists and may not be overwritten
+    DataError : the file exists and may not be overwritten, or there are no lines
     """
+    if not lines:
+        raise DataError(Problem("no_welds", str(path), "there are no weld lines to draw", "Choose others"))
     if path.exists() and not overwrite:
         raise DataError(Problem("foreign_file", str(path), "is there already", "Use --force to overwrite it"))
     number = np.repeat(np.arange(1, len(lines) + 1), [len(line.node) for line in lines])

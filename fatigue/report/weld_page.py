@@ -43,7 +43,7 @@ class WeldPage:
 
 def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
     """Gather all that is shown of one weld; ``detail`` is None where the records were not found."""
-    row = result.welds.set_index("weld", drop=False).loc[weld]
+    row = result.assessed.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
     cycles = result.cycles(weld)
     used = assumptions_of(result.record, row["curve"])

@@ -38,7 +38,7 @@ def read_why(folder: Path, result: Result) -> Why | None:
     """Read the tables of a diagnosis; None where the result was not diagnosed."""
     if not all((folder / f"{name}.parquet").is_file() for name in TABLES):
         return None
-    return Why(*(rows_of_worst_points(folder, name, result.welds, result.detailed) for name in TABLES))
+    return Why(*(rows_of_worst_points(folder, name, result.assessed, result.detailed) for name in TABLES))
 
 
 def mode_shares(why: Why) -> pd.DataFrame:

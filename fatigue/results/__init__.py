@@ -38,6 +38,7 @@ from fatigue.results.store import (
     table_writer,
     write_json,
 )
+from fatigue.results.weld_table import assessed, not_assessed, read_welds
 
 __all__ = [
     "ASSESSED",
@@ -54,14 +55,17 @@ __all__ = [
     "WELDS",
     "Column",
     "TableWriter",
+    "assessed",
     "coded",
     "input_register",
     "json_ready",
+    "not_assessed",
     "number_groups",
     "read_codes",
     "read_provenance",
     "read_rows",
     "read_table",
+    "read_welds",
     "result_tables",
     "row_count",
     "row_groups",

@@ -170,8 +170,8 @@ STRUCTURAL_STRESS = (
 
 WELDS = (
     Column("weld", "text", "-", "weld line"),
-    Column("status", "text", "-", "assessed, or excluded"),
-    Column("reason", "text", "-", "why a weld is excluded"),
+    Column("status", "text", "-", "assessed, or excluded (not assessed; also candidates)"),
+    Column("reason", "text", "-", "why a weld is not assessed"),
     Column("description", "text", "-", "as given"),
     Column("closed", "flag", "-", "the line closes on itself"),
     Column("parts", "int", "-", "straight parts after splitting at kinks"),

@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from fatigue.errors import DataError, Problem
-from fatigue.results import read_provenance, read_rows, read_table, worst_toes
+from fatigue.results import assessed, not_assessed, read_provenance, read_rows, read_welds, worst_toes
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
@@ -22,12 +22,13 @@ _POINT_COLUMNS = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Summary:
-    """The welds, worst first, and the worst toe points of a result."""
+    """The welds, worst first, those not assessed with their reasons, and the worst toe points of a result."""
 
     title: str
     assumptions: str
     target_km: float
     welds: pd.DataFrame
+    not_assessed: pd.DataFrame
     points: pd.DataFrame
 
     @property
@@ -43,6 +44,7 @@ class Summary:
             "target_km": self.target_km,
             "fulfilled": self.fulfilled,
             "welds": self.welds.to_dict("records"),
+            "not_assessed": self.not_assessed.to_dict("records"),
             "points": self.points.to_dict("records"),
         }
 
@@ -64,6 +66,7 @@ class Summary:
                     ["weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event"],
                 ),
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
+                *self._left_out(),
                 "",
                 f"The {len(self.points)} worst points",
                 _text_table(
@@ -83,6 +86,19 @@ class Summary:
             ]
         )
 
+    def _left_out(self) -> list[str]:
+        """Say which welds are not assessed, and why."""
+        if self.not_assessed.empty:
+            return []
+        shown = self.not_assessed.head(MOST_WELDS)
+        others = len(self.not_assessed) - len(shown)
+        return [
+            "",
+            f"Not assessed: {len(self.not_assessed)} welds",
+            _text_table(shown, ["weld", "reason"]),
+            *([f"and {others} more, see welds.parquet"] if others else []),
+        ]
+
 
 def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summary:
     """Read the summary of a result folder.
@@ -92,19 +108,23 @@ def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summa
     DataError : no finished result there, or no such weld in it
     """
     record = read_provenance(folder)
-    welds = read_table(folder, "welds").to_pandas()
-    welds = welds[welds["status"] == "assessed"].astype({"fulfilled": bool, "worst_node": int})
+    every = read_welds(folder)
+    welds, left_out = assessed(every), not_assessed(every)
     unknown = sorted(set(only) - set(welds["weld"]))
     if unknown:
-        names = ", ".join(welds["weld"].head(MOST_WELDS))
+        for row in left_out[left_out["weld"] == unknown[0]].itertuples():
+            what = f"weld '{row.weld}' is not assessed: {row.reason}"
+            raise DataError(Problem("not_assessed", str(folder), what, "Change its status in the weld register"))
+        names = ", ".join(sorted(welds["weld"])[:MOST_WELDS])
         raise DataError(Problem("unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {names}"))
     if only:
-        welds = welds[welds["weld"].isin(only)]
+        welds, left_out = welds[welds["weld"].isin(only)], left_out[:0]
     return Summary(
         title=record["title"],
         assumptions=assumptions(record),
         target_km=record["mission"]["target_km"],
-        welds=welds.sort_values("utilisation", ascending=False, kind="stable"),
+        welds=welds,
+        not_assessed=left_out,
         points=read_rows(folder, "nodes", worst_toes(folder, top, only), _POINT_COLUMNS).to_pandas(),
     )
 

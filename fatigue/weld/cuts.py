@@ -166,6 +166,20 @@ class _Walker:
         return kept
 
 
+def plate_round(topo: Topology, cut: WeldCut, node: int, before: int, after: int) -> set[int]:
+    """Elements of the plate of a cut round one of its ends, up to an edge of the weld that begins there.
+
+    ``node`` is the end, ``before`` and ``after`` the other nodes of the last edge of the cut and of that edge; all are
+    ids, as the elements returned are.
+    """
+    ids = topo.mesh.node
+    at, first, last = np.searchsorted(ids, [node, before, after]).tolist()
+    edges = [int(np.flatnonzero((topo.ends == sorted((at, other))).all(axis=1))[0]) for other in (first, last)]
+    start = next(side for side in topo.sides_of(edges[0]) if topo.mesh.element[side // 4] in cut.elements)
+    reached = _Walker(topo, {}).round_node(start, at, set(edges))
+    return {int(topo.mesh.element[element]) for element in reached}
+
+
 def _from_lowest(loop: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
     """Begin a loop at its lowest node, so that it does not depend on where it was found."""
     at = min(range(len(loop)), key=lambda k: loop[k][1])

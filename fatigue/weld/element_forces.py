@@ -216,7 +216,7 @@ def _shares(
             last_edge[place] = set(part.node[list(edge)].tolist())
         size += part.node.size
     nearest = {
-        name: _nearest({place: last_edge[place] for place in at}, _around(name, side))
+        name: _nearest({place: last_edge[place] for place in at}, elements_around(name, side))
         for name, at in places.items()
         if len(at) > 1
     }
@@ -230,7 +230,7 @@ def _shares(
     return csr_array((share, (row, column)), shape=(size, node.size))
 
 
-def _around(node: int, side: ElementForces) -> dict[int, set[int]]:
+def elements_around(node: int, side: ElementForces) -> dict[int, set[int]]:
     """Nodes of each element that touches a node."""
     fan = side.of(side.element[side.node == node])
     nodes: dict[int, set[int]] = {}

@@ -88,13 +88,17 @@ def test_register_of_lines_that_are_gone(mesh, tmp_path):
 @pytest.mark.parametrize(
     ("row", "words"),
     [
-        ("a,,assess,,,", "column line is missing"),
+        (",b,assess,,,", "column weld is missing"),
+        ("a,b,,,,", "column status is missing"),
         ("a,b,perhaps,,,", "status is 'perhaps'"),
         ("a,b,assess,left,,", "surface is 'left'"),
         ("a,b,assess,,-1,", "end_length_mm is -1"),
         ("a,b,assess,,x,", "could not convert"),
         ("a,b,assess,,,true", "must be above 0"),
-        ("a,b,assess,,,\na,c,assess,,,", "given twice"),
+        ("a,b,assess,,,\nc,b,assess,,,", "given twice, in row 1"),
+        ("a,,assess,,,\na,,assess,,,", "given twice, in row 1"),
+        ("a,b,assess,,,maybe", "confirmed is 'maybe'"),
+        ("a,b,excluded,,,,by hand, with care", "8 cells in a table of 6 columns"),
     ],
 )
 def test_register_refusals(tmp_path, row, words):

@@ -1,6 +1,6 @@
 """The weld lines of a case and the forces on them: nodal forces as they are, element forces summed per part."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -9,8 +9,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.verify.recount.inputs import Inputs, Modes, column, flags
+from fatigue.verify.recount.joined import put_together, side_of, with_thickness
 from fatigue.verify.recount.layout import Layout
 from fatigue.verify.recount.line import CORNER_DEG, Line, LineStress, edges, kinks, line_stress
+from fatigue.verify.recount.register import WeldEntry
 from fatigue.verify.recount.tables import FORCE_COLUMNS, read_pieces, read_rows_where
 
 Floats = NDArray[np.float64]
@@ -22,7 +24,7 @@ _WELDS_AT_ONCE = 1000  # whose geometry is in memory
 
 def layout(inputs: Inputs) -> Layout:
     """Find where the points are: the keys of all stations, without the forces and without keeping the geometry."""
-    welds = tuple(inputs.frame("welds")["weld"].tolist())
+    welds = tuple(inputs.register.welds)
     if "nodal_forces" in inputs.case["body"]:
         return _unsplit(inputs, welds)
     weld, part, order = [], [], []
@@ -37,9 +39,10 @@ def layout(inputs: Inputs) -> Layout:
 
 def _unsplit(inputs: Inputs, welds: tuple[str, ...]) -> Layout:
     """Lay out lines whose forces are summed already; a kink is then no reason to split."""
-    place = {name: i for i, name in enumerate(welds)}
+    place = {inputs.register.welds[name].sources[0]: i for i, name in enumerate(welds)}
     welds_of, orders = [], []
-    for piece in read_pieces(inputs.path("weld_nodes"), ("weld", "order")):
+    for whole in read_pieces(inputs.path("weld_nodes"), ("weld", "order")):
+        piece = whole[whole["weld"].isin(place)]
         welds_of.append(piece["weld"].map(place).to_numpy(dtype=np.int32))
         orders.append(piece["order"].to_numpy(copy=True))  # of a piece, which need not stay for it
     weld, order = np.concatenate(welds_of), np.concatenate(orders)
@@ -55,14 +58,28 @@ def solved_lines(inputs: Inputs, modes: Modes, welds: Sequence[str]) -> list[Lin
     return list(_with_element_forces(lines, inputs, modes))
 
 
+def closed_welds(inputs: Inputs, welds: Sequence[str]) -> set[str]:
+    """Find which of some welds close: as the tables say, or, of several lines, as these meet."""
+    entries = [inputs.register.welds[weld] for weld in welds]
+    several = [entry.name for entry in entries if len(entry.sources) > 1]
+    closed = {line.weld for line in _lines(inputs, several) if line.closed} if several else set()
+    return closed | {entry.name for entry in entries if entry.closed and len(entry.sources) == 1}
+
+
 def _lines(inputs: Inputs, welds: Sequence[str]) -> list[Line]:
     """Read the lines of some welds."""
-    frame = inputs.frame("welds").set_index("weld").loc[list(welds)]
-    by_weld = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", welds).groupby("weld")))
-    return [
-        _line(by_weld[weld], weld, closed=bool(closed), end_length=None if np.isnan(end) else float(end))
-        for weld, closed, end in zip(welds, flags(frame, "closed"), column(frame, "end_length_mm"), strict=True)
-    ]
+    entries = [inputs.register.welds[weld] for weld in welds]
+    sources = [source for entry in entries for source in entry.sources]
+    by_weld = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", sources).groupby("weld")))
+    pieces = [_pieces(entry, by_weld) for entry in entries]
+    return [some[0] if len(some) == 1 else put_together(some)[0] for some in pieces]
+
+
+def _pieces(entry: WeldEntry, by_weld: Mapping[str, pd.DataFrame]) -> list[Line]:
+    """Lines in the tables that make a weld, under its name."""
+    end_length = None if np.isnan(entry.end_length) else entry.end_length
+    lines = [_line(by_weld[s], entry.name, closed=entry.closed, end_length=end_length) for s in entry.sources]
+    return [with_thickness(line, entry.thickness.get(s)) for line, s in zip(lines, entry.sources, strict=True)]
 
 
 def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | None) -> Line:
@@ -88,11 +105,12 @@ def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | No
 
 def _with_nodal_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Iterator[LineStress]:
     """Solve lines whose forces are summed already; a kink is then no reason to split."""
-    frame = read_rows_where(inputs.path("nodal_forces"), "weld", [line.weld for line in lines])
+    source = {line.weld: inputs.register.welds[line.weld].sources[0] for line in lines}
+    frame = read_rows_where(inputs.path("nodal_forces"), "weld", list(source.values()))
     frame = frame[frame["mode"].isin(modes.mode)]
     by_weld = dict(tuple(frame.groupby("weld")))
     for line in lines:
-        rows = by_weld[line.weld].set_index(["node", "mode"])
+        rows = by_weld[source[line.weld]].set_index(["node", "mode"])
         wanted = pd.MultiIndex.from_product([line.node, modes.mode])
         forces = rows.loc[wanted, FORCE_COLUMNS].to_numpy(dtype=float).reshape(len(line.node), len(modes.mode), 6)
         yield line_stress(line, forces * modes.force_factor[:, None])
@@ -100,12 +118,20 @@ def _with_nodal_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Itera
 
 def _with_element_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Iterator[LineStress]:
     """Split every line at its kinks and sum the forces of the assessed side's elements per part."""
-    sides = read_rows_where(inputs.path("weld_elements"), "weld", [line.weld for line in lines])
+    entries = {line.weld: inputs.register.welds[line.weld] for line in lines}
+    sources = [source for entry in entries.values() for source in entry.sources]
+    sides = read_rows_where(inputs.path("weld_elements"), "weld", sources)
+    of_lines = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", sources).groupby("weld")))
     frame = read_rows_where(inputs.path("element_forces"), "element", sides["element"].unique().tolist())
     frame = frame[frame["mode"].isin(modes.mode)].sort_values("mode")
     for line in lines:
-        elements = sides.loc[sides["weld"] == line.weld, "element"]
-        rows = frame[frame["element"].isin(elements)]
+        entry = entries[line.weld]
+        own = [set(sides.loc[sides["weld"] == source, "element"].tolist()) for source in entry.sources]
+        rows = frame[frame["element"].isin(set().union(*own))]
+        if len(own) > 1:
+            nodes = {element: set(some) for element, some in rows.groupby("element")["node"]}
+            pieces = _pieces(entry, of_lines)
+            rows = rows[rows["element"].isin(side_of(own, pieces, put_together(pieces)[1], nodes))]
         corners: Corners = {
             key: group[FORCE_COLUMNS].to_numpy(dtype=float) * modes.force_factor[:, None]
             for key, group in rows.groupby(["element", "node"])

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from fatigue.results import TABLES, read_provenance
-from fatigue.verify.recount.body import layout, solved_lines
+from fatigue.verify.recount.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
 from fatigue.verify.recount.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.curve import curve_named
-from fatigue.verify.recount.inputs import Inputs, Modes, flags, open_inputs, read_modes, texts
+from fatigue.verify.recount.inputs import Inputs, Modes, open_inputs, read_modes
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.point import Event, MeanStress, OnePass, Values, one_pass, point_of, point_values
 from fatigue.verify.recount.record import read_record, spectrum_rules
@@ -135,16 +135,15 @@ def _samples(inputs: Inputs, record: Mapping[str, Any]) -> int:
 
 def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any], names: Sequence[str]) -> dict[str, Weld]:
     """Read and solve some welds."""
-    frame = inputs.frame("welds").set_index("weld", drop=False).loc[list(names)]
     parts: dict[str, list[Any]] = {name: [] for name in names}
     for solved in solved_lines(inputs, modes, names):
         parts[solved.line.weld].append(solved)
-    columns = (names, flags(frame, "closed"), texts(frame, "surface"), texts(frame, "curve"))
-    welds = {}
-    for name, closed, given_surface, given_curve in zip(*columns, strict=True):
-        surface, curve = given_surface or "both", given_curve or inputs.case["curve"]["name"]
+    welds, closed = {}, closed_welds(inputs, names)
+    for name in names:
+        entry = inputs.register.welds[name]
+        surface, curve = entry.surface or "both", entry.curve or inputs.case["curve"]["name"]
         welds[name] = Weld(
-            given={"closed": closed, "surface": surface},
+            given={"closed": name in closed, "surface": surface},
             parts=tuple(parts[name]),
             curve_name=curve,
             curve=curve_named(curve, inputs.case, record),

@@ -12,15 +12,17 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.verify.recount.register import WeldEntries, weld_entries
 from fatigue.verify.recount.tables import read_frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Inputs:
-    """The case text, parsed, and the folder its file names are relative to."""
+    """The case text, parsed, the folder its file names are relative to, and the welds to assess."""
 
     case: Mapping[str, Any]
     folder: Path
+    register: WeldEntries
 
     def frame(self, key: str) -> pd.DataFrame:
         """Read one table of the body."""
@@ -67,7 +69,9 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
         )
         raise DataError(problem)
     refuse(DataError, _changes(record, path))
-    return Inputs(tomllib.loads(path.read_text(encoding="utf-8-sig")), path.parent)
+    case, folder = tomllib.loads(path.read_text(encoding="utf-8-sig")), path.parent
+    welds = read_frame(folder / case["body"]["welds"])
+    return Inputs(case, folder, weld_entries(case, folder, welds))
 
 
 def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:

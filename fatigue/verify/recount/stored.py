@@ -19,7 +19,10 @@ from fatigue.verify.recount.stored_cycles import StoredCycles, find_cycles
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stored:
-    """The tables of a result: where the rows of points, stations and cycles are, and the small table of welds."""
+    """The tables of a result: where the rows of points, stations and cycles are, and the small table of welds.
+
+    ``welds`` are the rows of the welds that were assessed, ``left_out`` the others.
+    """
 
     folder: Path
     body: Layout
@@ -28,6 +31,7 @@ class Stored:
     stress: Rows
     cycles: StoredCycles
     welds: pd.DataFrame
+    left_out: pd.DataFrame
 
     @property
     def keys(self) -> list[ColumnCheck]:
@@ -44,6 +48,8 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes)
     ------
     DataError : a table is missing or damaged
     """
+    welds = read_table(folder, "welds", [column.name for column in TABLES["welds"]]).to_pandas().set_index("weld")
+    is_assessed = welds["status"] == "assessed"
     return Stored(
         folder=folder,
         body=body,
@@ -51,7 +57,8 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes)
         damage=find_rows(folder, "damage", body, {"surface": FACES, "event": events}),
         stress=find_rows(folder, "structural_stress", body, {"mode": modes.mode.tolist()}),
         cycles=find_cycles(folder, body, events),
-        welds=read_table(folder, "welds", [column.name for column in TABLES["welds"]]).to_pandas().set_index("weld"),
+        welds=welds[is_assessed],
+        left_out=welds[~is_assessed],
     )
 
 
