@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.known_formats import misplaced
 from fatigue.naming import composed
 from fatigue.readers.text_encoding import read_text
 from fatigue.readers.text_layout import TableLayout, layout_of, text_lines
@@ -34,6 +35,7 @@ def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...
     DataError
         unreadable, no names, bytes that no encoding explains, a row with more cells than names, a column named twice
     """
+    refuse(DataError, filter(None, [misplaced(path, str(path), text=False)]))
     text, encoding = read_text(path)
     lines = text_lines(text)
     layout = layout_of(path, lines, encoding, lambda name: name in numbers)
@@ -58,7 +60,7 @@ def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...
                 found[name] = plain_number(found[name], layout.decimal or ",")
         rows.append(TextRow(len(rows) + 1, line, found))
     named = len(names) - next((k for k, name in enumerate(reversed(names)) if name), 0)
-    if rows and widest < named:
+    if rows and named - widest >= max(2, widest - 1):  # as where the first row lost its line end
         what = f"{named} names in the line of names, and at most {widest} cells in the rows"
         raise DataError(Problem("ragged_row", f"{path}: line {layout.line}", what, "Write one name for each column"))
     return names, rows
