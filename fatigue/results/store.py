@@ -114,7 +114,7 @@ def _coded_schema(table: str) -> pa.Schema:
 
 
 @contextmanager
-def table_writer(folder: Path | str, table: str) -> Iterator[TableWriter]:
+def table_writer(folder: Path, table: str) -> Iterator[TableWriter]:
     """Open ``<table>.parquet`` in a folder for writing, piece by piece."""
     floats = [c.name for c in TABLES[table] if c.type == "float"]
     texts = [c.name for c in TABLES[table] if c.type == "text"]
@@ -122,7 +122,7 @@ def table_writer(folder: Path | str, table: str) -> Iterator[TableWriter]:
     plain = schema(table)
     said = {**plain.metadata, "ARROW:schema": base64.b64encode(plain.serialize())}
     with pq.ParquetWriter(
-        Path(folder) / f"{table}.parquet",
+        folder / f"{table}.parquet",
         _coded_schema(table),
         use_dictionary=texts,
         column_encoding=dict.fromkeys(floats, "BYTE_STREAM_SPLIT"),
@@ -137,9 +137,9 @@ def table_writer(folder: Path | str, table: str) -> Iterator[TableWriter]:
 
 
 @contextmanager
-def result_tables(folder: Path | str) -> Iterator[dict[str, TableWriter]]:
+def result_tables(folder: Path) -> Iterator[dict[str, TableWriter]]:
     """Open all tables of an assessment in a folder for writing, by name."""
-    Path(folder).mkdir(parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         yield {table: stack.enter_context(table_writer(folder, table)) for table in ASSESSED}
 

@@ -94,7 +94,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
     """
     if not (isinstance(top, Integral) and top >= 1):
         raise CaseError(Problem("argument", "top", f"{top!r} is no number of points", "Give a whole number from 1 on"))
-    only = (only,) if isinstance(only, str) else only
+    folder, only = Path(folder), (only,) if isinstance(only, str) else only
     record = read_provenance(folder)
     welds = read_table(folder, "welds").to_pandas()
     welds = welds[welds["status"] == "assessed"].astype({"fulfilled": bool, "worst_node": int})
