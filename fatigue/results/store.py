@@ -115,7 +115,7 @@ def _coded_schema(table: str) -> pa.Schema:
 
 
 @contextmanager
-def table_writer(folder: Path | str, table: str, result: str = "") -> Iterator[TableWriter]:
+def table_writer(folder: Path, table: str, result: str = "") -> Iterator[TableWriter]:
     """Open ``<table>.parquet`` in a folder for writing, piece by piece; ``result``: hash of the result it is of."""
     floats = [c.name for c in TABLES[table] if c.type == "float"]
     texts = [c.name for c in TABLES[table] if c.type == "text"]
@@ -125,7 +125,7 @@ def table_writer(folder: Path | str, table: str, result: str = "") -> Iterator[T
         {"result": result} if result else {}
     )
     with pq.ParquetWriter(
-        Path(folder) / f"{table}.parquet",
+        folder / f"{table}.parquet",
         _coded_schema(table),
         use_dictionary=texts,
         column_encoding=dict.fromkeys(floats, "BYTE_STREAM_SPLIT"),
@@ -140,9 +140,9 @@ def table_writer(folder: Path | str, table: str, result: str = "") -> Iterator[T
 
 
 @contextmanager
-def result_tables(folder: Path | str, result: str = "") -> Iterator[dict[str, TableWriter]]:
+def result_tables(folder: Path, result: str = "") -> Iterator[dict[str, TableWriter]]:
     """Open all tables of an assessment in a folder for writing, by name; ``result``: hash of the result."""
-    Path(folder).mkdir(parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         yield {table: stack.enter_context(table_writer(folder, table, result)) for table in ASSESSED}
 
