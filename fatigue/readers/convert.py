@@ -113,7 +113,7 @@ def convert(options: ConvertOptions) -> Conversion:
     coordinate_units = unit_system(options.coordinate_units, "coordinate units")
     results, model = read_forces(options.forces, options.subcase), read_model(options.mesh)
     results = without_modes(results, options.ignore_modes)
-    table, doubts = simulation_modes(options.simulation_modes)
+    table, of_table = simulation_modes(options.simulation_modes)
     histories = []
     simulated: dict[int, tuple[float, float]] = {}  # by FE mode
     for path in options.coordinates:
@@ -173,26 +173,20 @@ def convert(options: ConvertOptions) -> Conversion:
     )
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
-    of_histories = [remark for history in histories for remark in history.remarks]
+    told = (*of_table, *remarks, *(r for h in histories for r in h.remarks))
+    doubts = (*results.remarks, *model.remarks, *found.remarks, *told)
     record = {
         "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *options.coordinates)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in judged.rows],
-        "remarks": [str(p) for p in (*results.remarks, *found.remarks, *doubts, *remarks, *of_histories)],
+        "remarks": [str(p) for p in doubts],
     }
     write_folder(options.out, files, record, CASE)
     return Conversion(
         folder=options.out,
         audit=judged,
         welds=found.rows,
-        remarks=(
-            *results.remarks,
-            *model.remarks,
-            *found.remarks,
-            *doubts,
-            *remarks,
-            *of_histories,
-        ),
+        remarks=doubts,
         modes=results.mode.size,
         force_rows=rows.size * results.mode.size,
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
