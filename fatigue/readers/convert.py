@@ -18,7 +18,7 @@ from fatigue.readers.forces import Convention
 from fatigue.readers.foreign_history import ForeignHistory, Match, matched, uniform
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import common_modes, simulated_frequencies, simulation_modes, without_modes
-from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
+from fatigue.readers.neutral_folder import RECORD, check_folder, recorded_files, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation, unit_system
@@ -151,8 +151,9 @@ def convert(options: ConvertOptions) -> Conversion:
         options.speed_km_h,
         options.target_km,
     )
-    kept = options.keep_case and (options.out / CASE).is_file()
-    if kept:
+    kept = {}
+    if options.keep_case and (options.out / CASE).is_file():
+        kept = {name: known for name, known in recorded_files(options.out).items() if name == CASE}
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
@@ -164,7 +165,7 @@ def convert(options: ConvertOptions) -> Conversion:
         LINES: lines_of_welds(found.rows),
         COMMAND: arguments_of(options),
     }
-    write_folder(options.out, files, record, CASE)
+    write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,
         audit=judged,

@@ -169,7 +169,7 @@ def test_a_register_saved_by_a_spreadsheet(body, encoding):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "the column weld is missing; the columns are none"),
+        ("", "the register is empty. Let `fatigue welds` write it"),
         ("weld,line,status\n", "the register has no rows"),
         ("weld;line;status\nx;y\n", "row 1: column status is missing or empty"),
         ("weld,line,status\nx,y,perhaps\n", "row 1: status is 'perhaps', not one of assess, candidate, excluded"),
@@ -218,7 +218,7 @@ def test_a_line_without_forces_names_the_command_that_gets_them(body, sources, t
     assert done.exception is None, done.output
     assert check_case(case_of(body.out), strict=True).welds == 3
     assert case_of(body.out).mission.target_km == 5e6
-    with pytest.raises(DataError, match="not the work of an earlier conversion"):
+    with pytest.raises(DataError, match="was changed since it was converted"):
         convert(body)
 
 
