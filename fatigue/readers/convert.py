@@ -18,7 +18,7 @@ from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_run import audited, read_run
 from fatigue.readers.modal_basis import SimulationModes, common_modes, mode_masses, mode_scale
-from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
+from fatigue.readers.neutral_folder import RECORD, check_folder, recorded_files, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.shell_rows import elastic_modes, without_drilling
 from fatigue.readers.units import unit_system
@@ -101,8 +101,9 @@ def convert(options: ConvertOptions) -> Conversion:
         options.speed_km_h,
         options.target_km,
     )
-    kept = options.keep_case and (options.out / CASE).is_file()
-    if kept:
+    kept = {}
+    if options.keep_case and (options.out / CASE).is_file():
+        kept = {name: known for name, known in recorded_files(options.out).items() if name == CASE}
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
@@ -115,7 +116,7 @@ def convert(options: ConvertOptions) -> Conversion:
         LINES: lines_of_welds(found.rows),
         COMMAND: arguments_of(options),
     }
-    write_folder(options.out, files, record, CASE)
+    write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,
         audit=judged,

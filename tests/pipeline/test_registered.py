@@ -219,7 +219,7 @@ def test_a_line_without_forces_names_the_command_that_gets_them(body, sources, t
     assert done.exception is None, done.output
     assert check_case(case_of(body.out), strict=True).welds == 3
     assert case_of(body.out).mission.target_km == 5e6
-    with pytest.raises(DataError, match="not the work of an earlier conversion"):
+    with pytest.raises(DataError, match="was changed since it was converted"):
         convert(body)
 
 
