@@ -74,7 +74,7 @@ def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
         name: getattr(mesh, name) for name in ("node", "xyz", "element", "corner", "mid", "pid", "offset")
     }
     columns |= {"?thickness": mesh.thickness, "frame_node": found.frame_node, "frame": found.frame}
-    columns |= {f"set {k}": v for k, v in found.node_sets.items()} | {
+    columns |= {f"set {k}": np.array([str(v)]) for k, v in found.node_sets.items()} | {
         f"of {k}": v for k, v in found.marker_edges.items()
     }
     doubts = [f"{k} {v}" for k, v in (found.section_doubt | found.element_doubt).items()]
