@@ -22,6 +22,7 @@ _LISTED = re.compile(
     r"([\"'$.]*[^\W\d].*?)\s*\Z",
     re.IGNORECASE,
 )
+_LIKE_A_NUMBER = re.compile("[-+.,\u2212]?\\d")
 _FREE_LABEL = re.compile(
     r"\W*(samples|channels|points|[xy]0|delta_?[xt]|[xy]_dimension|x_columns|date|time_pref|separator|operator)\W*\Z",
     re.IGNORECASE,
@@ -213,7 +214,12 @@ def _refuse_broken_rows(path: Path, lines: Sequence[str], rows: Rows, names: int
         line = lines[at]
         cells = split_fields(line, rows.separator)
         numbers = [is_number(cell, ".") or is_number(cell, _sign(rows)) for cell in cells]
-        if len(cells) > 1 and numbers[0] and 2 * sum(numbers) >= len(cells) and not line.lstrip().startswith(COMMENTS):
+        if (
+            len(cells) > 1
+            and _LIKE_A_NUMBER.match(cells[0])
+            and 2 * sum(numbers) >= len(cells)
+            and not line.lstrip().startswith(COMMENTS)
+        ):
             wrong = next((cell for cell, number in zip(cells, numbers, strict=True) if not number), "")
             what = (
                 f"{wrong!r} stands in a row of values" if len(cells) == rows.width else f"a row of {len(cells)} cells"

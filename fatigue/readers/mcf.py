@@ -48,6 +48,11 @@ def read_mcf(path: Path) -> ForeignHistory:
     values = _numbers(path, text[table.end() :], "table", text.count("\n", 0, table.end()) + 1)
     if modes == 0 or values.size == 0 or values.size % (modes + 1):
         raise _bad(path, f"{values.size} numbers are no whole number of rows of time and {modes} coordinates")
+    if (
+        numbers is not None
+        and (bad := numbers[~((numbers >= 0) & (numbers < 2**53) & (numbers == np.rint(numbers)))]).size
+    ):
+        raise _bad(path, f"{bad[0]:g} is no number of a mode")
     normalisation = normalisation_in(path, list(enumerate(head.split("\n"), 1)))
     rows = values.reshape(-1, modes + 1)
     mode = np.arange(1, modes + 1) if numbers is None else numbers.astype(np.int64)

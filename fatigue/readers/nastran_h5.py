@@ -20,6 +20,7 @@ from fatigue.readers.nastran_frames import FrameCard, Frames
 
 _COMPONENTS = ("F1", "F2", "F3", "M1", "M2", "M3")
 _SHAPE = ("X", "Y", "Z", "RX", "RY", "RZ")
+_ELEMENTS = "NASTRAN/INPUT/ELEMENT"
 _SHELLS = {"CQUAD4": 4, "CQUADR": 4, "CQUAD8": 4, "CTRIA3": 3, "CTRIAR": 3, "CTRIA6": 3}
 _BLANK = 1.7368e-18  # what the file holds for a real field left blank
 _MOST_COMPRESSED = 1100  # deflate cannot do better; a larger claim is damage
@@ -94,10 +95,8 @@ def read_h5_model(path: Path) -> FeModel:
         grid = read("NASTRAN/INPUT/NODE/GRID")
         cards = _frame_cards(read)
         sections, doubts = _sections(read)
-        shells = [
-            shell for name in _SHELLS for shell in _shells(name, read(f"NASTRAN/INPUT/ELEMENT/{name}", required=False))
-        ]
-        plotel = read("NASTRAN/INPUT/ELEMENT/PLOTEL", required=False)
+        shells = [shell for name in _SHELLS for shell in _shells(name, read(f"{_ELEMENTS}/{name}", required=False))]
+        plotel = read(f"{_ELEMENTS}/PLOTEL", required=False)
         row_of = {int(n): k for k, n in enumerate(grid["ID"])}
         if len(row_of) < len(grid) or ("SEID" in grid.dtype.names and grid["SEID"].any()):
             raise DataError(
@@ -126,6 +125,7 @@ def read_h5_model(path: Path) -> FeModel:
         frame=np.array(axes).reshape(-1, 3, 3),
         section_doubt=doubts,
         element_doubt={shell.element: shell.doubt for shell in shells if shell.doubt},
+        remarks=_other_elements(path),
         marker_edges={"PLOTEL": plotel["G"].astype(np.int64)} if len(plotel) else {},
     )
 
@@ -139,6 +139,23 @@ def _h5py() -> ModuleType:
             Problem("no_h5py", "MSC HDF5 input", "the package h5py is not installed", f"Run: {install_command('h5py')}")
         ) from error
     return h5py  # type: ignore[no-any-return]
+
+
+def _other_elements(path: Path) -> tuple[Problem, ...]:
+    """Tell elements that are not read, by name and number: they need not be there, and a damaged name is among them."""
+    h5py = _h5py()
+    try:
+        with h5py.File(path, "r") as file:
+            tables = {name: table for name, table in file[_ELEMENTS].items() if isinstance(table, h5py.Dataset)}
+            counts = {name: len(table) for name, table in tables.items() if name not in (*_SHELLS, "PLOTEL")}
+    except Exception as error:
+        raise _damaged(path, str(error) or type(error).__name__) from error
+    if not counts:
+        return ()
+    listed = ", ".join(f"{count} {name!r}" for name, count in sorted(counts.items()))
+    what = f"elements that weld lines do not need are left out: {listed}"
+    remedy = "Nothing, unless shells are among them"
+    return (Problem("elements_left_out", str(path), what, remedy, sum(counts.values())),)
 
 
 @contextmanager

@@ -72,7 +72,19 @@ def _cells(path: Path, layout: TableLayout, lines: Sequence[str]) -> list[tuple[
         return [(k + 1, composed(lines[k]).split()) for k in range(layout.first, len(lines))]
     reader = csv.reader(StringIO("\n".join(lines[layout.first :])), delimiter=layout.separator)
     try:
-        return [(layout.first + reader.line_num, [composed(cell) for cell in cells]) for cells in reader]
+        found = [(layout.first + reader.line_num, [composed(cell) for cell in cells]) for cells in reader]
+        _refuse_open_quotation(lines[layout.first :], layout.separator)
+        return found
     except csv.Error as error:
         where = f"{path}: line {layout.first + reader.line_num}"
         raise DataError(Problem("unreadable", where, f"it cannot be read ({error})", "Save it as CSV")) from error
+
+
+def _refuse_open_quotation(lines: Sequence[str], separator: str) -> None:
+    """Refuse a cell whose quotation never ends: it has swallowed the rows below; other freedoms of quoting are fine."""
+    try:
+        for _ in csv.reader(StringIO("\n".join(lines)), delimiter=separator, strict=True):
+            pass
+    except csv.Error as error:
+        if "unexpected end of data" in str(error):
+            raise

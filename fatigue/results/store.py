@@ -204,7 +204,7 @@ def readable(path: Path) -> Iterator[None]:
         problem = Problem(
             "no_result", str(path), "no such result table", "Run `fatigue assess CASE -o DIR` first and give its DIR"
         )
-    except (pa.ArrowInvalid, OSError) as error:
+    except (pa.ArrowInvalid, OSError, UnicodeDecodeError) as error:
         detail = str(error).splitlines()[0] if str(error) else type(error).__name__
         problem = Problem(
             "damaged_result", str(path), f"the table cannot be read ({detail})", "Run the assessment again"

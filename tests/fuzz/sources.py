@@ -22,7 +22,7 @@ from fatigue.readers.history import read_history
 from fatigue.readers.modal_basis import common_modes
 from fatigue.readers.neutral_folder import read_record
 from fatigue.readers.tables import open_table
-from fatigue.readers.weld_register import read_register
+from fatigue.readers.weld_register import open_register
 from fatigue.results import read_provenance, read_table
 from fatigue.results.store import schema, write_json
 from tests.fuzz import damage
@@ -54,7 +54,11 @@ def _results(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     found = read_forces(path, None)
     names = ("mode", "node", "element", "kind", "force", "shape_node", "shape")
     optional = {"?frequency": found.frequency, "?modal_mass": found.modal_mass}
-    without = () if found.shape_node.size else (Problem("no_shapes", "", "the audit cannot prove the sign", ""),)
+    told = {  # by the audit: an unproven sign, a red light
+        "no_shapes": not found.shape_node.size,
+        "no_frequency": not np.isfinite(found.frequency).all(),
+    }
+    without = tuple(Problem(code, "", "the audit says so", "") for code, bad in told.items() if bad)
     columns = {name: getattr(found, name) for name in names}
     rows = found.of_element  # loads and totals may differ between modes, and count nowhere
     columns |= {name: columns[name][rows] for name in ("node", "element", "kind")} | {"force": found.force[:, rows]}
@@ -70,7 +74,7 @@ def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
         name: getattr(mesh, name) for name in ("node", "xyz", "element", "corner", "mid", "pid", "offset")
     }
     columns |= {"?thickness": mesh.thickness, "frame_node": found.frame_node, "frame": found.frame}
-    columns |= {f"set {k}": v for k, v in found.node_sets.items()} | {
+    columns |= {f"set {k}": np.array([str(v)]) for k, v in found.node_sets.items()} | {
         f"of {k}": v for k, v in found.marker_edges.items()
     }
     doubts = [f"{k} {v}" for k, v in (found.section_doubt | found.element_doubt).items()]
@@ -153,9 +157,10 @@ def _nodes(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
 
 
 def _register(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
-    rows = read_register(path).values()
+    register = open_register(path, strict=False)
+    rows = register.rows
     names = ("weld", "line", "status", "reason", "thickness", "confirmed", "surface", "curve", "end_length", "nodes")
-    return {name: np.array([str(getattr(row, name)) for row in rows]) for name in names}, ()
+    return {name: np.array([str(getattr(row, name)) for row in rows]) for name in names}, register.warnings
 
 
 def _mapping(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
