@@ -187,8 +187,11 @@ def test_runs_without_forces_say_so(tee, tmp_path):
     curved = plain(joints.parabolic(tee), 101, density=0.0).text()
     buckled = plain(tee, 101, extra=("EIGRL,1,,,3",)).text().replace("SOL 101", "SOL 105")
     buckled = buckled.replace("SUBCASE 2\nLOAD = 102", "SUBCASE 2\nMETHOD = 1")
-    for text, found in ((printed, "tables found: none"), (curved, "tables found: OUGV1"), (buckled, "OUGV1")):
+    for text, found in (
+        (printed, r"no grid point forces .*tables found: none"),
+        (curved, r"no grid point forces .*tables found: OUGV1"),
+        (buckled, r"Buckling shapes .* are no modes of vibration"),
+    ):
         _, op2 = solve_text(text, tmp_path, "run", stops=text is curved)
-        with pytest.raises(DataError, match="no grid point forces") as caught:
+        with pytest.raises(DataError, match=found):
             read_forces(op2, None)
-        assert found in str(caught.value)

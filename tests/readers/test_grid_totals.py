@@ -82,6 +82,14 @@ def test_totals_with_inertia_must_vanish_but_for_round_off():
         assert is_balanced or (found.rest_grid, found.rest_mode) == (hidden.node[at], mode + 1)
 
 
+def test_moments_that_are_round_off_need_not_vanish():
+    """A plate that is only pulled has no moments but round-off, and totals as large as these."""
+    hidden = replace(as_on_element(tee().results, hides_inertia=True), analysis="static")
+    force = hidden.force.copy()
+    force[:, :, 3:] = 1e-9 * np.random.default_rng(0).normal(size=force[:, :, 3:].shape)
+    assert check_totals(replace(hidden, force=force), "on_element").is_in_balance
+
+
 def test_rows_of_other_modes_count_nothing():
     """A load that only one mode has, and a total that another lacks."""
     results = tee().results
