@@ -74,7 +74,7 @@ def refuse_unknown_curve(name: str) -> None:
         raise CaseError(Problem("unknown_curve", "--curve", f"there is no curve {name!r}", remedy))
 
 
-def refuse_foreign_conversion(folder: Path, *, force: bool) -> None:
+def refuse_foreign_conversion(folder: Path, *, force: bool, keep_case: bool) -> None:
     """Refuse a folder to convert into that is a file or holds files of somebody else, as the conversion does later."""
     if force or not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         return
@@ -82,7 +82,8 @@ def refuse_foreign_conversion(folder: Path, *, force: bool) -> None:
 
     tables = ("modes.csv", "nodes.parquet", "elements.parquet", "element_forces.parquet")
     welds = ("welds.csv", "weld_nodes.csv", "weld_elements.csv")
-    check_folder(folder, [*tables, *welds, "welds_register.csv", "case.toml", RECORD], "welds_register.csv")
+    case = () if keep_case else ("case.toml",)
+    check_folder(folder, [*tables, *welds, "welds_register.csv", *case, RECORD], "welds_register.csv")
 
 
 def refuse_existing(path: Path | None, *, force: bool, what: str, remedy: str) -> None:

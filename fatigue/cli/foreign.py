@@ -172,7 +172,7 @@ def convert(
     for option, modes in (("--interface-modes", interface_modes), ("--ignore-modes", ignore_modes)):
         refuse_bad_modes(option, modes)
     refuse_unknown_curve(curve)
-    refuse_foreign_conversion(output, force=force)
+    refuse_foreign_conversion(output, force=force, keep_case=keep_case)
     from fatigue.readers.convert import convert as read_and_write
     from fatigue.readers.convert_options import ConvertOptions
     from fatigue.readers.displacement.record import Displacement
