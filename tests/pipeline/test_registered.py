@@ -394,7 +394,7 @@ def test_columns_of_the_user_survive_a_conversion(body):
 def test_a_workbook_is_no_register(body):
     """Named as what it is."""
     (body.out / REGISTER).write_bytes(b"PK\x03\x04" + bytes(200))
-    assert "cannot be read (it is a workbook or another binary file, no text). Save it as CSV" in refusal(body.out)
+    assert "this is a ZIP archive, or an Excel workbook" in refusal(body.out)
 
 
 def test_a_folder_converted_before_lines_were_recorded(body):
