@@ -23,7 +23,8 @@ TIME_UNITS = {word: seconds for seconds, words in _SECONDS.items() for word in w
 """Seconds in each unit of time, by its spelling in small letters."""
 
 _TIME = re.compile(
-    r"\s*(?:[\w$. ]*[.:]\s*)?(?:time[ _]?stamp|(?:sim(?:ulation)?[ _]?)?time|zeit|temps|tiempo|tempo|tout|x[_ ]value|t)"
+    r"\s*(?:[\w$.]+_(?:time|zeit)|(?:[\w$. ]*[.:]\s*)?"
+    r"(?:time[ _]?stamp|(?:sim(?:ulation)?[ _]?)?time|zeit|temps|tiempo|tempo|tout|x[_ ]value|t))"
     r"(?P<rest>(?![a-z]).*)\Z",
     re.IGNORECASE | re.DOTALL,
 )

@@ -202,14 +202,16 @@ def common_modes(
 
 
 def _in_order(history: ForeignHistory, results: FeResults) -> str:
-    """Propose to join one after the other where the simulation seems to count its modes from 1; else nothing."""
-    count, fe = history.mode.size, results.mode
+    """Propose to join one after the other where the simulation seems to count its modes from another number."""
+    own, fe = np.sort(history.mode), results.mode
+    count = own.size
     rigid = fe[results.frequency <= LOWEST_HZ]
-    if np.array_equal(np.sort(history.mode), fe) or not np.array_equal(np.sort(history.mode), np.arange(1, count + 1)):
+    if np.array_equal(own, fe) or not np.array_equal(own, own[:1] + np.arange(count)):
         return ""
     if count == fe.size:
-        return f"If modes 1-{count} of the simulation are modes {fe[0]}-{fe[-1]} of the FE run, state --match order"
-    if count == fe.size - rigid.size:
+        pairs = f"modes {own[0]}-{own[-1]} of the simulation are modes {fe[0]}-{fe[-1]} of the FE run"
+        return f"If {pairs}, state --match order"
+    if count == fe.size - rigid.size and own[0] == 1:
         some = f"{rigid[0]}-{rigid[-1]}" if rigid[-1] - rigid[0] + 1 == rigid.size else ",".join(map(str, rigid))
         return (
             f"If modes 1-{count} of the simulation are the elastic modes of the FE run, state --match order "

@@ -385,6 +385,14 @@ def test_simulation_that_counts_from_1(files):
     assert np.allclose(history.q[1], np.sin(2 * np.arange(200) / 100), atol=1e-6)
 
 
+def test_simulation_that_counts_rigid_modes(files):
+    """Modes 7 to 11 of the simulation against 1 to 5 of the FE run, the other way round."""
+    renamed(files, "time,q_7,q_8,q_9,q_10,q_11")
+    with pytest.raises(DataError, match=r"If modes 7-11 of the simulation are modes 1-5 of the FE run, state --match"):
+        convert(files)
+    convert(replace(files, match="order"))
+
+
 def test_simulation_without_rigid_modes(files):
     """Elastic modes counted from 1 against an FE run with rigid ones: what to ignore is said."""
     rigid = replace(tee().results, frequency=tee().frequency * [0, 0, 1, 1, 1])

@@ -279,7 +279,9 @@ def test_contradictions_and_what_is_no_table(read, content, message):
         *(("min", 60), ("h", 3600), ("Stunden", 3600), ("Sekunden", 1), ("d", 86400), ("-", 1), ("", 1)),
     ],
 )
-@pytest.mark.parametrize("form", ["Time [{}]", "time ({})", "TIME <{}>", "Zeit/{}", "t [{}]", "x.time [{}]"])
+@pytest.mark.parametrize(
+    "form", ["Time [{}]", "time ({})", "TIME <{}>", "Zeit/{}", "t [{}]", "x.time [{}]", "$S_time [{}]"]
+)
 def test_units_of_time(read, unit, seconds, form):
     """Times are converted by their header, exactly rounded."""
     if unit in ("", "-") and "/" in form:
@@ -292,8 +294,15 @@ def test_units_of_time(read, unit, seconds, form):
     ]
 
 
+@pytest.mark.parametrize(("name", "unit"), [("$S_time : s", "s"), ("run_Time", ""), ("Mess_Zeit/ms", "ms")])
+def test_names_that_end_in_time(name, unit):
+    """Programs put their own word before it."""
+    assert (channel(name).is_time, channel(name).unit) == (True, unit)
+
+
 @pytest.mark.parametrize(
-    "name", ["time step", "t_1", "tension_3", "timeout 4", "time constant 5", "temperature", "torque"]
+    "name",
+    ["time step", "t_1", "tension_3", "timeout 4", "time constant 5", "temperature", "torque", "q_t", "x_timer 1"],
 )
 def test_names_that_are_not_time(name):
     """A name that only begins like time is none."""
