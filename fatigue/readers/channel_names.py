@@ -30,13 +30,15 @@ _TIME = re.compile(
 _BRACKETS = re.compile(r"\s*[_ ]*[\[(<{]\s*([^\[\](){}<>]*?)\s*[\])>}]\s*\Z")
 _LOOSE = re.compile(r"\s*(?:/|,|;|:|\.|_+|\s+in\s+|\s|-)\s*([^\W\d_]+)_*\s*\Z")
 _REPEATED = re.compile(r"[ _.]?\d+\Z")
+_NUMBERED = re.compile(r"\s+\d+\s+-\s.*?(?=\[|\Z)")  # "Time  1 - default sample rate [s]"
+_SECONDS_NAMED = re.compile(r"(seconds|secs|sekunden|milliseconds|millisekunden)\Z", re.IGNORECASE)
 _FREQUENCY = re.compile(
     r"(?:\bf(?:req(?:uency)?)?\s*=?\s*)?(\d+(?:[.,]\d*)?|[.,]\d+)(E[+-]?\d+)?\s*(k|m)?Hz\b", re.IGNORECASE
 )
 _SQUARE = re.compile(r"\s*\[([^\]]*[^\W\d_][^\]]*|-|)\]\s*\Z")
 _ROUND = re.compile(r"\s*[(<{]\s*([^()]*(?:\([^()]*\)[^()]*)*)\s*[)>}]\s*\Z")
 _OTHER = re.compile(r"rad|deg|°|k?N|N\.?m+|[mc]?m/s(?:\^?2|\*\*2|²)?|[kM]?Pa|m?V|%|s|ms|Hz")  # no coordinate has them
-_TRAILING = re.compile(r"(?<=\d|\))\s*(?:/|,|\s+in\s+|_|\s)\s*(mm|cm|m|km|inch|in|ft|µm|um)\s*\Z")
+_TRAILING = re.compile(r"(?<=\d|\))\s*(?:/|,|:|\.|\s+in\s+|_|\s)\s*(mm|cm|m|km|inch|in|ft|µm|um)\s*\Z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +87,13 @@ def _time_base(name: str) -> str:
 
 def time_unit_in(name: str) -> str | None:
     """Find the unit in a name of time, empty where it states none; None if it is no name of time."""
-    found = _TIME.match(name.strip().strip("\"'"))
+    bare = name.strip().strip("\"'")
+    if _SECONDS_NAMED.match(bare):
+        return bare
+    found = _TIME.match(bare)
     if found is None:
         return None
-    rest = found["rest"]
+    rest = _NUMBERED.sub("", found["rest"])
     if not rest.strip(" _") or _REPEATED.fullmatch(rest):
         return "" if not _REPEATED.fullmatch(rest) or len(name.strip()) > 3 else None  # t_1 may be anything
     if bracketed := _BRACKETS.fullmatch(rest):

@@ -20,9 +20,11 @@ from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import (
     column_map,
     common_modes,
+    numbered,
     simulated_frequencies,
     simulation_modes,
     with_declared_units,
+    with_known_frequencies,
     without_modes,
 )
 from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
@@ -114,9 +116,17 @@ def convert(options: ConvertOptions) -> Conversion:
     history_units = unit_system(options.coordinate_units, "coordinate units")
     results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
     results = without_modes(results, options.ignore_modes)
-    table = simulation_modes(options.simulation_modes)
-    histories = [_history(path, options, results, table) for path in options.coordinates]
-    judged = audit(results, model, options.convention, options.interface_modes, simulated_frequencies(histories, table))
+    table, of_table = simulation_modes(options.simulation_modes)
+    histories = []
+    simulated: dict[int, tuple[float, float]] = {}  # by FE mode
+    for path in options.coordinates:
+        history, own = _history(path, options, results, table)
+        histories.append(history)
+        simulated |= {fe: table[mode] for fe, mode in own.items() if mode in table}
+    simulated = simulated if histories else table
+    judged = audit(
+        results, model, options.convention, options.interface_modes, simulated_frequencies(histories, simulated)
+    )
     _refuse_red(judged, options)
     if _FREQUENCIES not in options.accept:
         for history in histories:
@@ -138,7 +148,7 @@ def convert(options: ConvertOptions) -> Conversion:
     rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
     force = to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
-        "modes.csv": _modes_table(results, options, table),
+        "modes.csv": _modes_table(results, options, simulated),
         "nodes.parquet": nodes_table(metric),
         "elements.parquet": elements_table(metric),
         "element_forces.parquet": forces_table(results, force, rows),
@@ -166,7 +176,8 @@ def convert(options: ConvertOptions) -> Conversion:
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
-    doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *(r for h in histories for r in h.remarks))
+    told = (*of_table, *remarks, *(r for h in histories for r in h.remarks))
+    doubts = (*results.remarks, *model.remarks, *found.remarks, *told)
     record = {
         "inputs": {str(p): sha256(p) for p in (options.forces, options.mesh, *model.included, *options.coordinates)},
         "convention": convention,
@@ -211,18 +222,21 @@ def _refuse_red(judged: Audit, options: ConvertOptions) -> None:
 
 def _history(
     path: Path, options: ConvertOptions, results: FeResults, table: dict[int, tuple[float, float]]
-) -> ForeignHistory:
-    """Read one event and match its columns with the modes of the forces."""
-    columns = None if options.columns is None else column_map(options.columns)
-    history = read_coordinates(path, columns, options.time_column)
-    stated, known = history, np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
-    history = replace(history, frequency=np.where(np.isnan(history.frequency), known, history.frequency))
+) -> tuple[ForeignHistory, dict[int, int]]:
+    """Read one event and match its columns with the modes of the forces; the simulation's number of every FE mode."""
+    columns, doubts = (None, []) if options.columns is None else column_map(options.columns)
+    stated = read_coordinates(path, columns, options.time_column)
+    if options.match == "order":
+        stated = numbered(stated, table, options.simulation_modes or path)
+    history = with_known_frequencies(stated, table, options.simulation_modes or path)
     if options.match == "frequency" or _FREQUENCIES in options.accept:
         history = matched(history, results.mode, results.frequency, options.match)
     else:  # what the file itself states is compared here, the table of the simulation's modes after the audit
         joined = matched(stated, results.mode, results.frequency, options.match)
         with_own_frequencies(joined, results.mode, results.frequency)
         history = replace(history, mode=joined.mode)
+    own = dict(zip(history.mode.tolist(), stated.mode.tolist(), strict=True))
+    history = replace(history, remarks=(*doubts, *history.remarks))
     history = with_declared_units(history, options.coordinate_units, options.normalisation, results.analysis)
     keep = ~np.isin(history.mode, np.array(options.ignore_modes, np.int64))
     history = replace(
@@ -234,7 +248,7 @@ def _history(
         resolution=None if history.resolution is None else history.resolution[keep],
         q=history.q[keep],
     )
-    return uniform(history, options.resample_s)
+    return uniform(history, options.resample_s), own
 
 
 def _modes_table(results: FeResults, options: ConvertOptions, table: dict[int, tuple[float, float]]) -> pa.Table:

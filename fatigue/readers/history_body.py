@@ -147,11 +147,13 @@ def _width(line: str, separator: str | None, decimal: Decimal) -> int:
     """Count the cells of a row of numbers, some of which may be empty; 0 for any other line."""
     if not _NUMERIC_START.match(line) or (separator is not None and separator not in line):
         return 0
-    cells = split_fields(line, separator)
-    numbers = [is_number(cell, decimal) for cell in cells]
-    if sum(numbers) < 2 or not all(n or is_gap(cell) for n, cell in zip(numbers, cells, strict=True)):
-        return 0
-    return len(cells)
+    cells, numbers = split_fields(line, separator), 0
+    for cell in cells:
+        if is_number(cell, decimal):
+            numbers += 1
+        elif not is_gap(cell):
+            return 0
+    return len(cells) if numbers > 1 else 0
 
 
 def read_values(

@@ -30,6 +30,7 @@ _FREE_LABEL = re.compile(
 _TYPES = ("double", "float", "single", "real", "real*8", "float64", "float32", "numeric", "number")
 _OTHER_UNITS = ("rad", "deg", "n", "kn", "nm", "hz", "v", "mv", "pa", "mpa", "%", "m/s", "m/s^2", "mm/s", "volts")
 _UNIT_LABEL = re.compile(r"\W*(units?|einheit(en)?|y_unit_label|unit_label|x_unit_label|dimension)\W*\Z", re.IGNORECASE)
+_COUNT_LABEL = re.compile(r"\W*(channel|chan|ch|column|col|signal|kanal|spalte)s?\W*\Z", re.IGNORECASE)
 _MODE_LABEL = re.compile(r"\W*(modes?|moden?|no|nr|number|id|ids|mode[ _]?(no|nr|number|id)s?)\W*\Z", re.IGNORECASE)
 _HZ_LABEL = re.compile(r"(freq|eigenfreq|f\b|.*\bhz\b)", re.IGNORECASE)
 
@@ -134,6 +135,10 @@ def _cells_of(line: str, rows: Rows) -> tuple[str, ...] | None:
             return tuple(cells[:-1])  # LabVIEW's last column, which is empty in the rows
         if separator == rows.separator and _cell_count(text, separator) == rows.width > len(cells) > 0:
             return tuple(cells + [""] * (rows.width - len(cells)))  # the last columns have no name
+    if rows.separator is None:  # units that stand apart from their names
+        cells = split_fields(re.sub(r"\s+([\[(][^\])]*[\])])", r"\1", text), None)
+        if len(cells) == rows.width:
+            return tuple(cells)
     apart = [cell.strip("'\" ") for cell in re.split(r"\s{2,}|\t", text.strip())]
     return tuple(apart) if len(apart) == rows.width and rows.width > 1 else None
 
@@ -148,6 +153,8 @@ def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
     filled = [cell for cell in cells if cell]
     numbers = [is_number(cell, ".") or is_number(cell, decimal) for cell in rest]
     if rest and all(numbers) and not _FREE_LABEL.match(label):
+        if _COUNT_LABEL.match(label) and [float(cell) for cell in rest if cell.isdecimal()] in _counts(len(rest)):
+            return "types"  # it only counts the columns
         return "numbers" if is_number(label, ".") or is_number(label, decimal) else _kind_of_label(label)
     of_units = all(_is_unit(cell) for cell in filled) and (
         len(filled) > 1 or re.search(r"[\[(]", filled[0]) or (filled[0].lower() in TIME_UNITS and len(cells) > 1)
@@ -158,6 +165,11 @@ def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
         "units": of_units or (_UNIT_LABEL.match(label) and rest and all(_is_unit(cell) for cell in rest)),
     }
     return next((kind for kind, found in tests.items() if found), "names")
+
+
+def _counts(columns: int) -> list[list[float]]:
+    """Give the numbers of so many columns after the first, counted from 0, 1 or 2."""
+    return [[float(k + first) for k in range(columns)] for first in (0, 1, 2)]
 
 
 def _kind_of_label(label: str) -> str:

@@ -12,6 +12,7 @@ from fatigue.readers.coordinate_units import SYSTEM_UNITS, compared
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
 from fatigue.readers.foreign_history import ForeignHistory
+from fatigue.readers.mode_frequencies import StatedFrequencies
 from fatigue.readers.tables import open_table
 from fatigue.readers.units import Normalisation
 
@@ -51,15 +52,36 @@ def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
     )
 
 
-def column_map(path: Path) -> dict[str, int]:
-    """Mode of each column by its name, from a table of the columns ``column, mode``."""
+def column_map(path: Path) -> tuple[dict[str, int], list[Problem]]:
+    """Read the mode of each column by its name, from a table of the columns ``column, mode``; and doubts."""
     table = open_table(path, texts=("column",))
     table.expect(("column", "mode"), (), strict=False)
     names, code = table.groups("column")
     mode = table.integers("mode")
     table.unique({"column": code}, {"column": names})
     table.refuse()
-    return {names[c]: int(m) for c, m in zip(code, mode, strict=True)}
+    return {names[c]: int(m) for c, m in zip(code, mode, strict=True)}, table.warnings
+
+
+def with_known_frequencies(
+    history: ForeignHistory, table: dict[int, tuple[float, float]], source: Path
+) -> ForeignHistory:
+    """Add the frequencies that the table of the simulation's modes has; by the simulation's own numbers.
+
+    Raises
+    ------
+    DataError : a frequency that the file states otherwise, by more than the digits of both explain
+    """
+    known = np.array([table.get(int(m), (np.nan, np.nan))[0] for m in history.mode])
+    problems = []
+    own = StatedFrequencies(history.name, history.mode, history.frequency, history.resolution)
+    listed = StatedFrequencies(history.name, history.mode, known, None)
+    for k in np.flatnonzero(np.isfinite(known) & np.isfinite(own.frequency)).tolist():
+        if abs(known[k] - own.frequency[k]) > own.half_digit(k) + listed.half_digit(k):
+            what = f"mode {own.mode[k]} has {known[k]:.6g} Hz, and {own.frequency[k]:.6g} Hz in {history.source}"
+            problems.append(Problem("frequency", str(source), what, "Give the modes of this simulation"))
+    refuse(DataError, problems)
+    return replace(history, frequency=np.where(np.isnan(history.frequency), known, history.frequency))
 
 
 def with_declared_units(
@@ -98,16 +120,35 @@ def with_declared_units(
     return replace(history, remarks=(*history.remarks, *doubts))
 
 
-def simulation_modes(path: Path | None) -> dict[int, tuple[float, float]]:
-    """Frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes."""
+def simulation_modes(path: Path | None) -> tuple[dict[int, tuple[float, float]], list[Problem]]:
+    """Read frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and doubts."""
     if path is None:
-        return {}
+        return {}, []
     table = open_table(path)
     table.expect(("mode", "frequency_hz"), ("modal_mass", "kind", "damping_ratio"), strict=False)
     mode, frequency = table.integers("mode"), table.numbers("frequency_hz")
     mass = table.numbers("modal_mass", default=np.nan)
+    table.unique({"mode": mode})
     table.refuse()
-    return {int(m): (float(f), float(g)) for m, f, g in zip(mode, frequency, mass, strict=True)}
+    found = {int(m): (float(f), float(g)) for m, f, g in zip(mode, frequency, mass, strict=True)}
+    return found, table.warnings
+
+
+def numbered(history: ForeignHistory, table: dict[int, tuple[float, float]], source: Path) -> ForeignHistory:
+    """Give columns without a mode number, which are joined in order, those of the simulation's modes in order.
+
+    Raises
+    ------
+    DataError : the table has another number of modes
+    """
+    if not table or (history.mode > 0).all():
+        return history
+    if len(table) != history.mode.size:
+        what = f"{len(table)} modes for {history.mode.size} columns of {history.source}, which name none"
+        raise DataError(
+            Problem("column_count", str(source), what, "Give one row for every column, or name the columns")
+        )
+    return replace(history, mode=np.array(list(table), np.int64))
 
 
 def simulated_frequencies(histories: list[ForeignHistory], table: dict[int, tuple[float, float]]) -> dict[int, float]:

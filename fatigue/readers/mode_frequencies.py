@@ -28,6 +28,12 @@ class StatedFrequencies:
     frequency: NDArray[np.float64]
     resolution: NDArray[np.float64] | None
 
+    def half_digit(self, k: int) -> float:
+        """Half a unit of the last digit in which the frequency of a column is written [Hz]."""
+        if self.resolution is not None and np.isfinite(self.resolution[k]):
+            return float(self.resolution[k])
+        return written(repr(float(self.frequency[k])))[1]
+
 
 def other_mode_problems(
     source: str, columns: StatedFrequencies, mode: NDArray[np.int64], frequency: NDArray[np.float64]
@@ -45,16 +51,9 @@ def other_mode_problems(
             continue
         at = int(np.argmin(np.abs(frequency[known] - f)))
         nearest, other = float(frequency[known][at]), int(mode[known][at])
-        if abs(nearest - f) < abs(own - f) and abs(f - (own + nearest) / 2) > _half_digit(columns, k):
+        if abs(nearest - f) < abs(own - f) and abs(f - (own + nearest) / 2) > columns.half_digit(k):
             what = f"column {columns.name[k]!r} has {f:.6g} Hz; its mode {m} has {own:.6g} Hz in the FE run, "
             what += f"mode {other} has {nearest:.6g} Hz"
             remedy = "Join by --match frequency, or use the same modal basis on both sides"
             problems.append(Problem("frequency_of_another", source, what, remedy))
     return problems
-
-
-def _half_digit(columns: StatedFrequencies, k: int) -> float:
-    """Half a unit of the last digit in which the frequency of a column is written [Hz]."""
-    if columns.resolution is not None and np.isfinite(columns.resolution[k]):
-        return float(columns.resolution[k])
-    return written(repr(float(columns.frequency[k])))[1]

@@ -407,6 +407,48 @@ def test_normalisation_a_file_declares(files):
     convert(replace(files, normalisation="length"))
 
 
+def test_masses_of_a_simulation_that_counts_from_1(files, tmp_path):
+    """The table of the simulation's modes has its own numbers: masses arrive at the FE modes they belong to."""
+    shifted = replace(tee().results, mode=tee().results.mode + 6)
+    files.forces.write_bytes(modal_op2(shifted, word=8))
+    table, f = tmp_path / "sim.csv", tee().frequency
+    table.write_text("mode,frequency_hz,modal_mass\n" + "".join(f"{k},{f[k - 1]:.9g},{k * k}\n" for k in range(1, 6)))
+    files = replace(files, interface_modes=(11,), simulation_modes=table)
+    for match, names in (("order", "time,q_1,q_2,q_3,q_4,q_5"), ("frequency", None), ("order", "time,a,b,c,d,e")):
+        convert(replace(renamed(files, names) if names else files, match=match, force=True))
+        assert neutral(files.out)[0].scale == pytest.approx([1, 2, 3, 4, 5])
+    table.write_text("mode,frequency_hz\n1,10\n2,20\n")
+    with pytest.raises(DataError, match=r"2 modes for 5 columns of .*, which name none"):
+        convert(replace(files, match="order"))
+    table.write_text("mode,frequency_hz\n1,10\n1,20\n")
+    with pytest.raises(DataError, match="mode 1 repeats row 1"):
+        convert(files)
+
+
+def test_frequencies_of_file_and_table_differ(files, tmp_path):
+    """A header and the table of the simulation's modes that state different frequencies are refused."""
+    table, f = tmp_path / "sim.csv", tee().frequency
+    table.write_text("mode,frequency_hz\n" + "".join(f"{k},{f[k - 1]:.9g}\n" for k in range(1, 6)))
+    renamed(files, ",".join(["time", *(f"q_{k} ({f[k - 1]:.2f} Hz)" for k in range(1, 6))]))
+    convert(replace(files, simulation_modes=table))
+    renamed(files, ",".join(["time", *(f"q_{k} ({1.001 * f[k - 1]:.2f} Hz)" for k in range(1, 6))]))
+    with pytest.raises(DataError, match=r"sim\.csv: mode 1 has .* Hz, and .* Hz in .*straight\.csv"):
+        convert(replace(files, simulation_modes=table, force=True))
+
+
+def test_doubts_of_the_tables_are_told(files, tmp_path):
+    """An unknown column of a map or of the table of modes is a remark, as are doubts about the coordinates."""
+    columns, table, f = tmp_path / "columns.csv", tmp_path / "sim.csv", tee().frequency
+    columns.write_text("column,mode,note\n" + "".join(f"q_{k},{k},x\n" for k in range(1, 6)))
+    table.write_text("mode,frequency_hz,modal_mas\n" + "".join(f"{k},{f[k - 1]:.9g},4\n" for k in range(1, 6)))
+    result = convert(replace(files, columns=columns, simulation_modes=table))
+    told = [str(remark) for remark in result.remarks]
+    recorded = json.loads((files.out / "convert.json").read_text())["remarks"]
+    for words in ("columns.csv: column note: the column is unknown", "Rename it to 'modal_mass'"):
+        assert any(words in remark for remark in told)
+        assert any(words in remark for remark in recorded)
+
+
 def test_system_of_units_a_file_declares(files):
     """A line of units contradicts --coordinate-units."""
     path = files.coordinates[0]

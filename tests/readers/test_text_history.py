@@ -9,6 +9,23 @@ from fatigue.errors import DataError
 from fatigue.readers.channel_names import channel
 from fatigue.readers.formats import read_coordinates
 
+CATMAN = """\
+catman ASCII
+Channels: 3
+Separator: 9
+
+Time  1 - default sample rate [s]\tq_1 [m]\tq_2 [m]
+0,000\t1,0\t2,0
+0,100\t3,0\t4,0
+"""
+DEWESOFT = """\
+Data start: 29.11.2024 10:00:00
+Sample rate: 10 Hz
+
+Time (s)\tq_1 (m)\tq_2 (m)
+0,000\t1,0\t2,0
+0,100\t3,0\t4,0
+"""
 UTF16 = "time\tq_1\tq_2\r\n0\t1\t2\r\n0,1\t3\t4\r\n"
 LABVIEW = """\
 LabVIEW Measurement\t
@@ -94,6 +111,17 @@ SAME = {
     "group row": "Body;Body;Body\ntime;q_1;q_2\n0;1;2\n0,1;3;4\n",
     "types row": "time;q_1;q_2\ndouble;double;double\n0;1;2\n0,1;3;4\n",
     "LabVIEW": LABVIEW,
+    "catman": CATMAN,
+    "Dewesoft": DEWESOFT,
+    "Octave": "# name: A\n# type: matrix\n# rows: 2\n# columns: 3\n# time q_1 q_2\n 0 1 2\n 0.1 3 4\n",
+    "Modelica": '"time","q[1]","q[2]"\n0,1,2\n0.1,3,4\n',
+    "names in two languages": "time;$S.q(1);$S.q(2)\nZeit;Mode 1;Mode 2\ns;m;m\n0;1;2\n0,1;3;4\n",
+    "channels counted": "Channel;1;2\ntime;q_1;q_2\n0;1;2\n0,1;3;4\n",
+    "units apart": "Time [ms] q_1 [m] q_2 [m]\n0 1 2\n100 3 4\n",
+    "units after colons": "time:ms,q_1:m,q_2:m\n0,1,2\n100,3,4\n",
+    "a date in the title": "29.11.2024;;\ntime;q_1;q_2\n0;1;2\n0,1;3;4\n",
+    "names divided otherwise": "time,q_1,q_2\n0 1 2\n0.1 3 4\n",
+    "seconds": "seconds,q_1,q_2\n0,1,2\n0.1,3,4\n",
     "ADAMS tab": ADAMS_TABLE,
     "ADAMS request": ADAMS_REQUEST,
     "SIMPACK": SIMPACK,
