@@ -13,7 +13,7 @@ from fatigue.readers.nastran_cards import Card, cards
 from fatigue.readers.nastran_frames import FrameCard, Frames
 from fatigue.readers.nastran_lines import Deck, read_deck
 from fatigue.readers.nastran_notes import LeftOut, Twice
-from fatigue.readers.nastran_sets import case_sets, set_on_card
+from fatigue.readers.nastran_sets import joined_sets, set_on_card
 from fatigue.readers.nastran_shells import SHELLS, Property, pcomp, pshell, shell
 from fatigue.readers.nastran_twice import same_card, same_grid
 
@@ -106,7 +106,7 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) 
             problems += error.problems
     _refuse_some(list(dict.fromkeys(_with_unread_frames(problems, left_out))))
     turned = sorted(grid for grid, c in cd.items() if c)
-    sets, set_remarks = case_sets(deck.control)
+    sets, set_remarks = joined_sets(bulk.sets, deck.control)
     return FeModel(
         source=bulk.source,
         mesh=shell_mesh(bulk.source, xyz, shells, {pid: found.section for pid, found in properties.items()}),
@@ -114,7 +114,7 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) 
         frame=np.array([frames.axes_at(cd[g], xyz[g]) for g in turned]).reshape(-1, 3, 3),
         section_doubt=_section_doubts(properties, shells),
         element_doubt={s.element: s.doubt for s in shells if s.doubt},
-        node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in (bulk.sets | sets).items()},
+        node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in sets.items()},
         marker_edges={name: np.array(pairs, np.int64) for name, pairs in bulk.markers.items()},
         other_cards=bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)},
         included=deck.included,

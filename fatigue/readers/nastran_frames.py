@@ -69,11 +69,13 @@ class Frames:
             raise DataError(Problem("frame_loop", where, "it refers to itself", "Correct its reference"))
         self._open.add(cid)
         card = self._cards[cid]
-        if card.grids:
-            origin, on_z, in_xz = (self._grid(grid) for grid in card.grids)
-        else:
-            origin, on_z, in_xz = (self.position(card.reference, point) for point in card.points)
-        self._open.discard(cid)
+        try:
+            if card.grids:
+                origin, on_z, in_xz = (self._grid(grid) for grid in card.grids)
+            else:
+                origin, on_z, in_xz = (self.position(card.reference, point) for point in card.points)
+        finally:
+            self._open.discard(cid)
         z = on_z - origin
         y = np.cross(z, in_xz - origin)
         if not (np.linalg.norm(z) > 0 and np.linalg.norm(y) > 1e-9 * np.linalg.norm(z) ** 2):

@@ -36,6 +36,15 @@ def case_sets(lines: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
     return sets, remarks
 
 
+def joined_sets(on_cards: dict[int, list[int]], control: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
+    """Join the sets of bulk data and of case control, and tell which ids are defined differently; case control wins."""
+    sets, remarks = case_sets(control)
+    for key in sorted(on_cards.keys() & sets.keys()):
+        if sorted(on_cards[key]) != sorted(sets[key]):
+            remarks.append(_redefined(key, f"{control[0][0]}, case control"))
+    return on_cards | sets, remarks
+
+
 def _redefined(key: int, where: str) -> Problem:
     return Problem(
         "set_twice", where, f"SET {key} is defined again with other members, which are taken", "Use SETs of unique ids"

@@ -298,6 +298,16 @@ def test_refusals(read, text, words):
         read(text)
 
 
+def test_one_missing_system_is_one_problem(read):
+    """Grids in a system whose own reference is missing all name that, and none calls it a loop."""
+    cards = "CORD2R,5,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n" + "".join(f"GRID,{k},5\n" for k in range(10, 20))
+    with pytest.raises(DataError) as error:
+        read(QUAD + cards)
+    assert [str(p).partition(", ")[2] for p in error.value.problems] == [
+        "coordinate system 4: it does not exist. Include the file that defines it."
+    ]
+
+
 def test_all_mistakes_are_named(read):
     """Cards that cannot be read, points and shells are refused together, and the rest is counted."""
     with pytest.raises(DataError) as error:

@@ -3,7 +3,7 @@
 import pytest
 
 from fatigue.readers.nastran_cards import Card
-from fatigue.readers.nastran_sets import case_sets, set_members, set_on_card
+from fatigue.readers.nastran_sets import case_sets, joined_sets, set_members, set_on_card
 
 
 def sets(text: str) -> dict[int, list[int]]:
@@ -41,6 +41,13 @@ def test_sets_of_case_control():
     found, remarks = case_sets(lines)
     assert found == {5: [3, 4]}
     assert [(r.where, r.code) for r in remarks] == [("a, line 9", "set_twice")]
+
+
+def test_sets_of_both_sections():
+    """Case control wins over bulk data, and a difference is told."""
+    found, remarks = joined_sets({1: [1], 2: [2, 3]}, [("a", 1, "SET 2 = 2,3"), ("a", 2, "SET 1 = 5")])
+    assert found == {1: [5], 2: [2, 3]}
+    assert [r.where for r in remarks] == ["a, case control"]
 
 
 @pytest.mark.parametrize(
