@@ -250,7 +250,8 @@ def welds(
     for problem in found.remarks:
         click.echo(f"note: {problem}", err=True)
     if as_json:
-        print_json([asdict(row) for row in rows])
+        of_the_file = ("number", "others")
+        print_json([{k: v for k, v in asdict(row).items() if k not in of_the_file} for row in rows])
         return
     for row in rows:
         reason = f"  {row.reason}" if row.reason else ""

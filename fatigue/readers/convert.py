@@ -27,7 +27,7 @@ from fatigue.readers.modal_basis import (
     with_known_frequencies,
     without_modes,
 )
-from fatigue.readers.neutral_folder import RECORD, check_folder, sha256, write_folder
+from fatigue.readers.neutral_folder import RECORD, check_folder, recorded_files, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.units import Normalisation, unit_system
 from fatigue.readers.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
@@ -171,8 +171,9 @@ def convert(options: ConvertOptions) -> Conversion:
         options.speed_km_h,
         options.target_km,
     )
-    kept = options.keep_case and (options.out / CASE).is_file()
-    if kept:
+    kept = {}
+    if options.keep_case and (options.out / CASE).is_file():
+        kept = {name: known for name, known in recorded_files(options.out).items() if name == CASE}
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
@@ -186,7 +187,7 @@ def convert(options: ConvertOptions) -> Conversion:
         LINES: lines_of_welds(found.rows),
         COMMAND: arguments_of(options),
     }
-    write_folder(options.out, files, record, CASE)
+    write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,
         audit=judged,

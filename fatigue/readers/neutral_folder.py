@@ -39,6 +39,15 @@ def read_record(path: Path) -> dict[str, Any]:
         raise DataError(Problem("damaged_record", str(path), what, "Convert again, or remove the file")) from None
 
 
+def recorded_files(folder: Path) -> dict[str, str]:
+    """Hash of every file that an earlier conversion wrote into a folder; none where there was none."""
+    try:
+        files: dict[str, str] = json.loads((folder / RECORD).read_text("utf-8"))["files"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+    return files
+
+
 def check_folder(folder: Path, names: list[str], editable: str) -> None:
     """Refuse to overwrite files that an earlier conversion did not write, or that were changed since.
 
@@ -53,10 +62,7 @@ def check_folder(folder: Path, names: list[str], editable: str) -> None:
     """
     if folder.exists() and not folder.is_dir():
         raise DataError(Problem("not_a_folder", str(folder), "this is a file", "Name a folder"))
-    try:
-        own: dict[str, str] = json.loads((folder / RECORD).read_text("utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError):
-        own = {}
+    own = recorded_files(folder)
     problems = []
     for name in names:
         path = folder / name
@@ -70,8 +76,12 @@ def check_folder(folder: Path, names: list[str], editable: str) -> None:
     refuse(DataError, problems)
 
 
-def write_folder(folder: Path, files: Mapping[str, pa.Table | str], record: Mapping[str, Any], last: str) -> None:
+def write_folder(
+    folder: Path, files: Mapping[str, pa.Table | str], record: Mapping[str, Any], last: str, kept: Mapping[str, str]
+) -> None:
     """Write tables (by suffix) and texts into a folder beside the target, then move them in, ``last`` at the very end.
+
+    ``kept`` are hashes of files that stay, as an earlier conversion wrote them.
 
     Raises
     ------
@@ -87,7 +97,7 @@ def write_folder(folder: Path, files: Mapping[str, pa.Table | str], record: Mapp
     try:
         for name, content in files.items():
             _write(stage / name, content)
-        hashes = {name: sha256(stage / name) for name in sorted(files)}
+        hashes = {**kept, **{name: sha256(stage / name) for name in sorted(files)}}
         text = json.dumps({**record, "files": hashes}, indent=1, allow_nan=False) + "\n"
         (stage / RECORD).write_text(text, "utf-8")
         for name in sorted([*files, RECORD], key=lambda n: (n == last, n)):

@@ -82,13 +82,11 @@ def registered(
             what = "the weld is not in the weld register and is assessed as the tables have it"
             where = f"{register.path.name}: weld {weld.name}"
             warnings.append(Problem("unregistered_weld", where, what, "Add a row for it, or exclude it there"))
-            continue
-        if len({(row.status == "assess", row.weld if row.status == "assess" else "") for row in own}) > 1:
+        elif len({row.weld if row.status == "assess" else None for row in own}) > 1:
             lines = ", ".join(row.key for row in own)
             what = f"the lines {lines} were converted as one weld and are to be parted"
             problems.append(Problem("one_weld", register.where(own[0]), what, again or "Part them in the tables"))
-            continue
-        if own[0].status == "assess":
+        elif own[0].status == "assess":
             groups.setdefault(own[0].weld, []).append((weld, own))
             wanted = _thickness(own, conversion.lines.get(weld.name, {}))
             if wanted is None:
@@ -132,14 +130,27 @@ def _rows_of_welds(
 
 
 def _absent(register: Register, rows: Sequence[RegisterRow], welds: Sequence[Weld], again: str) -> Iterator[Problem]:
-    """Name the rows to assess that the tables know nothing of."""
-    for row in rows:
-        if row.status == "assess":
-            what = f"line {row.key} is to be assessed, and the tables have no forces for it"
+    """Name the rows to assess that the tables know nothing of; together where one conversion helps them all."""
+    absent = [row for row in rows if row.status == "assess"]
+    if again and len(absent) > 1:
+        lines = ", ".join(row.key + _why(row) for row in absent)
+        what = f"{len(absent)} lines are to be assessed, and the tables have no forces for them: {lines}"
+        yield Problem("no_forces", register.path.name, what, again)
+        return
+    for row in absent:
+        what = f"line {row.key} is to be assessed, and the tables have no forces for it{_why(row)}"
+        if again:
+            yield Problem("no_forces", register.where(row), what, again)
+        else:
             near = difflib.get_close_matches(row.key, [weld.name for weld in welds], n=1)
             meant = f"meant is perhaps {near[0]}" if near else f"welds there: {_some(welds)}"
             remedy = f"Add it to the tables of the case ({meant}), or give it another status"
-            yield Problem("no_forces", register.where(row), what, again or remedy)
+            yield Problem("no_forces", register.where(row), what, remedy)
+
+
+def _why(row: RegisterRow) -> str:
+    """Repeat the reason that is still there from when the line was left out."""
+    return f" (reason given: {row.reason})" if row.reason else ""
 
 
 def _some(welds: Sequence[Weld], most: int = 5) -> str:

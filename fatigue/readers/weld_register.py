@@ -221,14 +221,15 @@ def open_register(path: Path, *, strict: bool) -> Register:
     ------
     DataError : unreadable, without rows, columns missing, a line given twice, an impossible value
     """
+    remedy = "Let `fatigue welds` write it, or remove it from [body]"
+    if path.is_file() and path.stat().st_size == 0:
+        raise DataError(Problem("empty_table", str(path), "the register is empty", remedy))
     names, table = read_rows(path, numbers=("thickness_mm", "end_length_mm", "length_mm"))
     missing = [name for name in ("weld", "status") if name not in names]
     if missing:
-        have = ", ".join(names) or "none"
-        what = f"the column {missing[0]} is missing; the columns are {have}"
+        what = f"the column {missing[0]} is missing; the columns are {', '.join(names)}"
         raise DataError(Problem("missing_column", str(path), what, "Add it; `fatigue welds` writes all"))
     if not table:
-        remedy = "Let `fatigue welds` write it, or remove it from [body]"
         raise DataError(Problem("no_rows", str(path), "the register has no rows", remedy))
     problems, doubts = [], list(_unknown_columns(path, names))
     found: dict[str, RegisterRow] = {}

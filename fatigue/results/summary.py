@@ -12,6 +12,7 @@ from fatigue.results import assessed, not_assessed, read_provenance, read_rows, 
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
+MOST_LEFT_OUT = 20  # printed one by one
 
 _POINT_COLUMNS = (
     "weld", "part", "node", "order", "surface", "arc_length_mm", "life_km", "life_years", "utilisation",
@@ -87,17 +88,18 @@ class Summary:
         )
 
     def _left_out(self) -> list[str]:
-        """Say which welds are not assessed, and why."""
+        """Say which welds are not assessed, and why; of many, every kind of reason with its number."""
         if self.not_assessed.empty:
             return []
-        shown = self.not_assessed.head(MOST_WELDS)
-        others = len(self.not_assessed) - len(shown)
-        return [
-            "",
-            f"Not assessed: {len(self.not_assessed)} welds",
-            _text_table(shown, ["weld", "reason"]),
-            *([f"and {others} more, see welds.parquet"] if others else []),
-        ]
+        head = ["", f"Not assessed: {len(self.not_assessed)} welds"]
+        if len(self.not_assessed) <= MOST_LEFT_OUT:
+            return [*head, _text_table(self.not_assessed, ["weld", "reason"])]
+        kind = self.not_assessed["reason"].str.replace(r"\d+", "0", regex=True)
+        kinds = self.not_assessed.groupby(kind, sort=False).agg(
+            welds=("weld", "size"), first=("weld", "first"), reason=("reason", "first")
+        )
+        kinds = kinds.sort_values("welds", ascending=False, kind="stable")
+        return [*head, _text_table(kinds, ["welds", "first", "reason"]), "all of them are in welds.parquet"]
 
 
 def result_summary(folder: Path, *, top: int, only: Sequence[str] = ()) -> Summary:

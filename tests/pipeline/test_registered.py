@@ -169,7 +169,7 @@ def test_a_register_saved_by_a_spreadsheet(body, encoding):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "the first line is empty. Write the column names there"),
+        ("", "the register is empty. Let `fatigue welds` write it"),
         ("weld,line,status\n", "the register has no rows"),
         ("weld;line;status\nx;y\n", "row 1: column status is missing or empty"),
         ("weld,line,status\nx,y,perhaps\n", "row 1: status is 'perhaps', not one of assess, candidate, excluded"),
@@ -212,14 +212,28 @@ def test_a_line_without_forces_names_the_command_that_gets_them(body, sources, t
     excluded = next(k for k, row in enumerate(rows_of(body.out)) if row["status"] == "excluded")
     edited(body.out, *({"status": "assess"} if k == excluded else {} for k in range(3)))
     said = refusal(body.out)
-    assert "is to be assessed, and the tables have no forces for it. Run `fatigue convert --forces" in said
+    assert "is to be assessed, and the tables have no forces for it (reason given: not now). Run `fatigue conv" in said
     command = shlex.split(re.search(r"`fatigue (.*)`", said).group(1))
     done = CliRunner().invoke(cli, command, standalone_mode=False)
     assert done.exception is None, done.output
     assert check_case(case_of(body.out), strict=True).welds == 3
     assert case_of(body.out).mission.target_km == 5e6
-    with pytest.raises(DataError, match="not the work of an earlier conversion"):
+    with pytest.raises(DataError, match="was changed since it was converted"):
         convert(body)
+
+
+def test_several_lines_without_forces_are_one_command(body):
+    """All are named, the command once; tables by hand get the name that was meant instead."""
+    edited(body.out, {"status": "excluded"}, {"status": "candidate"})
+    convert(body)
+    changes = [{"status": "assess"} if row["status"] != "assess" else {} for row in rows_of(body.out)]
+    edited(body.out, *changes)
+    said = refusal(body.out)
+    assert said.count("fatigue convert") == 1
+    assert said.startswith(f"{REGISTER}: 2 lines are to be assessed, and the tables have no forces for them: tee_")
+    (body.out / "convert.json").unlink()
+    (body.out / REGISTER).write_text(f"weld,status\n{rows_of(body.out)[0]['line'][:-1]},assess\n")
+    assert f"(meant is perhaps {pd.read_csv(body.out / 'welds.csv').weld[0]})" in refusal(body.out)
 
 
 def test_a_weld_that_nobody_registered_is_assessed_with_a_warning(body):
@@ -392,3 +406,13 @@ def test_a_folder_converted_before_lines_were_recorded(body):
     assert next(w.name for w in read_model(case_of(body.out), strict=True).welds) == "mine"
     edited(body.out, {"line": "tee_1_2_p3a"}, {"status": "excluded"})
     assert f"Convert the files of {body.out} again with --register" in refusal(body.out)
+
+
+def test_relative_paths(tmp_path, monkeypatch):
+    """A register that no key names is found beside the welds from where the command runs, by the recount, too."""
+    path = small_case().write(tmp_path / "case")
+    (tmp_path / "case" / REGISTER).write_text("weld,status\nA,assess\nB,excluded\n")
+    monkeypatch.chdir(tmp_path)
+    assess(load_case(path.relative_to(tmp_path)), tmp_path.relative_to(tmp_path) / "result", threads=1, report=False)
+    found = recount(tmp_path.relative_to(tmp_path) / "result", sample=3)
+    assert found.passed, found.as_text()

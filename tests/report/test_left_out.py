@@ -137,6 +137,16 @@ def test_the_recount_agrees(result):
     """It reads the register by itself."""
     found = recount(result, sample=5)
     assert found.passed, found.as_text()
+    assert "reason" in {check.column for check in found.columns}
+
+
+def test_the_recount_misses_a_reason(copy):
+    """A row that was left out and is gone from the result, or has another reason, is found."""
+    welds = pd.read_parquet(copy / "welds.parquet")
+    welds.loc[welds.reason == REASON, "reason"] = "none"
+    welds.to_parquet(copy / "welds.parquet")
+    found = recount(copy, sample=1)
+    assert [check.column for check in found.columns if not check.passed] == ["reason"]
 
 
 def test_a_diagnosis_and_its_page(copy):

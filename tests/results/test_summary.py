@@ -1,5 +1,8 @@
 """What is printed of a result."""
 
+from dataclasses import replace
+
+import pandas as pd
 import pytest
 
 from fatigue.errors import DataError
@@ -37,3 +40,19 @@ def test_of_very_many_welds_the_worst_are_printed(small_result, monkeypatch):
     text = result_summary(small_result, top=3).as_text()
     assert "2 of 2 welds miss" in text
     assert "and 1 welds with a longer life, see welds.parquet" in text
+
+
+def test_many_welds_that_are_not_assessed_are_told_by_their_reasons(small_result):
+    """Thousands of folds do not bury the one that matters: every kind of reason has a line with its number."""
+    found = result_summary(small_result, top=1)
+    rows = [(f"fold_{k}", f"a fold at node {k}", "") for k in range(500)]
+    rows.insert(250, ("seam", "ground flush", ""))
+    left_out = pd.DataFrame(rows, columns=["weld", "reason", "description"])
+    text = replace(found, not_assessed=left_out).as_text()
+    assert "Not assessed: 501 welds" in text
+    lines = [line.split(maxsplit=2) for line in text.splitlines()]
+    assert ["500", "fold_0", "a fold at node 0"] in lines
+    assert ["1", "seam", "ground flush"] in lines
+    assert len(text.splitlines()) < 20
+    few = replace(found, not_assessed=left_out[245:255].reset_index(drop=True)).as_text()
+    assert all(f"fold_{k}" in few for k in (245, 253))

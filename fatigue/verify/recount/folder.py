@@ -26,6 +26,7 @@ from fatigue.verify.recount.stored import (
     fastest_peaks,
     governing_points,
     is_counted,
+    left_out_check,
     open_tables,
     rows_of,
     toes_and_utilisation,
@@ -84,7 +85,7 @@ def recount(
     modes, body = read_modes(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
     stored = open_tables(folder, body, events, modes)
-    checks = stored.keys
+    checks = [*stored.keys, *left_out_check(stored, inputs)]
     if not all(check.passed for check in checks):
         return Recount(folder, 0, body.points, tuple(checks))
 

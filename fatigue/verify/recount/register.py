@@ -33,19 +33,20 @@ class WeldEntry:
 
 @dataclass(frozen=True, slots=True)
 class WeldEntries:
-    """The welds to assess, by name in the order of the tables, and the number of lines that are listed and are not."""
+    """The welds to assess, by name in the order of the tables, and why each of the lines is not that is listed only."""
 
     welds: Mapping[str, WeldEntry]
-    left_out: int
+    left_out: tuple[str, ...]
 
 
 def weld_entries(case: Mapping[str, Any], folder: Path, table: pd.DataFrame) -> WeldEntries:
     """Read the register of a case, if it has one, over its table of welds."""
     of_table = {name: _of_table(row) for name, row in zip(table["weld"], table.to_dict("records"), strict=True)}
     beside = (folder / case["body"]["welds"]).parent
-    path = folder / case["body"].get("register", beside / "welds_register.csv")
+    named = case["body"].get("register")
+    path = beside / "welds_register.csv" if named is None else folder / named
     if not path.is_file():
-        return WeldEntries(of_table, 0)
+        return WeldEntries(of_table, ())
     rows = _rows(path)
     lines = _lines(beside / "convert.json")
     entries: dict[str, WeldEntry] = {}
@@ -65,7 +66,12 @@ def weld_entries(case: Mapping[str, Any], folder: Path, table: pd.DataFrame) -> 
             new = _registered(entry, [rows[n] for n in own], name in lines)
             old = entries.get(new.name)
             entries[new.name] = new if old is None else _with(old, new)
-    return WeldEntries(entries, sum(row["status"].lower() != "assess" for row in rows))
+    return WeldEntries(entries, tuple(_reason(row) for row in rows if row["status"].lower() != "assess"))
+
+
+def _reason(row: Mapping[str, str]) -> str:
+    status, reason = row["status"].lower(), row.get("reason", "")
+    return reason or status if status == "excluded" or not reason else f"candidate: {reason}"
 
 
 def _of_table(row: Mapping[str, Any]) -> WeldEntry:

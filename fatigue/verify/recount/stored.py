@@ -1,5 +1,6 @@
 """The tables of a result as the recount reads them: where every row is, and the rows of some points."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -60,6 +61,27 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes)
         welds=welds[is_assessed],
         left_out=welds[~is_assessed],
     )
+
+
+def left_out_check(stored: Stored, inputs: Inputs) -> list[ColumnCheck]:
+    """Compare why welds are not assessed with what the register says; nothing where all are."""
+    expected, found = Counter(inputs.register.left_out), Counter(stored.left_out["reason"].fillna("").tolist())
+    if not expected and not found:
+        return []
+    astray = list(((expected - found) + (found - expected)).elements())
+    return [
+        ColumnCheck(
+            table="welds",
+            column="reason",
+            unit="rows",
+            compared=expected.total(),
+            difference=float(len(astray)),
+            tolerance=0.5,  # rows
+            where=f"first {astray[0]}" if astray else "",
+            found=found.total(),
+            expected=expected.total(),
+        )
+    ]
 
 
 def rows_of(stored: Stored, table: str, rows: NDArray[np.integer]) -> list[dict[str, Any]]:
