@@ -167,6 +167,8 @@ def _open(path: Path) -> Iterator[Any]:
     def read(name: str, required: bool = True) -> Rows:
         table = file.get(name)
         if not isinstance(table, h5py.Dataset):
+            if table is not None and not required:
+                raise _damaged(path, f"{name} is no table")
             if not required:
                 return np.empty(0, [])
             raise DataError(
