@@ -166,6 +166,8 @@ def _open(path: Path) -> Iterator[Any]:
     def read(name: str, required: bool = True) -> Rows:
         table = file.get(name)
         if not isinstance(table, h5py.Dataset):
+            if not required and (table is not None or file.get(name, getlink=True) is not None):
+                raise _damaged(path, f"{name} is no table")
             if not required:
                 return np.empty(0, [])
             raise DataError(

@@ -1,12 +1,14 @@
 """Damage that leaves a file readable and takes something away: found by the fuzz, each told in one line."""
 
+from pathlib import Path
+
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.formats import read_coordinates, read_forces
+from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.weld_register import read_register
 from fatigue.results import read_table
 from fatigue.results.store import schema
@@ -78,3 +80,18 @@ def test_a_result_table_without_one_of_its_columns(tmp_path):
     for asked in (None, ["weld", "life_km"]):
         with pytest.raises(DataError, match=r"nodes\.parquet: the table cannot be read .*life_km"):
             read_table(tmp_path, "nodes", asked)
+
+
+def test_elements_of_an_hdf5_model_that_are_no_table(tmp_path):
+    """Shells do not go unseen where their table is damaged, and what is left out is told."""
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "m.h5"
+    path.write_bytes(Path("data/nastran/modes_elements.h5").read_bytes())
+    assert "5 'CQUAD4'" not in str(read_model(path).remarks)
+    with h5py.File(path, "r+") as file:
+        file.move("NASTRAN/INPUT/ELEMENT/CQUAD4", "NASTRAN/INPUT/ELEMENT/CQUAD6")
+    assert "5 'CQUAD6'" in str(read_model(path).remarks)
+    with h5py.File(path, "r+") as file:
+        file.create_group("NASTRAN/INPUT/ELEMENT/CQUAD4")
+    with pytest.raises(DataError, match="CQUAD4 is no table"):
+        read_model(path)
