@@ -17,6 +17,7 @@ from fatigue.readers.foreign_history import ForeignHistory, matched, uniform, wi
 from fatigue.readers.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.modal_basis import (
     SimulationModes,
+    assumed_masses,
     column_map,
     mode_scale,
     numbered,
@@ -78,6 +79,7 @@ def read_run(options: ConvertOptions) -> ForeignRun:
     table, remarks = simulation_modes(options.simulation_modes)
     stage("reading modes and coordinates (%d files)", len(options.coordinates))
     histories, simulated = _histories(options, results, table)
+    remarks += assumed_masses(results, simulated)
     of_histories = [remark for history in histories for remark in history.remarks]
     return ForeignRun(results, model, interface_modes, tuple(histories), simulated, (*remarks, *of_histories))
 

@@ -234,3 +234,13 @@ def mode_scale(results: FeResults, table: SimulationModes) -> Floats:
     """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
     mass, simulated = mode_masses(results, table)
     return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
+
+
+def assumed_masses(results: FeResults, table: SimulationModes) -> list[Problem]:
+    """Tell which modes are scaled to the simulation's masses although the FE run states none of its own."""
+    _, simulated = mode_masses(results, table)
+    assumed = results.mode[np.isfinite(simulated) & ~(results.modal_mass > 0)].tolist()
+    if not assumed:
+        return []
+    what = f"the file states no generalised masses of the modes {_short(assumed)}; 1 is assumed beside the simulation's"
+    return [Problem("assumed_mass", results.source, what, "Normalise the FE run to unit mass, or request the summary")]

@@ -1,6 +1,6 @@
 """Weld lines of an FE model: found in the mesh, or marked by node lists, node sets, plot elements and bars."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -81,7 +81,8 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     DataError : a marked line that is no line of mesh edges, an unknown set or marker, a bad register
     """
     topo = topology(model.mesh)
-    marked = dict(_marked_edges(model, topo, sources))
+    lists, list_doubts = _node_lists(sources.node_lists)
+    marked = dict(_marked_edges(model, topo, sources, lists))
     cuts = trace(topo, marked)
     detect = not marked if sources.detect is None else sources.detect
     if detect:
@@ -96,6 +97,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
         failed[cut.name] = _doubt(cut, doubts)
     edited = open_register(sources.register, strict=False) if sources.register else None
     rows, remarks = merged(rows, edited) if edited else (rows, [])
+    remarks = [*list_doubts, *remarks]
     by_name = {cut.name: cut for cut in cuts}
     final = [_settled(row, by_name.get(row.line), failed.get(row.line, "")) for row in rows]
     by_name = {row.line: _as_registered(by_name[row.line], row) for row in final if row.line in by_name}
@@ -200,7 +202,9 @@ def _as_registered(cut: WeldCut, row: RegisterRow) -> WeldCut:
     return replace(cut, line=line)
 
 
-def _marked_edges(model: FeModel, topo: Topology, sources: WeldSources) -> Iterator[tuple[int, Key]]:
+def _marked_edges(
+    model: FeModel, topo: Topology, sources: WeldSources, lists: Mapping[str, list[int]]
+) -> Iterator[tuple[int, Key]]:
     """Edges that the user marked as welds."""
     edge_of = {(int(a), int(b)): k for k, (a, b) in enumerate(topo.ends)}
     index = {int(n): k for k, n in enumerate(model.mesh.node)}
@@ -230,30 +234,31 @@ def _marked_edges(model: FeModel, topo: Topology, sources: WeldSources) -> Itera
                 )
             )
         yield from ((k, (name.lower(), ())) for k in on_edges)
-    if sources.node_lists is not None:
-        mids = set(model.mesh.node[np.unique(model.mesh.mid[model.mesh.mid >= 0])].tolist())
-        for weld, nodes in _node_lists(sources.node_lists):
-            corners = [n for n in nodes if n not in mids]
-            for a, b in pairwise(corners):
-                k = edge(a, b)
-                if k is None:
-                    where = f"{sources.node_lists}, weld {weld}"
-                    raise DataError(
-                        Problem(
-                            "no_edge", where, f"no shell edge joins the nodes {a} and {b}", "List neighbouring nodes"
-                        )
-                    )
-                yield k, (weld, ())
+    mids = set(model.mesh.node[np.unique(model.mesh.mid[model.mesh.mid >= 0])].tolist())
+    for weld, nodes in lists.items():
+        corners = [n for n in nodes if n not in mids]
+        for a, b in pairwise(corners):
+            k = edge(a, b)
+            if k is None:
+                where = f"{sources.node_lists}, weld {weld}"
+                raise DataError(
+                    Problem("no_edge", where, f"no shell edge joins the nodes {a} and {b}", "List neighbouring nodes")
+                )
+            yield k, (weld, ())
 
 
-def _node_lists(path: Path) -> Iterable[tuple[str, list[int]]]:
-    """Nodes of every weld in order; a closed line repeats its first node at the end."""
+def _node_lists(path: Path | None) -> tuple[dict[str, list[int]], list[Problem]]:
+    """Nodes of every weld in order, a closed line repeats its first node at the end; and doubts about the table."""
+    if path is None:
+        return {}, []
     table = open_table(path, texts=("weld",))
     table.expect(("weld", "order", "node"), (), strict=False)
     names, code = table.groups("weld")
     order, node = table.integers("order"), table.integers("node")
     table.refuse()
+    found = {}
     for at, name in enumerate(names):
         rows = np.flatnonzero(code == at)
         if rows.size:
-            yield name, node[rows[np.argsort(order[rows], kind="stable")]].tolist()
+            found[name] = node[rows[np.argsort(order[rows], kind="stable")]].tolist()
+    return found, table.warnings

@@ -284,6 +284,17 @@ def test_simulation_modes_scale_and_compare(files, tmp_path):
         convert(replace(files, simulation_modes=table))
 
 
+def test_masses_that_the_forces_do_not_state(files, tmp_path):
+    """1 is assumed where the simulation's masses ask for them, and that is told."""
+    table, f = tmp_path / "sim.csv", tee().frequency
+    table.write_text("mode,frequency_hz,modal_mass\n" + "".join(f"{k},{f[k - 1]:.9g},4\n" for k in range(1, 6)))
+    told = [remark.code for remark in convert(replace(files, simulation_modes=table)).remarks]
+    assert "assumed_mass" not in told
+    files.forces.write_bytes(modal_op2(replace(tee().results, modal_mass=np.zeros(5)), word=8))
+    found = convert(replace(files, simulation_modes=table, force=True)).remarks
+    assert any("states no generalised masses of the modes 1, 2, 3, 4, 5; 1 is assumed" in str(r) for r in found)
+
+
 def renamed(files, names):
     """Give the columns of the coordinates other names."""
     path = files.coordinates[0]

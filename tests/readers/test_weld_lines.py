@@ -43,10 +43,22 @@ def test_sources(mesh, tmp_path):
     assert lines(mesh, sets=(5,)) == [("set5", 6)] * 3
     assert lines(mesh, markers=("plotel",)) == [("plotel", 7)] * 3
     table = tmp_path / "lines.csv"
-    rows = [f"bracket,{k},{n}" for k, n in enumerate(joint_nodes()[:4])]
-    table.write_text("\n".join(["weld,order,node", *rows]) + "\n")
+    table.write_text("\n".join(["weld,order,node", *_bracket()]) + "\n")
     assert lines(mesh, node_lists=table) == [("bracket", 4)] * 3
     assert lines(mesh, node_lists=table, detect=True) == [("bracket", 4)] * 3 + [("tee", 4)] * 3
+
+
+def test_doubts_about_node_lists_are_told(mesh, tmp_path):
+    """A column that nothing reads, for one."""
+    table = tmp_path / "lines.csv"
+    table.write_text("".join(f"{row}\n" for row in ["weld,order,node,colour", *_bracket("red")]))
+    found = find_welds(read_bdf(mesh), WeldSources(node_lists=table))
+    assert "lines.csv: column colour: the column is unknown" in " ".join(map(str, found.remarks))
+
+
+def _bracket(*more):
+    """Rows of a list of four nodes along the joint."""
+    return [",".join(["bracket", str(k), str(n), *more]) for k, n in enumerate(joint_nodes()[:4])]
 
 
 def test_marks_that_are_no_lines(mesh, tmp_path):
