@@ -3,6 +3,7 @@
 import difflib
 import re
 import unicodedata
+from dataclasses import replace
 from pathlib import Path, PureWindowsPath
 
 from fatigue.errors import Problem
@@ -53,6 +54,14 @@ def missing_file(
         return _folder(path, place, wanted)
     what, remedy = _instead(path, _as_written(path, base), base)
     return Problem(code, place, (f"there is no file {path}" if where else "there is no such file") + what, remedy)
+
+
+def missing_case(path: Path) -> Problem:
+    """Say what is in the place of a case file that is not there."""
+    if path.is_dir():
+        return Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it")
+    found = missing_file(path)
+    return replace(found, remedy="Give the path of a case.toml") if found.remedy == "Correct the path" else found
 
 
 def _instead(path: Path, given: Path, base: Path | None) -> tuple[str, str]:
