@@ -268,7 +268,7 @@ def _interface(results: FeResults, marked: set[int]) -> list[AuditRow]:
             "amber",
             0.0,
             "no mode is marked as an interface (residual, constraint, attachment) mode",
-            "Name them; without them brackets and hangers lose most of their force",
+            "Name them (--interface-modes); without them brackets and hangers lose most of their force",
         )
     ]
 

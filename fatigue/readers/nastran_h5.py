@@ -77,6 +77,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
                 int(row["MODE"]),
                 float(row["FREQ"]),
                 float(row["MASS"]),
+                float(row["EIGEN"]),
             )
             for row in read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
         ]

@@ -143,6 +143,19 @@ def test_modes_without_frequency_are_red(tmp_path, model):
         convert(ConvertOptions(forces=path, mesh=tmp_path / "tee.bdf", out=tmp_path / "body"))
 
 
+@pytest.mark.parametrize("table", ["LAMA", "OUGV1"])
+def test_unstable_modes_are_told(tmp_path, table):
+    """A negative eigenvalue is no frequency, unless it is the round-off of a rigid mode."""
+    writer = Op2Writer(8)
+    add = summary if table == "LAMA" else lambda w, values: beside(w, "OUGV1", values)
+    add(writer, [-1e-6, -LAMBDA[1]])
+    two_modes(writer)
+    (tmp_path / "a.op2").write_bytes(writer.close())
+    found = read_op2(tmp_path / "a.op2")
+    (remark,) = [r for r in found.remarks if r.code == "unstable_mode"]
+    assert "1 modes have a negative eigenvalue, mode 2 the first (-2526.62)" in remark.what
+
+
 def test_own_words_of_forces_must_agree(tmp_path):
     """Words 14 and 16 of the forces count if they are an eigenvalue and its frequency; none may contradict."""
     own = ((LAMBDA[0], 3.0), (LAMBDA[1], 8.0))

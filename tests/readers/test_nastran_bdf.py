@@ -106,6 +106,7 @@ def test_default_frames_of_grids(read):
         ("PCOMP,1\n,1,1.,0.,,1,,90.", 2.0, 0.0, "layered"),
         ("PCOMP,1,0.,,,,,,SYM\n,1,1.,0.,,1,2.,90.", 6.0, 3.0, "layered"),
         ("PCOMPG,1\n,1,1,.5\n,2,1,1.", 1.5, 0.0, "layered"),
+        ("PCOMP,1\n,1,.5,0.,,,,90.\n,,,45.,,,,,YES", 2.0, 0.0, "layered"),  # an angle or a request alone is a ply
     ],
 )
 def test_sections(read, section, thickness, offset, doubt):
@@ -256,7 +257,8 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (PLATE, "no shell elements"),
+        (PLATE, "no shell elements .*: 4 grids, no element at all"),
+        (PLATE + "CQAUD4,1,1,1,2,3,4\nCBAR,2,1,1,2\nCBAR,3,1,2,3\n", "4 grids, 2 CBAR, 1 CQAUD4. Give the bulk data"),
         (QUAD + "CQUAD4,1,1,2,3,4,1\n", "used twice, the first time at .*line 6"),
         (QUAD + "CTRIA3,1,1,1,2,3\n", "used twice"),
         (PLATE + "CQUAD4,1,1,1,2,3,9\n", "grid 9 does not exist"),
