@@ -160,7 +160,7 @@ def _section_doubts(properties: dict[int, Property], shells: list[Shell]) -> dic
 
 
 def _grid(bulk: _Bulk, card: Card) -> None:
-    grid = card.integer(0)
+    grid = card.identity()
     card.no_more_than(_GRID_FIELDS)
     if card.integer(7, 0):
         raise DataError(
@@ -250,7 +250,7 @@ def _add_property(bulk: _Bulk, card: Card, found: Property) -> None:
 
 
 def _shell(bulk: _Bulk, card: Card) -> None:
-    element = card.integer(0)
+    element = card.identity()
     known = bulk.shells.get(element)
     if known is None:
         bulk.shells[element] = card

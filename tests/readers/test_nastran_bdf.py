@@ -224,6 +224,14 @@ def test_cards_nobody_needs_are_counted(read):
         assert words in remark.what
 
 
+def test_shells_that_are_not_read_are_told(read):
+    """Elements of other kinds and misspelt names beside plates: no weld is found at them."""
+    model = read(QUAD + "CQUAD2,7,1,1,2,3,4\nCQUAD44,8,1,1,2,3,4\nCSHEAR,9,1,1,2,3,4\nCSHEAR,10,1,1,2,3,4\nCBUSH,11\n")
+    (remark,) = [r for r in model.remarks if r.code == "unread_shells"]
+    assert remark.where.endswith("line 7")
+    assert "not read: 1 CQUAD2, 1 CQUAD44, 2 CSHEAR; no weld" in remark.what
+
+
 @pytest.mark.parametrize(
     ("section", "element", "offset"),
     [
@@ -268,6 +276,8 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
         (QUAD + "GRID,9,,1_0.,0.,0.\n", "not a number of sensible size"),
         (QUAD + "GRID,9,,1e999,0.,0.\n", "sensible size"),
         (QUAD + "GRID,,,0.,0.,0.\n", "field 2 is empty"),
+        (QUAD + "GRID,0,,0.,0.,0.\n", "line 7: GRID field 2 is '0', not a whole number above 0"),
+        (QUAD + "CTRIA3,-4,1,1,2,3\n", "CTRIA3 field 2 is '-4', not a whole number above 0"),
         (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist. Include the file"),
         (
             QUAD + "GRID,9,4,0.,0.,0.\nCORD3G,4,E313\n",
