@@ -85,6 +85,8 @@ def assemble(
                 "Request GPFORCE for all modes that the simulation uses",
             )
         )
+    if not modal and subcase is None:
+        remarks += _subcases_without_forces(source, shapes, set(key.tolist()))
     beside = {} if known else _given(source, stated, [(block.subcase, block.mode) for block in chosen if block.mode])
     frequency, mass, eigenvalue = (np.full(key.size, np.nan) for _ in range(3))
     for k, block in enumerate(chosen):
@@ -112,6 +114,16 @@ def assemble(
         remarks=tuple(remarks),
         static_modes=tuple(key[is_static].tolist()) if modal else (),
     )
+
+
+def _subcases_without_forces(source: str, shapes: list[ShapeBlock], having: set[int]) -> list[Problem]:
+    """Tell static subcases that have displacements only: unit loads are missing if they are some."""
+    silent = sorted({block.subcase for block in shapes if block.mode == 0} - having)
+    if not silent:
+        return []
+    what = f"{len(silent)} static subcases have displacements and no grid point forces, subcase {silent[0]} the first"
+    remedy = "Request GPFORCE above all subcases, or in each of them, if they are unit loads"
+    return [Problem("subcases_without_forces", source, what, remedy, len(silent))]
 
 
 def _unstable(

@@ -272,6 +272,19 @@ def test_unit_loads_beside_modes(tmp_path, model):
     assert read_op2(path, subcase=22).mode.tolist() == [22]
 
 
+def test_unit_loads_without_forces_are_told(tmp_path):
+    """A request within one subcase holds there only; a subcase that is asked for lacks nothing."""
+    writer = Op2Writer(8)
+    for case in (21, 22):
+        rows = [row[:2] for row in unit_loads()[0].shape]
+        writer.table("OUGV1", [writer.identification(1, 1, 0, 8, subcase=case), writer.shape(rows)])
+    writer.table("OGPFB1", [writer.identification(1, 19, 0, 10, subcase=22), writer.forces(unit_loads()[0].rows)])
+    (tmp_path / "a.op2").write_bytes(writer.close())
+    (remark,) = read_op2(tmp_path / "a.op2").remarks
+    assert "1 static subcases have displacements and no grid point forces, subcase 21 the first" in remark.what
+    assert not read_op2(tmp_path / "a.op2", 22).remarks
+
+
 def test_shapes_in_any_order_of_grids(tmp_path, model):
     """Shapes whose grids do not ascend prove the sign as well; unit loads without displacements do not disturb it."""
     case = tee().results
