@@ -212,16 +212,19 @@ def _nodal_totals(results: FeResults, convention: Convention | None) -> AuditRow
 
 def _sign(results: FeResults, model: FeModel, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
     """Compare the proven sign convention with the stated one."""
-    value, found, finding, too_much = prove_sign(results, whole_rows(results, model))
+    value, found, finding, contradiction, odd = prove_sign(results, whole_rows(results, model))
     if found is None:
         remedy = "State the sign convention; prove it with the one-element tension patch" if stated is None else REQUEST
         return AuditRow("sign", "amber", value, f"{finding}: the sign is not proven", remedy), stated
     if stated is not None and found != stated:
         remedy = f"State {found}, or give the mode shapes of the same run"
         return AuditRow("sign", "red", value, f"{finding}: forces {found}, but {stated} is stated", remedy), found
-    if too_much:
+    if contradiction:
         remedy = "Give forces and mode shapes of one run"
-        return AuditRow("sign", "red", value, f"{finding}: more work than the mode has energy", remedy), found
+        return AuditRow("sign", "red", value, f"{finding}: {contradiction}", remedy), found
+    if odd:
+        remedy = "Look at these elements: damaged forces look so, those under a strong preload may"
+        return AuditRow("sign", "amber", value, f"{finding}: forces {found}; {odd}", remedy), found
     return AuditRow("sign", "green", value, f"{finding}: forces {found}"), found
 
 
@@ -246,9 +249,17 @@ def _completeness(results: FeResults, model: FeModel) -> AuditRow:
     finding = f"{full} of {mesh.element.size} shells have forces at all their nodes"
     if some > full:
         finding += f", {some - full} at some nodes only"
-    light: Light = "green" if full == mesh.element.size else "amber"
-    remedy = "" if light == "green" else "Welds at the other shells are left out; widen the GPFORCE set if they matter"
-    return AuditRow("completeness", light, full / mesh.element.size, finding, remedy)
+    remedies = []
+    if full < mesh.element.size:
+        remedies.append("Welds at the other shells are left out; widen the GPFORCE set if they matter")
+    has_forces = np.array([force[results.of_element].any() for force in results.force])
+    silent = results.mode[(results.frequency > LOWEST_HZ) & ~has_forces]
+    if silent.size:
+        finding += f"; in {silent.size} modes with a frequency all forces are zero, mode {silent[0]} the first"
+        remedies.append("Repeat the run if these modes bend the welds")
+    return AuditRow(
+        "completeness", "amber" if remedies else "green", full / mesh.element.size, finding, "; ".join(remedies)
+    )
 
 
 def _interface(results: FeResults, marked: set[int]) -> list[AuditRow]:
@@ -268,7 +279,7 @@ def _interface(results: FeResults, marked: set[int]) -> list[AuditRow]:
             "amber",
             0.0,
             "no mode is marked as an interface (residual, constraint, attachment) mode",
-            "Name them; without them brackets and hangers lose most of their force",
+            "Name them (--interface-modes); without them brackets and hangers lose most of their force",
         )
     ]
 

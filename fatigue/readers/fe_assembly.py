@@ -17,6 +17,9 @@ _NOT_GIVEN = 1e-37
 _AGREE = 1.001
 """Frequencies of one mode by two tables differ by less."""
 
+_UNSTABLE_HZ = 0.1
+"""A negative eigenvalue of a lower frequency is the round-off of a rigid mode."""
+
 Key = tuple[int, int]
 """Subcase and mode; mode 0: a static subcase."""
 
@@ -82,13 +85,18 @@ def assemble(
                 "Request GPFORCE for all modes that the simulation uses",
             )
         )
+    if not modal and subcase is None:
+        remarks += _subcases_without_forces(source, shapes, set(key.tolist()))
     beside = {} if known else _given(source, stated, [(block.subcase, block.mode) for block in chosen if block.mode])
-    frequency, mass = np.full(key.size, np.nan), np.full(key.size, np.nan)
+    frequency, mass, eigenvalue = (np.full(key.size, np.nan) for _ in range(3))
     for k, block in enumerate(chosen):
         if block.mode and known:
-            frequency[k], mass[k] = known[block.mode].frequency, known[block.mode].modal_mass
+            line = known[block.mode]
+            frequency[k], mass[k], eigenvalue[k] = line.frequency, line.modal_mass, line.eigenvalue
         elif block.mode:
-            frequency[k] = frequency_of(beside.get((block.subcase, block.mode), np.nan))
+            eigenvalue[k] = beside.get((block.subcase, block.mode), np.nan)
+            frequency[k] = frequency_of(eigenvalue[k])
+    remarks += _unstable(source, key, frequency, eigenvalue)
     shape_node, shape = _shapes([(block.subcase, block.mode) for block in chosen], shapes)
     return FeResults(
         source=source,
@@ -106,6 +114,29 @@ def assemble(
         remarks=tuple(remarks),
         static_modes=tuple(key[is_static].tolist()) if modal else (),
     )
+
+
+def _subcases_without_forces(source: str, shapes: list[ShapeBlock], having: set[int]) -> list[Problem]:
+    """Tell static subcases that have displacements only: unit loads are missing if they are some."""
+    silent = sorted({block.subcase for block in shapes if block.mode == 0} - having)
+    if not silent:
+        return []
+    what = f"{len(silent)} static subcases have displacements and no grid point forces, subcase {silent[0]} the first"
+    remedy = "Request GPFORCE above all subcases, or in each of them, if they are unit loads"
+    return [Problem("subcases_without_forces", source, what, remedy, len(silent))]
+
+
+def _unstable(
+    source: str, mode: NDArray[np.int64], frequency: NDArray[np.float64], eigenvalue: NDArray[np.float64]
+) -> list[Problem]:
+    """Doubt about modes with a negative eigenvalue beyond the round-off of rigid ones."""
+    bad = np.flatnonzero((eigenvalue < 0) & (frequency > _UNSTABLE_HZ))
+    if not bad.size:
+        return []
+    first = bad[0]
+    what = f"{bad.size} modes have a negative eigenvalue, mode {mode[first]} the first ({eigenvalue[first]:.6g}): they "
+    what += f"are unstable and vibrate with no frequency; {frequency[first]:.6g} Hz is what its size would give"
+    return [Problem("unstable_mode", source, what, "Check the run (preload, springs, mass), or --ignore-modes")]
 
 
 def _choose(
@@ -131,9 +162,8 @@ def _choose(
     modal = [block for block in blocks if block.mode > 0]
     subcases = sorted({block.subcase for block in modal})
     if len(subcases) > 1:
-        raise DataError(
-            Problem("many_subcases", source, f"modes of several subcases: {subcases}", "Name the subcase to use")
-        )
+        what = f"modes of several subcases: {subcases}"
+        raise DataError(Problem("many_subcases", source, what, "Name the subcase to use (--subcase)"))
     modes = {block.mode for block in modal}
     static = [block for block in blocks if block.mode == 0]
     beside = [block for block in static if _is_named(block, interface) and block.subcase not in modes]
@@ -166,7 +196,9 @@ def _unusable_problems(unusable: Collection[UnusableBlock], usable: list[int]) -
     for other in unusable:
         problem = other.problem
         elsewhere = [number for number in usable if number != other.subcase]
-        remedy = f"{problem.remedy}, or name the subcase to use: {elsewhere[:10]}" if elsewhere else problem.remedy
+        remedy = problem.remedy
+        if elsewhere:
+            remedy += f", or name the subcase to use: {elsewhere[:10]} (--subcase)"
         found.setdefault(problem.code, Problem(problem.code, problem.where, problem.what, remedy))
     return list(found.values())
 

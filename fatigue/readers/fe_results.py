@@ -101,6 +101,7 @@ class Eigenvalue:
     mode: int
     frequency: float
     modal_mass: float
+    eigenvalue: float
 
 
 @dataclass(frozen=True, slots=True)

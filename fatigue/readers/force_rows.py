@@ -206,5 +206,5 @@ def _difference(
         block.where,
         f"its {rows.size} element rows are not those of {first.where} ({wanted.size} rows): "
         + (one if lacking or beyond else "some are given twice"),
-        "Request the same GPFORCE set for all modes and subcases that are used, or name the subcase",
+        "Request the same GPFORCE set for all modes and subcases that are used, or name the subcase (--subcase)",
     )

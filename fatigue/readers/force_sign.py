@@ -12,6 +12,8 @@ LOWEST_HZ = 1e-3
 """Below it a frequency is the round-off of a rigid mode."""
 
 WORK_TOLERANCE = 2e-3
+_CLEAR = 1e-4
+"""Of the size of its terms: a smaller work may be their round-off."""
 _ONE_SIGN = 0.8
 """Share of the works of all elements that must be left when they are added with their signs."""
 
@@ -19,13 +21,23 @@ _ONE_SIGN = 0.8
 class SignProof(NamedTuple):
     """What decides the sign: the number, the convention it proves (None: nothing), and the number in words.
 
-    ``too_much``: the shapes do more work than the modes have energy.
+    ``contradiction``: why forces and shapes cannot be those of one run, empty if nothing says so; ``odd``: elements
+    that do work of the other sign, in words, empty if there are none.
     """
 
     value: float | None
     convention: Convention | None
     finding: str
-    too_much: bool = False
+    contradiction: str = ""
+    odd: str = ""
+
+
+class _Works(NamedTuple):
+    """Work of each mode's shape on the forces of each element, (m, e), and the size of its terms; elements, (e,)."""
+
+    work: NDArray[np.float64]
+    terms: NDArray[np.float64]
+    element: NDArray[np.int64]
 
 
 def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
@@ -43,17 +55,19 @@ def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
     return proof
 
 
-def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Work of each mode's shape on the forces of each element that has all its rows, (m, e)."""
+def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> _Works:
+    """Work of each mode's shape on the forces of each element that has all its rows."""
     rows = np.flatnonzero(whole)
     at = np.minimum(np.searchsorted(results.shape_node, results.node[rows]), results.shape_node.size - 1)
     has_shape = results.shape_node[at] == results.node[rows]
     rows, at = rows[has_shape], at[has_shape]
-    work = np.einsum(
-        "mri,mri->mr", results.force[:, rows].astype(np.float64), results.shape[:, at].astype(np.float64), optimize=True
-    )
     elements, element = np.unique(results.element[rows], return_inverse=True)
-    return np.stack([np.bincount(element, of_mode, elements.size) for of_mode in work])
+    work, terms = (np.empty((results.mode.size, elements.size)) for _ in range(2))
+    for k in range(results.mode.size):
+        product = results.force[k, rows].astype(np.float64) * results.shape[k, at]
+        work[k] = np.bincount(element, product.sum(axis=1), elements.size)
+        terms[k] = np.bincount(element, np.abs(product).sum(axis=1), elements.size)
+    return _Works(work, terms, elements)
 
 
 def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
@@ -61,10 +75,10 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
 
     Without generalised masses work over omega^2 gives them, and its sign is the proof. Without a frequency, the signs
     of the elements' own works decide: a strain energy is never negative. Rigid modes, whatever frequency round-off
-    gives them, have element works of either sign and prove nothing.
+    gives them, have element works of either sign and prove nothing; above the lowest elastic mode there are none.
     """
-    each = _element_works(results, whole)
-    work, size = each.sum(axis=1), np.abs(each).sum(axis=1)
+    works = _element_works(results, whole)
+    work, size = works.work.sum(axis=1), np.abs(works.work).sum(axis=1)
     if not size.any():
         return SignProof(None, None, "the mode shapes do no work on the forces")
     known = np.isfinite(results.modal_mass)
@@ -78,13 +92,35 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
         if other.any():
             finding = f"{proof.finding}; the forces of mode {results.mode[other][0]} have the other sign"
             return SignProof(proof.value, None, finding)
-        return proof
+        of_another = ~is_clear & (results.frequency >= results.frequency[usable].min())
+        of_another &= size > _CLEAR * works.terms.sum(axis=1)
+        if of_another.any():
+            found = f"in mode {results.mode[of_another][0]} the elements do work of both signs, as if its shape were "
+            return proof._replace(contradiction=proof.contradiction or f"{found}that of another mode")
+        return proof._replace(odd=_odd_elements(results.mode, works, usable, np.sign(proof.value or 0.0)))
     balance_of_signs = float(work.sum() / size.sum())
     given = "static subcases" if results.analysis == "static" else "no elastic mode has a frequency"
+    if results.analysis == "modal" and (results.frequency > LOWEST_HZ).any():
+        given = "in no mode with a frequency have the works of the elements one sign"
     text = f"{given}; work of the elements is {abs(balance_of_signs):.1%} of one sign"
     if abs(balance_of_signs) < _ONE_SIGN:
         return SignProof(balance_of_signs, None, text)
-    return SignProof(balance_of_signs, "on_node" if balance_of_signs < 0 else "on_element", text)
+    convention: Convention = "on_node" if balance_of_signs < 0 else "on_element"
+    odd = _odd_elements(results.mode, works, is_clear, np.sign(balance_of_signs))
+    return SignProof(balance_of_signs, convention, text, odd=odd)
+
+
+def _odd_elements(mode: NDArray[np.int64], works: _Works, usable: NDArray[np.bool_], sign: float) -> str:
+    """Name elements whose work is clearly negative, which that of a stiffness never is."""
+    is_odd = usable[:, None] & (sign * works.work < -_CLEAR * works.terms)
+    if not is_odd.any():
+        return ""
+    k, e = np.argwhere(is_odd)[0]
+    count = int(is_odd.any(axis=0).sum())
+    return (
+        f"{count} of {works.element.size} elements do work of the other sign, element {works.element[e]} in mode "
+        f"{mode[k]} the first"
+    )
 
 
 def _by_energy(ratio: NDArray[np.float64], has_mass: bool) -> SignProof:
@@ -96,7 +132,7 @@ def _by_energy(ratio: NDArray[np.float64], has_mass: bool) -> SignProof:
         return SignProof(worst, None, text)
     if has_mass and abs(worst) < 1 - WORK_TOLERANCE:
         text += " (the forces cover a part of the model)"
-    too_much = has_mass and abs(worst) > 1 + WORK_TOLERANCE
+    too_much = "more work than the mode has energy" if has_mass and abs(worst) > 1 + WORK_TOLERANCE else ""
     return SignProof(worst, "on_node" if worst < 0 else "on_element", text, too_much)
 
 

@@ -69,12 +69,13 @@ def read_run(options: ConvertOptions) -> ForeignRun:
     CaseError, DataError : any refusal of the readers; coordinates whose frequencies fit other modes
     """
     stage("reading forces and mesh")
-    results, model = read_forces(options.forces, options.subcase, options.interface_modes), read_model(options.mesh)
-    interface_modes = options.interface_modes
-    for path in options.unit_loads:
-        loads = read_forces(path, None)
+    of_files = [read_forces(path, None) for path in options.unit_loads]
+    beside = {mode for loads in of_files for mode in loads.mode.tolist()}
+    own = [mode for mode in options.interface_modes if mode not in beside]
+    results, model = read_forces(options.forces, options.subcase, own), read_model(options.mesh)
+    for loads in of_files:
         results = with_unit_loads(results, loads)
-        interface_modes = (*interface_modes, *loads.mode.tolist())
+    interface_modes = (*own, *sorted(beside))
     results = without_modes(results, options.ignore_modes)
     table, remarks = simulation_modes(options.simulation_modes)
     stage("reading modes and coordinates (%d files)", len(options.coordinates))

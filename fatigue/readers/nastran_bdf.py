@@ -105,6 +105,8 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) 
         except DataError as error:
             problems += error.problems
     _refuse_some(list(dict.fromkeys(_with_unread_frames(problems, left_out))))
+    if not shells:
+        raise DataError(_no_shells(bulk, left_out))
     turned = sorted(grid for grid, c in cd.items() if c)
     sets, set_remarks = joined_sets(bulk.sets, deck.control)
     return FeModel(
@@ -120,6 +122,14 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) 
         included=deck.included,
         remarks=(*deck.remarks, *bulk.remarks, *set_remarks, *bulk.twice.remarks(), *left_out.remarks(bulk.source)),
     )
+
+
+def _no_shells(bulk: _Bulk, left_out: LeftOut) -> Problem:
+    """Say which elements the deck has instead."""
+    others = bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)}
+    found = ", ".join(f"{n} {name}" for name, n in sorted(others.items())) or "no element at all"
+    what = f"the model has no shell elements ({', '.join(SHELLS)}): {len(bulk.grids)} grids, {found}"
+    return Problem("no_shells", bulk.source, what, "Give the bulk data that holds the plates")
 
 
 def _with_unread_frames(problems: list[Problem], left_out: LeftOut) -> list[Problem]:
@@ -150,7 +160,7 @@ def _section_doubts(properties: dict[int, Property], shells: list[Shell]) -> dic
 
 
 def _grid(bulk: _Bulk, card: Card) -> None:
-    grid = card.integer(0)
+    grid = card.identity()
     card.no_more_than(_GRID_FIELDS)
     if card.integer(7, 0):
         raise DataError(
@@ -240,7 +250,7 @@ def _add_property(bulk: _Bulk, card: Card, found: Property) -> None:
 
 
 def _shell(bulk: _Bulk, card: Card) -> None:
-    element = card.integer(0)
+    element = card.identity()
     known = bulk.shells.get(element)
     if known is None:
         bulk.shells[element] = card

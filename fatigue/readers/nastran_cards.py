@@ -44,6 +44,12 @@ class Card:
             return default
         raise self._bad(at, text, "a whole number")
 
+    def identity(self) -> int:
+        """Id of the card, a whole number above 0 in its first field."""
+        if (value := self.integer(0)) < 1:
+            raise self._bad(0, self.text(0), "a whole number above 0")
+        return value
+
     def real(self, at: int, default: float | None = None) -> float:
         """Real number in field ``at``, in any NASTRAN spelling such as ``2.9+7``; an empty field takes the default."""
         text = self.fields[at] if at < len(self.fields) else ""

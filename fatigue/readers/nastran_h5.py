@@ -77,6 +77,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
                 int(row["MODE"]),
                 float(row["FREQ"]),
                 float(row["MASS"]),
+                float(row["EIGEN"]),
             )
             for row in read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
         ]
@@ -249,12 +250,17 @@ def _frame_cards(read: Any) -> dict[int, FrameCard]:
     return found
 
 
+def _is_blank(value: float) -> bool:
+    return bool(np.isclose(value, _BLANK, rtol=1e-3, atol=0))
+
+
 def _sections(read: Any) -> tuple[dict[int, Section], dict[int, str]]:
     """Shell properties, and those whose thickness needs a confirmation by hand."""
     sections, doubts = {}, {}
     for row in read("NASTRAN/INPUT/PROPERTY/PSHELL", required=False):
         pid = int(row["PID"])
-        sections[pid] = Section(float(row["T"]))
+        thickness = float(row["T"])
+        sections[pid] = Section(np.nan if thickness == 0 or _is_blank(thickness) else thickness)
         if row["MID2"] not in (row["MID1"], -1) or abs(float(row["BK"]) - 1.0) > 1e-6 or row["MID4"] > 0:
             doubts[pid] = f"PSHELL {pid} has a bending stiffness of its own"
     ply = read("NASTRAN/INPUT/PROPERTY/PCOMP/PLY", required=False)
@@ -262,8 +268,7 @@ def _sections(read: Any) -> tuple[dict[int, Section], dict[int, str]]:
         pid, first = int(row["PID"]), int(row["PLY_POS"])
         total = float(ply["T"][first : first + int(row["PLY_LEN"])].sum())
         bottom = float(row["Z0"])
-        is_centred = np.isclose(bottom, _BLANK, rtol=1e-3, atol=0)
-        sections[pid] = Section(total, 0.0 if is_centred else bottom + total / 2)
+        sections[pid] = Section(total, 0.0 if _is_blank(bottom) else bottom + total / 2)
         doubts[pid] = f"PCOMP {pid} is a layered section"
     return sections, doubts
 

@@ -7,6 +7,9 @@ from pathlib import Path
 from fatigue.errors import Problem
 from fatigue.readers.nastran_lines import place
 
+_SHELL_NAMES = ("CQUAD", "CTRIA", "CSHEAR", "CSHELL", "CQAUD", "CTIRA")
+"""Beginnings of names of flat elements, misspelt ones among them."""
+
 
 @dataclass(slots=True)
 class LeftOut:
@@ -35,6 +38,12 @@ class LeftOut:
             remarks.append(
                 Problem("unread_text", self.first_unread, what, "Nothing to do if it is no data", self.unread)
             )
+        shells = [name for name in sorted(self.count) if name.startswith(_SHELL_NAMES)]
+        if shells:
+            listed = ", ".join(f"{self.count[name]} {name}" for name in shells)
+            what = f"cards that may be shells are not read: {listed}; no weld is found at them"
+            remedy = "Write plates as CQUAD4, CTRIA3 and the like; nothing to do for other elements"
+            remarks.append(Problem("unread_shells", self.first[shells[0]], what, remedy, len(shells)))
         if self.count:
             folder = f"{Path(source).parent}/"
             listed = ", ".join(

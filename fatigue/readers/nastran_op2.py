@@ -70,7 +70,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
             shapes += [block for pair in blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
         if _STATES_EIGENVALUE.match(table.name):
             for head in heads(op2, table):
-                if head.is_modal:
+                if head.is_modal and not head.superelement:
                     stated[head.key].append(head.eigenvalue)
     summary: list[Eigenvalue] = []
     if any(block.mode for block in forces) or not (forces or unusable):
@@ -197,8 +197,10 @@ def _kinds(op2: Op2File, table: Op2Table, raw: NDArray[np.bytes_]) -> NDArray[np
 
 
 def _shape_block(op2: Op2File, table: Op2Table, head: Identification, body: Record) -> ShapeBlock | None:
-    """Mode shape of one mode; None for what the audit has no use for."""
-    if head.approach not in (STATIC, MODES) or head.table_code not in (_EIGENVECTOR, _DISPLACEMENT) or head.is_thermal:
+    """Mode shape of one mode; None for what the audit has no use for, superelements among it."""
+    if head.approach not in (STATIC, MODES) or head.table_code not in (_EIGENVECTOR, _DISPLACEMENT):
+        return None
+    if head.is_thermal or head.superelement:
         return None
     record = op2.record(body)
     o, w = op2.order, op2.word
@@ -237,5 +239,5 @@ def _eigenvalues(op2: Op2File, table: Op2Table, head: Identification, body: Reco
             raise damaged(
                 op2, table, f"eigenvalue {eigenvalue:g} and {frequency:g} Hz of mode {row['mode']} contradict"
             )
-        found.append(Eigenvalue(head.subcase, int(row["mode"]), frequency_of(eigenvalue), mass))
+        found.append(Eigenvalue(head.subcase, int(row["mode"]), frequency_of(eigenvalue), mass, eigenvalue))
     return found

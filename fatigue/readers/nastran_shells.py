@@ -110,7 +110,7 @@ def pcomp(card: Card) -> Property:
     starts = range(8, len(card.fields), 4) if card.name == "PCOMP" else range(9, len(card.fields), 8)
     total, last = 0.0, 0.0
     for at in starts:
-        if any(card.text(at + k) for k in range(2)):
+        if any(card.text(at + k) for k in range(4)):  # an angle alone makes a ply, too
             last = card.real(at + 1, last)
             total += last
     if card.text(7).upper().startswith("SY"):  # SYM, SYMEM, SYBEND, SYSMEAR

@@ -130,6 +130,45 @@ def test_too_much_work_is_red(model):
     assert rows(replace(results, shape=2 * results.shape), model)["sign"].light == "red"
 
 
+def test_shapes_of_other_modes_are_red(model):
+    """Forces and shapes in different orders: the works of elements have both signs above the lowest elastic mode."""
+    results = tee().results
+    for order in ([4, 3, 2, 1, 0], [0, 1, 3, 2, 4]):
+        found = rows(replace(results, shape=results.shape[order]), model)["sign"]
+        assert found.light == "red"
+        assert "as if its shape were that of another mode" in found.finding
+    shifted = rows(replace(results, shape=np.roll(results.shape, 1, axis=0)), model)["sign"]
+    assert shifted.light != "green"
+    assert "in no mode with a frequency" in shifted.finding
+
+
+@pytest.mark.parametrize("single", [False, True])
+@pytest.mark.parametrize("analysis", ["modal", "static"])
+def test_an_element_of_the_other_sign_is_told(model, analysis, single):
+    """One of all shells turned, in a file without totals: it is in balance, and its strain energy is negative."""
+    results = only(tee().results, tee().results.of_element)
+    kind = np.float32 if single else np.float64
+    results = replace(results, force=results.force.astype(kind), shape=results.shape.astype(kind), analysis=analysis)
+    if analysis == "static":
+        results = replace(results, frequency=np.full(5, np.nan), modal_mass=np.full(5, np.nan))
+    assert rows(results, model)["sign"].light == "green"
+    for element in (5, 60, 100):
+        force = np.where((results.element == element)[:, None], -results.force, results.force)
+        found = rows(replace(results, force=force), model)
+        assert found["element balance"].light == "green"
+        assert found["sign"].light == "amber"
+        assert f"1 of 120 elements do work of the other sign, element {element} in mode" in found["sign"].finding
+
+
+def test_modes_without_any_force_are_told(model):
+    """A mode with a frequency strains something; zeros are those of a run that did not recover it."""
+    results = tee().results
+    force = results.force * np.array([1, 0, 1, 0, 1])[:, None, None]
+    found = rows(replace(results, force=force), model)["completeness"]
+    assert found.light == "amber"
+    assert "in 2 modes with a frequency all forces are zero, mode 2 the first" in found.finding
+
+
 def test_sign_without_frequencies(model):
     """Element works of one sign decide where no mode has a frequency; mixed ones do not."""
     results = replace(tee().results, frequency=np.zeros(5))

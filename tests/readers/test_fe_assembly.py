@@ -143,6 +143,19 @@ def test_modes_without_frequency_are_red(tmp_path, model):
         convert(ConvertOptions(forces=path, mesh=tmp_path / "tee.bdf", out=tmp_path / "body"))
 
 
+@pytest.mark.parametrize("table", ["LAMA", "OUGV1"])
+def test_unstable_modes_are_told(tmp_path, table):
+    """A negative eigenvalue is no frequency, unless it is the round-off of a rigid mode."""
+    writer = Op2Writer(8)
+    add = summary if table == "LAMA" else lambda w, values: beside(w, "OUGV1", values)
+    add(writer, [-1e-6, -LAMBDA[1]])
+    two_modes(writer)
+    (tmp_path / "a.op2").write_bytes(writer.close())
+    found = read_op2(tmp_path / "a.op2")
+    (remark,) = [r for r in found.remarks if r.code == "unstable_mode"]
+    assert "1 modes have a negative eigenvalue, mode 2 the first (-2526.62)" in remark.what
+
+
 def test_own_words_of_forces_must_agree(tmp_path):
     """Words 14 and 16 of the forces count if they are an eigenvalue and its frequency; none may contradict."""
     own = ((LAMBDA[0], 3.0), (LAMBDA[1], 8.0))
@@ -257,6 +270,19 @@ def test_unit_loads_beside_modes(tmp_path, model):
     assert set(lights(found, model, interface_modes=(21, 23)).values()) == {"green"}
     assert read_op2(path, subcase=1, interface=(21,)).mode.tolist() == [1, 2, 3, 4, 5, 21]
     assert read_op2(path, subcase=22).mode.tolist() == [22]
+
+
+def test_unit_loads_without_forces_are_told(tmp_path):
+    """A request within one subcase holds there only; a subcase that is asked for lacks nothing."""
+    writer = Op2Writer(8)
+    for case in (21, 22):
+        rows = [row[:2] for row in unit_loads()[0].shape]
+        writer.table("OUGV1", [writer.identification(1, 1, 0, 8, subcase=case), writer.shape(rows)])
+    writer.table("OGPFB1", [writer.identification(1, 19, 0, 10, subcase=22), writer.forces(unit_loads()[0].rows)])
+    (tmp_path / "a.op2").write_bytes(writer.close())
+    (remark,) = read_op2(tmp_path / "a.op2").remarks
+    assert "1 static subcases have displacements and no grid point forces, subcase 21 the first" in remark.what
+    assert not read_op2(tmp_path / "a.op2", 22).remarks
 
 
 def test_shapes_in_any_order_of_grids(tmp_path, model):

@@ -106,6 +106,7 @@ def test_default_frames_of_grids(read):
         ("PCOMP,1\n,1,1.,0.,,1,,90.", 2.0, 0.0, "layered"),
         ("PCOMP,1,0.,,,,,,SYM\n,1,1.,0.,,1,2.,90.", 6.0, 3.0, "layered"),
         ("PCOMPG,1\n,1,1,.5\n,2,1,1.", 1.5, 0.0, "layered"),
+        ("PCOMP,1\n,1,.5,0.,,,,90.\n,,,45.,,,,,YES", 2.0, 0.0, "layered"),  # an angle or a request alone is a ply
     ],
 )
 def test_sections(read, section, thickness, offset, doubt):
@@ -223,6 +224,14 @@ def test_cards_nobody_needs_are_counted(read):
         assert words in remark.what
 
 
+def test_shells_that_are_not_read_are_told(read):
+    """Elements of other kinds and misspelt names beside plates: no weld is found at them."""
+    model = read(QUAD + "CQUAD2,7,1,1,2,3,4\nCQUAD44,8,1,1,2,3,4\nCSHEAR,9,1,1,2,3,4\nCSHEAR,10,1,1,2,3,4\nCBUSH,11\n")
+    (remark,) = [r for r in model.remarks if r.code == "unread_shells"]
+    assert remark.where.endswith("line 7")
+    assert "not read: 1 CQUAD2, 1 CQUAD44, 2 CSHEAR; no weld" in remark.what
+
+
 @pytest.mark.parametrize(
     ("section", "element", "offset"),
     [
@@ -256,7 +265,8 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (PLATE, "no shell elements"),
+        (PLATE, "no shell elements .*: 4 grids, no element at all"),
+        (PLATE + "CQAUD4,1,1,1,2,3,4\nCBAR,2,1,1,2\nCBAR,3,1,2,3\n", "4 grids, 2 CBAR, 1 CQAUD4. Give the bulk data"),
         (QUAD + "CQUAD4,1,1,2,3,4,1\n", "used twice, the first time at .*line 6"),
         (QUAD + "CTRIA3,1,1,1,2,3\n", "used twice"),
         (PLATE + "CQUAD4,1,1,1,2,3,9\n", "grid 9 does not exist"),
@@ -266,6 +276,8 @@ def test_a_thickness_of_zero_is_one_left_blank(read):
         (QUAD + "GRID,9,,1_0.,0.,0.\n", "not a number of sensible size"),
         (QUAD + "GRID,9,,1e999,0.,0.\n", "sensible size"),
         (QUAD + "GRID,,,0.,0.,0.\n", "field 2 is empty"),
+        (QUAD + "GRID,0,,0.,0.,0.\n", "line 7: GRID field 2 is '0', not a whole number above 0"),
+        (QUAD + "CTRIA3,-4,1,1,2,3\n", "CTRIA3 field 2 is '-4', not a whole number above 0"),
         (QUAD + "GRID,9,4,0.,0.,0.\n", "coordinate system 4: it does not exist. Include the file"),
         (
             QUAD + "GRID,9,4,0.,0.,0.\nCORD3G,4,E313\n",

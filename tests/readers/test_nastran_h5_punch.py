@@ -121,6 +121,21 @@ def test_h5_sections_and_frames(h5):
     assert "not a PSHELL" in model.section_doubt[77]
 
 
+@pytest.mark.parametrize("blank", [0.0, 1.7368e-18])
+def test_h5_thickness_left_blank(h5, blank):
+    """Elements of the property may give their own; one that does not has no thickness."""
+    path, file = h5
+    change(file, "NASTRAN/INPUT/PROPERTY/PSHELL", "T", blank, 0)
+    rows = file["NASTRAN/INPUT/ELEMENT/CQUAD4"][:]
+    rows["T"][0] = 0.3
+    file["NASTRAN/INPUT/ELEMENT/CQUAD4"][:] = rows
+    file.close()
+    mesh = read_h5_model(path).mesh
+    of = dict(zip(mesh.element.tolist(), mesh.thickness.tolist(), strict=True))
+    assert of[int(rows["EID"][0])] == pytest.approx(0.3)
+    assert np.isnan(of[int(rows["EID"][1])])
+
+
 def test_missing_h5py_is_told(monkeypatch):
     """Without h5py the message says what to install."""
     plain = builtins.__import__

@@ -1,5 +1,6 @@
 """Blocks of OP2 tables: whose results they are, data in several records, and tables nobody needs."""
 
+import numpy as np
 import pytest
 
 from fatigue.errors import DataError
@@ -44,6 +45,22 @@ def test_superelements_beside_the_residual_structure(tmp_path):
     found = read_back(tmp_path / "a.op2", *tables)
     assert found.force.shape == (1, 1, 6)
     assert found.remarks[0].what.startswith("2 blocks of superelements are left out")
+
+
+def test_shapes_and_eigenvalues_of_superelements_are_not_those_of_the_residual_structure(tmp_path):
+    """Blocks of superelements behind those of the residual structure have the same subcase and mode."""
+    label = "T".ljust(128) + SUBTITLE + "SUPERELEMENT 10"
+
+    def both(writer):
+        blocks = []
+        for grid, eigenvalue, text in ((1, 400.0, ""), (7, 900.0, label)):
+            head = writer.identification(2, 7, 1, 8, eigenvalue=eigenvalue, label=text)
+            blocks += [head, writer.shape([(grid, [1.0] * 6)])]
+        writer.table("OUGV1", blocks)
+
+    found = read_back(tmp_path / "a.op2", one_mode, both)
+    assert found.shape_node.tolist() == [1]
+    assert found.frequency == pytest.approx([20 / (2 * np.pi)])
 
 
 def test_tables_nobody_needs_are_never_a_reason_to_refuse(tmp_path):

@@ -7,10 +7,14 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.readers.audit import audit
+from fatigue.readers.convert_options import ConvertOptions
+from fatigue.readers.foreign_run import read_run
 from fatigue.readers.nastran_bdf import read_bdf
 from fatigue.readers.unit_loads import with_unit_loads
+from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
 from tests.readers.test_audit import only
+from tests.readers.unit_loads import SUBCASES, unit_load_op2
 
 
 def static_cases(sign=1.0):
@@ -78,3 +82,23 @@ def test_what_does_not_belong_together_is_refused():
     ):
         with pytest.raises(DataError, match=said):
             with_unit_loads(tee().results, second)
+
+
+def test_unit_loads_of_their_own_file_may_be_named_as_interface_modes(tmp_path):
+    """They are there, in the other file; only names that are in neither file are told."""
+    (tmp_path / "tee.bdf").write_text(bulk(tee()))
+    (tmp_path / "modes.op2").write_bytes(modal_op2(tee().results, 8))
+    (tmp_path / "loads.op2").write_bytes(unit_load_op2().close())
+    options = ConvertOptions(
+        forces=tmp_path / "modes.op2",
+        mesh=tmp_path / "tee.bdf",
+        out=tmp_path / "body",
+        coordinates=(),
+        unit_loads=(tmp_path / "loads.op2",),
+    )
+    absent = "of the interface modes named, 1 have no forces, 99 the first"
+    for named, told in (((21, 22, 23), []), ((21, 99), [absent])):
+        run = read_run(replace(options, interface_modes=named))
+        assert [r.what for r in run.results.remarks] == told
+        assert sorted(run.interface_modes) == sorted({*named, *SUBCASES})
+        assert run.results.mode.tolist() == [1, 2, 3, 4, 5, *SUBCASES]

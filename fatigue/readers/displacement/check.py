@@ -63,12 +63,22 @@ def displacement_row(
             f"{name}: the force file holds no mode shapes to compare it with",
             "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for all modes in the same run",
         )
+    given = {int(mode) for history in histories for mode in history.mode}
+    bare = [m for m, u in zip(results.mode.tolist(), results.shape, strict=True) if m in given and not u.any()]
+    if bare:
+        return AuditRow(
+            CHECK,
+            "amber",
+            None,
+            f"{name}: {len(bare)} modes with coordinates have no displacements in the force file, mode {bare[0]} the "
+            "first, so that the sum of the modes lacks them",
+            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for the unit loads, too",
+        )
     coordinate = coordinate_units(results, units, normalisation)
     factor = coordinate_units(results, history_units, normalisation)
     shape = _shape(asked, name, results, model) * units.length * (scale / coordinate)[:, None]
     direction = "xyz".index(asked.direction)
     found = [compared(record, direction, results.mode, shape, factor, history) for history in histories]
-    given = {int(mode) for history in histories for mode in history.mode}
     lacking = [
         int(mode)
         for mode, hertz in zip(results.mode, results.frequency, strict=True)

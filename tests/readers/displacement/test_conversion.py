@@ -173,6 +173,16 @@ def test_without_mode_shapes_it_says_so(simulated):
     assert "Request DISPLACEMENT" in found.remedy
 
 
+def test_a_mode_without_displacements_is_no_wrong_sum(simulated):
+    """Unit loads whose displacements were not requested: nothing is compared."""
+    options, displacement = simulated
+    shape = tee().results.shape * np.array([1, 1, 1, 1, 0])[:, None, None]
+    options.forces.write_bytes(modal_op2(replace(tee().results, shape=shape), word=8))
+    found = row(replace(options, displacements=(displacement(NODE, "z"),)))
+    assert found.light == "amber"
+    assert "1 modes with coordinates have no displacements in the force file, mode 5 the first" in found.finding
+
+
 def test_what_cannot_be_compared_is_refused(simulated):
     """A node that does not exist, no coordinates."""
     options, displacement = simulated
