@@ -113,8 +113,15 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
         return column
 
     fields = [schema.field(k) for k in range(len(names))]
-    units = tuple(((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields)
+    units = tuple(map(_unit_in_metadata, fields))
     return Columns(names, tuple(schema.types), rows, read, units=units)
+
+
+def _unit_in_metadata(field: pa.Field) -> str:
+    """Find the unit that the metadata of a column states, under any of the usual keys; empty if there is none."""
+    stated = {key.decode("utf-8", "replace").lower(): value for key, value in (field.metadata or {}).items()}
+    found = next((stated[key] for key in ("unit", "units", "unit_string", "uom") if key in stated), b"")
+    return found.decode("utf-8", "replace").strip()
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:

@@ -21,7 +21,11 @@ HEADER_LINES = 100  # within which names are broken over several lines
 MOST_BREAKS = 20  # lines of one cell
 
 _SEP_LINE = re.compile(r'\s*"?sep=(.)"?\s*\Z', re.IGNORECASE)
-_UNIT = re.compile(r"(?:[\[(<].*[\])>]|-|s|ms|us|µs|min|h|Hz|mm|cm|m|in|N|kN|N\.?mm|N\.?m|MPa|kg|t)\Z", re.IGNORECASE)
+_UNIT = re.compile(
+    r"(?:[\[(<].*[\])>]|-|s|sec|sek|ms|msec|us|µs|min|h|k?Hz|rad/s|mm|cm|m|in|inch|ft"
+    r"|k?N(?:[.* ]?m?m)?|lbf?|[MG]?Pa|psi|k?g|t)\Z",
+    re.IGNORECASE,
+)
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+")
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
@@ -79,6 +83,12 @@ def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
     return layout_of(path, text_lines(text, whole=whole), encoding, lambda name: name not in texts)
 
 
+def declared_separator(line: str) -> str | None:
+    """Separator that a line such as ``sep=;`` declares; None of any other line."""
+    found = _SEP_LINE.match(line)
+    return None if found is None else found[1]
+
+
 def text_lines(text: str, *, whole: bool = True) -> list[str]:
     """Lines of a text; the last one of a part of a file is left out."""
     lines = _LINE_END.split(text)
@@ -108,8 +118,8 @@ def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: 
         raise DataError(_no_names(path))
     lines = whole_cells(lines[:HEADER_LINES]) + list(lines[HEADER_LINES:])
     for at, line in enumerate(lines):
-        if found := _SEP_LINE.match(line):
-            declared = found[1]
+        if found := declared_separator(line):
+            declared = found
         elif line.lstrip().startswith(COMMENTS):
             comment = at
         elif line.strip():

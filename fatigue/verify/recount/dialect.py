@@ -96,7 +96,7 @@ def _numbers(column: "pd.Series[str]") -> "pd.Series[str]":
     try:
         column.astype(np.float64)
     except ValueError:
-        plain = column.str.replace(",", ".").str.strip()
+        plain = column.str.replace(",", ".").str.replace("\u2212", "-").str.strip()
         plain = plain.str.replace(r"(?<=[\d.])[DdQq](?=[+-]?\d)", "E", regex=True)
         return plain.str.replace(r"^([+-]?\d*\.\d*)([+-]\d{1,3})$", r"\1E\2", regex=True)
     return column
