@@ -23,6 +23,7 @@ _SAMPLE = 200
 _SEPARATORS = ("\t", ";", ",", "|", None)  # None: blanks
 _RULE = re.compile(r"[\s\-=_+|*#;,]+\Z")
 _NUMERIC_START = re.compile("[\\s\"']*[-+\u2212.,;|\\d]|\\s*\\Z")
+_ERROR = re.compile(r"#(?:N/?A|NV|[A-Z]+[!?]|[A-Z]+/0!)\Z")  # a spreadsheet's, which is no comment
 _DATE = re.compile(
     r"(?<!\d)(\d{4}-\d{1,2}-\d{1,2}|\d{1,2}\.\d{1,2}\.\d{2,4}|\d{1,2}/\d{1,2}/\d{2,4}|\d{1,2}:\d{2}(?::\d{2})?)(?!\d)"
 )
@@ -242,7 +243,9 @@ def _value_line(line: str, headers: Sequence[Sequence[str]], rows: Rows) -> str:
     if is_rule(line):
         return ""
     if not _NUMERIC_START.match(line):
-        if line.lstrip().startswith(COMMENTS) or tuple(split_fields(line, rows.separator)) in headers:
+        cells = split_fields(line, rows.separator)
+        is_comment = line.lstrip().startswith(COMMENTS) and not (len(cells) == rows.width and _ERROR.match(cells[0]))
+        if is_comment or tuple(cells) in headers:
             return ""
         return line
     if rows.separator is None or '"' in line:

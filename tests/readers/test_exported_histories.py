@@ -71,6 +71,8 @@ def test_fixed_columns_that_touch(read):
         ("time,q_1\n" + 9 * "0,1\n" + "time,q_2\n0,1\n1,2\n", "line 11: 'time,q_2' stands among .* another table"),
         ("time,q_1\n" + 9 * "0,1\n" + "ms,-\n0,1\n", "line 11: 'ms,-' stands among the rows of numbers"),
         ("time,q_1\n0,1\n1,2\nms,-\n0,1\n", "line 2: a row of numbers .* among the lines of the header"),
+        ("time,q_1\n0,1\n1,2\n#N/A,3\n", "line 4: '#N/A' in time is no number"),
+        ("time,q_1\n" + 9 * "0,1\n" + "#DIV/0!,2\n2,3\n", "line 11: '#DIV/0!,2' is no row of numbers"),
         ("time,0,1,2\nq_1,1,2,3\nq_2,1,2,3\n", "line 1: the table lies on its side"),
         ("time,q_1\n0 sec,1\n1 sec,2\n", "line 2: no row of numbers: '0 sec' is a number with a unit"),
         ("time;q_1\n1.000.000;1\n1.000.100;2\n", "line 2: no row of numbers: '1.000.000' has thousands separators"),
