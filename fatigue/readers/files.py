@@ -174,12 +174,26 @@ def _arrow_table(path: Path, layout: TableLayout, texts: Collection[str]) -> pa.
 
 
 def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
-    """Give Arrow the file itself, or where blanks divide its cells or a UTF-16 mark is missing, a text it can read."""
-    if layout.separator is not None:
+    """Give Arrow the file itself, or a text it can read: blanks divide its cells or stand before quotation marks, DOS.
+
+    DOS ends a text with a control character.
+    """
+    if layout.separator is not None and not layout.padded and not _ends_as_dos(path):
         return path
-    text, _ = read_text(path)
-    rows = ("\t".join(split_fields(line, None)) for line in text_lines(text))
+    lines = text_lines(read_text(path)[0])
+    if layout.separator is None:
+        rows = ["\t".join(split_fields(line, None)) for line in lines]
+    else:
+        before = re.compile(rf'({re.escape(layout.separator)}|^)[ \t]+(?=")')
+        rows = [before.sub(r"\1", line) for line in lines] if layout.padded else lines
     return BytesIO("\n".join(rows).encode(layout.encoding))
+
+
+def _ends_as_dos(path: Path) -> bool:
+    with path.open("rb") as file:
+        file.seek(0, 2)
+        file.seek(max(0, file.tell() - 1))
+        return file.read() == b"\x1a"
 
 
 def _empty_lines(path: Path, layout: TableLayout, rows: int) -> NDArray[np.bool_]:
