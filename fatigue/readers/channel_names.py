@@ -5,18 +5,19 @@ frequency left out.
 """
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from fatigue.readers.coordinate_units import parse_unit, states_no_unit
 
 _SECONDS = {
-    Fraction(1): "s sec secs second seconds sek sekunde sekunden",
-    Fraction(1, 1000): "ms msec msecs millisecond milliseconds millisekunde millisekunden",
-    Fraction(1, 10**6): "us µs μs usec microsecond microseconds mikrosekunde mikrosekunden",
+    Fraction(1): "s s. sec sec. secs second seconds sek sek. sekunde sekunden",
+    Fraction(1, 1000): "ms msec msec. msecs msek millisec millisecond milliseconds millisekunde millisekunden",
+    Fraction(1, 10**6): "us µs μs usec µsec microsec microsecond microseconds mikrosekunde mikrosekunden",
     Fraction(1, 10**9): "ns nsec nanosecond nanoseconds",
-    Fraction(60): "min mins minute minutes minuten",
-    Fraction(3600): "h hr hrs hour hours std stunde stunden",
+    Fraction(60): "min min. mins minute minutes minuten",
+    Fraction(3600): "h hr hrs hour hours std std. stunde stunden",
     Fraction(86400): "d day days",
 }
 TIME_UNITS = {word: seconds for seconds, words in _SECONDS.items() for word in words.split()}
@@ -24,7 +25,9 @@ TIME_UNITS = {word: seconds for seconds, words in _SECONDS.items() for word in w
 
 _TIME = re.compile(
     r"\s*(?:[\w$.]+_(?:time|zeit)|(?:[\w$. ]*[.:]\s*)?"
-    r"(?:time[ _]?stamp|(?:sim(?:ulation)?[ _]?)?time|zeit|temps|tiempo|tempo|tout|x[_ ]value|t))"
+    r"(?:time[ _]?stamp|time[ _]?axis|zeitstempel|zeitachse|x[_ ]value|tout|temps|tiempo|tempo"
+    r"|(?:(?:sim|simulation|elapsed|relative|rel\.|run|total|solution|analysis|output)[ _-]?)?time"
+    r"|(?:simulations|simulierte |relative |mess|lauf|rechen|fahr)?zeit|t))"
     r"(?P<rest>(?![a-z]).*)\Z",
     re.IGNORECASE | re.DOTALL,
 )
@@ -36,7 +39,8 @@ _SECONDS_NAMED = re.compile(r"(seconds|secs|sekunden|milliseconds|millisekunden)
 _FREQUENCY = re.compile(
     r"(?:\bf(?:req(?:uency)?)?\s*=?\s*)?(\d+(?:[.,]\d*)?|[.,]\d+)(E[+-]?\d+)?\s*(k|m)?Hz\b", re.IGNORECASE
 )
-_SQUARE = re.compile(r"\s*\[([^\]]*[^\W\d_][^\]]*|-|)\]\s*\Z")
+_UNIT_ONE = re.compile(r"\s*[\[(<]\s*1\s*[\])>]\s*\Z")
+_SQUARE = re.compile(r"\s*\[([^\]]*[^\W\d_][^\]]*|[-%‰°]|)\]\s*\Z")
 _ROUND = re.compile(r"\s*[(<{]\s*([^()]*(?:\([^()]*\)[^()]*)*)\s*[)>}]\s*\Z")
 _OTHER = re.compile(r"rad|deg|°|k?N|N\.?m+|[mc]?m/s(?:\^?2|\*\*2|²)?|[kM]?Pa|m?V|%|s|ms|Hz")  # no coordinate has them
 _TRAILING = re.compile(r"(?<=\d|\))\s*(?:/|,|:|\.|\s+in\s+|_|\s)\s*(mm|cm|m|km|inch|in|ft|µm|um)\s*\Z")
@@ -78,6 +82,14 @@ def channel(name: str) -> Channel:
         numbers = re.findall(r"\d{1,9}", base, re.ASCII)
         mode = int(numbers[-1]) if numbers else 0
     return Channel(name, base.strip(), False, unit, mode, frequency, resolution)
+
+
+def without_unit_one(names: Sequence[str]) -> list[str]:
+    """Leave ``[1]`` out where it ends all names but that of time: a unit, as the numbers of modes differ."""
+    coordinates = [name for name in names if time_unit_in(name) is None]
+    if len(coordinates) > 1 and all(_UNIT_ONE.search(name) for name in coordinates):
+        return [_UNIT_ONE.sub("", name) for name in names]
+    return list(names)
 
 
 def _time_base(name: str) -> str:

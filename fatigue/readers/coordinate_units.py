@@ -23,6 +23,7 @@ _NONE = (
     "unitless",
     "dimensionless",
     "no unit",
+    "no units",
     "nounit",
     "no_units",
     "ohne",

@@ -113,8 +113,15 @@ def _open_parquet(path: Path, texts: Collection[str]) -> Columns:
         return column
 
     fields = [schema.field(k) for k in range(len(names))]
-    units = tuple(((field.metadata or {}).get(b"unit") or b"").decode("utf-8", "replace") for field in fields)
+    units = tuple(map(_unit_in_metadata, fields))
     return Columns(names, tuple(schema.types), rows, read, units=units)
+
+
+def _unit_in_metadata(field: pa.Field) -> str:
+    """Find the unit that the metadata of a column states, under any of the usual keys; empty if there is none."""
+    stated = {key.decode("utf-8", "replace").lower(): value for key, value in (field.metadata or {}).items()}
+    found = next((stated[key] for key in ("unit", "units", "unit_string", "uom") if key in stated), b"")
+    return found.decode("utf-8", "replace").strip()
 
 
 def _open_csv(path: Path, texts: Collection[str]) -> Columns:
@@ -167,12 +174,26 @@ def _arrow_table(path: Path, layout: TableLayout, texts: Collection[str]) -> pa.
 
 
 def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
-    """Give Arrow the file itself, or where blanks divide its cells or a UTF-16 mark is missing, a text it can read."""
-    if layout.separator is not None:
+    """Give Arrow the file itself, or a text it can read: blanks divide its cells or stand before quotation marks, DOS.
+
+    DOS ends a text with a control character.
+    """
+    if layout.separator is not None and not layout.padded and not _ends_as_dos(path):
         return path
-    text, _ = read_text(path)
-    rows = ("\t".join(split_fields(line, None)) for line in text_lines(text))
+    lines = text_lines(read_text(path)[0])
+    if layout.separator is None:
+        rows = ["\t".join(split_fields(line, None)) for line in lines]
+    else:
+        before = re.compile(rf'({re.escape(layout.separator)}|^)[ \t]+(?=")')
+        rows = [before.sub(r"\1", line) for line in lines] if layout.padded else lines
     return BytesIO("\n".join(rows).encode(layout.encoding))
+
+
+def _ends_as_dos(path: Path) -> bool:
+    with path.open("rb") as file:
+        file.seek(0, 2)
+        file.seek(max(0, file.tell() - 1))
+        return file.read() == b"\x1a"
 
 
 def _empty_lines(path: Path, layout: TableLayout, rows: int) -> NDArray[np.bool_]:

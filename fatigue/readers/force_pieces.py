@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from fatigue.naming import composed
 from fatigue.readers.body import Modes
 from fatigue.readers.files import Columns
 from fatigue.readers.force_check import RegularCheck, regular_check
@@ -66,6 +67,7 @@ class ForcePieces:
         self._decoded: dict[int, _Piece] = {}
         if len(groups) > 1:
             self._source = _source(path, self._welds, scratch)
+            self._nameless = _nameless(path, self._source.header)
 
     def table(self, group: int) -> Table:
         """Rows of one group of welds."""
@@ -79,6 +81,8 @@ class ForcePieces:
         stored = {i: name for name, i in header.position.items()}
 
         def read(position: int) -> pa.ChunkedArray:
+            if position in self._nameless:
+                return self._nameless[position]
             return weld if stored[position] == "weld" else rows.column(stored[position])
 
         columns = Columns(header.columns.names, header.columns.kinds, rows.num_rows, read, rows.column(ROW).to_numpy())
@@ -128,6 +132,16 @@ class ForcePieces:
             rows, group = rows.take(order), group[order]
         begin = np.searchsorted(group, np.arange(len(self._welds.groups) + 1))
         return _Piece(rows, begin, set(np.flatnonzero(np.diff(begin)).tolist()))
+
+
+def _nameless(path: Path, header: Table) -> dict[int, pa.ChunkedArray]:
+    """First value, if there is any, of every column without a name: they are told, and not kept in pieces."""
+    places = [k for k, name in enumerate(header.columns.names) if not composed(name)]
+    if not places:
+        return {}
+    columns = open_nodal_forces(path).columns
+    filled = {k: (v for v in columns.read(k).to_pylist() if v is not None and str(v).strip()) for k in places}
+    return {k: pa.chunked_array([[v for v in (next(values, None),) if v is not None]]) for k, values in filled.items()}
 
 
 def _renamed(table: Table, welds: WeldCodes) -> Table:

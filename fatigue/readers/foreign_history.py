@@ -178,12 +178,15 @@ def matched(
     found = history.mode if match == "id" else _by_frequency(history, mode, frequency)
     nameless = np.flatnonzero(found <= 0)
     if nameless.size:
+        remedy = "Name columns by mode number, map them by --columns (a file of 'column,mode'), or --match order"
+        if np.isfinite(history.frequency).all():
+            remedy = "Join by the frequencies in the names, --match frequency, or map columns by --columns"
         raise DataError(
             Problem(
                 "nameless_column",
                 history.source,
                 f"column {history.name[nameless[0]]!r} names no mode",
-                "Name columns by mode number, map them by --columns (a file of 'column,mode'), or --match order",
+                remedy,
             )
         )
     unique, count = np.unique(found, return_counts=True)

@@ -12,16 +12,18 @@ import pyarrow.csv as pa_csv
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.readers.channel_names import time_unit_in
+from fatigue.readers.no_rows import THOUSANDS, no_rows_problem
 from fatigue.readers.text_encoding import Encoding, read_text
 from fatigue.readers.text_layout import COMMENTS, text_lines
-from fatigue.readers.text_numbers import Decimal, is_gap, is_number, split_fields
+from fatigue.readers.text_numbers import Decimal, is_gap, is_number, split_fields, written_apart
 
 HEAD_LINES = 5000
 _SAMPLE = 200
 _SEPARATORS = ("\t", ";", ",", "|", None)  # None: blanks
 _RULE = re.compile(r"[\s\-=_+|*#;,]+\Z")
-_NUMERIC_START = re.compile(r"[\s\"']*[-+.,;|\d]|\s*\Z")
-_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,' \u00a0\u202f]\d{3})+(?:[.,]\d*)?\Z")
+_NUMERIC_START = re.compile("[\\s\"']*[-+\u2212.,;|\\d]|\\s*\\Z")
+_ERROR = re.compile(r"#(?:N/?A|NV|[A-Z]+[!?]|[A-Z]+/0!)\Z")  # a spreadsheet's, which is no comment
 _DATE = re.compile(
     r"(?<!\d)(\d{4}-\d{1,2}-\d{1,2}|\d{1,2}\.\d{1,2}\.\d{2,4}|\d{1,2}/\d{1,2}/\d{2,4}|\d{1,2}:\d{2}(?::\d{2})?)(?!\d)"
 )
@@ -87,14 +89,7 @@ def find_rows(path: Path, lines: Sequence[str]) -> Rows:
     )
     if dated is not None:
         raise DataError(_date_problem(path, dated, head[dated]))
-    raise DataError(
-        Problem(
-            "no_table",
-            str(path),
-            f"no row of numbers in the first {min(len(lines), HEAD_LINES)} lines",
-            "Export time and modal coordinates as columns of text",
-        )
-    )
+    raise DataError(no_rows_problem(path, head))
 
 
 def _refuse_two_commas(path: Path, head: Sequence[str], rows: Rows) -> None:
@@ -248,7 +243,9 @@ def _value_line(line: str, headers: Sequence[Sequence[str]], rows: Rows) -> str:
     if is_rule(line):
         return ""
     if not _NUMERIC_START.match(line):
-        if line.lstrip().startswith(COMMENTS) or tuple(split_fields(line, rows.separator)) in headers:
+        cells = split_fields(line, rows.separator)
+        is_comment = line.lstrip().startswith(COMMENTS) and not (len(cells) == rows.width and _ERROR.match(cells[0]))
+        if is_comment or tuple(cells) in headers:
             return ""
         return line
     if rows.separator is None or '"' in line:
@@ -259,7 +256,7 @@ def _value_line(line: str, headers: Sequence[Sequence[str]], rows: Rows) -> str:
 
 def _plain_exponents(line: str) -> str:
     """Write exponents of Fortran after an E."""
-    line = re.sub(r"(?<=[\d.,])[DQdq](?=[+-]?\d)", "E", line)
+    line = re.sub(r"(?<=[\d.,])[DQdq](?=[+-]?\d)", "E", written_apart(line).replace("\u2212", "-"))
     return re.sub(r"(?<![\w])([+-]?(?:\d+[.,]\d*|[.,]\d+))([+-]\d{1,3})(?![\w.])", r"\1E\2", line)
 
 
@@ -276,10 +273,13 @@ def _row_problem(path: Path, body: Sequence[str], rows: Rows, names: Sequence[st
             return _date_problem(path, number - 1, line)
         is_text = wrong[:1] == [0] and re.search(r"[^\W\d]{2}", cells[0])
         if len(wrong) == len(cells) or (wrong and (is_text or len(cells) != rows.width)):
+            if len(wrong) == len(cells) and (len(cells) == rows.width or time_unit_in(cells[0]) is not None):
+                what = f"{_shown(line)} stands among the rows of numbers, where another table seems to begin"
+                return Problem("second_table", where, what, "Export all channels side by side, in one table")
             what = f"{_shown(line)} is no row of numbers; the table does not hold numbers only"
             return Problem("bad_table", where, what, "Remove what stands among or below the rows of numbers")
         if wrong:
-            worst = next((c for c in wrong if _THOUSANDS.match(cells[c])), wrong[0])
+            worst = next((c for c in wrong if THOUSANDS.match(cells[c])), wrong[0])
             return _cell_problem(where, cells[worst], worst, rows, names)
         if len(cells) != rows.width:
             return _count_problem(where, len(cells), rows)
@@ -293,7 +293,7 @@ def _cell_problem(where: str, cell: str, column: int, rows: Rows, names: Sequenc
     what = f"{cell!r} in {name} is no number; the table does not hold numbers only"
     remedy = "Export plain columns of numbers below one line of names"
     other: Decimal = "," if rows.decimal == "." else "."
-    if _THOUSANDS.match(cell):
+    if THOUSANDS.match(cell):
         what += "; it seems to have thousands separators"
         remedy = "Export without thousands separators"
     elif is_number(cell, other):

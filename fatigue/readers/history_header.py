@@ -11,10 +11,18 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.channel_names import TIME_UNITS, Channel, channel, stated_frequency, time_unit_in, written
+from fatigue.readers.channel_names import (
+    TIME_UNITS,
+    Channel,
+    channel,
+    stated_frequency,
+    time_unit_in,
+    without_unit_one,
+    written,
+)
 from fatigue.readers.coordinate_units import parse_unit, states_no_unit
 from fatigue.readers.history_body import Rows, is_rule
-from fatigue.readers.text_layout import COMMENTS, SEPARATORS
+from fatigue.readers.text_layout import COMMENTS, SEPARATORS, declared_separator
 from fatigue.readers.text_numbers import Decimal, is_number, plain_number, split_fields
 
 _LISTED = re.compile(
@@ -22,6 +30,7 @@ _LISTED = re.compile(
     r"([\"'$.]*[^\W\d].*?)\s*\Z",
     re.IGNORECASE,
 )
+_BRACKETED = re.compile(r"\[[^\]]*\]|\([^)]*\)|<[^>]*>|\{[^}]*\}")
 _LIKE_A_NUMBER = re.compile("[-+.,\u2212]?\\d")
 _FREE_LABEL = re.compile(
     r"\W*(samples|channels|points|[xy]0|delta_?[xt]|[xy]_dimension|x_columns|date|time_pref|separator|operator)\W*\Z",
@@ -76,6 +85,11 @@ def read_header(path: Path, lines: Sequence[str], rows: Rows) -> Header:
     ------
     DataError : rows that disagree, names for another number of columns, a row of numbers nobody labelled
     """
+    for k, line in enumerate(lines[: rows.first]):
+        declared = declared_separator(line)
+        if declared is not None and declared != (rows.separator or " "):
+            what = f"the file declares sep={declared}, and its columns are separated by {rows.separator or 'blanks'!r}"
+            raise DataError(Problem("csv_separator", f"{path}, line {k + 1}", what, "Correct one of them"))
     listed, lines_of_list = _listed(path, lines[: rows.first], rows.width)
     found = _rows_of(lines[: rows.first], rows, lines_of_list)
     names = [row for row in found.rows if row.kind == "names"]
@@ -85,7 +99,7 @@ def read_header(path: Path, lines: Sequence[str], rows: Rows) -> Header:
         _refuse_broken_rows(path, lines, rows, names[0].line)
     if listed is not None:
         names.append(listed)
-    channels = [[channel(name) for name in row.cells] for row in names]
+    channels = [[channel(name) for name in without_unit_one(row.cells)] for row in names]
     merged = _merged(path, names, channels) if names else [channel("")] * rows.width
     sign = _sign(rows)
     for row in found.rows:
@@ -113,10 +127,14 @@ def _rows_of(head: Sequence[str], rows: Rows, listed: Collection[int]) -> _Found
             continue
         found.cells.append(tuple(split_fields(line, rows.separator)))
         cells = _cells_of(line, rows)
+        if cells is None and found.rows and _is_lone_time_unit(line):
+            cells = (line.strip(), *[""] * (rows.width - 1))
         if cells is None:
             found.free.append((k + 1, line))
             continue
         kind = _kind(cells, _sign(rows))
+        if kind == "numbers" and line.lstrip().startswith(COMMENTS) and _counts_columns(cells):
+            continue
         if kind == "free":
             found.free.append((k + 1, line))
         elif kind != "types":
@@ -136,6 +154,9 @@ def _cells_of(line: str, rows: Rows) -> tuple[str, ...] | None:
         if separator == rows.separator and _cell_count(text, separator) == rows.width > len(cells) > 0:
             return tuple(cells + [""] * (rows.width - len(cells)))  # the last columns have no name
     if rows.separator is None:  # units that stand apart from their names
+        bracketed = _BRACKETED.findall(text)
+        if len(bracketed) == rows.width and not _BRACKETED.sub("", text).strip():
+            return tuple(bracketed)
         cells = split_fields(re.sub(r"\s+([\[(][^\])]*[\])])", r"\1", text), None)
         if len(cells) == rows.width:
             return tuple(cells)
@@ -152,10 +173,16 @@ def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
     label, rest = cells[0], [cell for cell in cells[1:] if cell]
     filled = [cell for cell in cells if cell]
     numbers = [is_number(cell, ".") or is_number(cell, decimal) for cell in rest]
+    if label.strip("[](){}<> ").lower() in TIME_UNITS and rest and all(cell == "1" for cell in rest):
+        return "units"
     if rest and all(numbers) and not _FREE_LABEL.match(label):
         if _COUNT_LABEL.match(label) and [float(cell) for cell in rest if cell.isdecimal()] in _counts(len(rest)):
             return "types"  # it only counts the columns
         return "numbers" if is_number(label, ".") or is_number(label, decimal) else _kind_of_label(label)
+    if not rest and re.search(r"[\s:=]", label) and time_unit_in(label) is None and not _is_unit(label):
+        return "free"  # a sentence, in a table whose every line ends in separators
+    if re.fullmatch(r"date|datum", label, re.IGNORECASE) and rest and all(channel(c).mode for c in rest):
+        return "names" if not any(c[0].isdigit() for c in rest) else "free"
     of_units = all(_is_unit(cell) for cell in filled) and (
         len(filled) > 1 or re.search(r"[\[(]", filled[0]) or (filled[0].lower() in TIME_UNITS and len(cells) > 1)
     )
@@ -172,6 +199,11 @@ def _counts(columns: int) -> list[list[float]]:
     return [[float(k + first) for k in range(columns)] for first in (0, 1, 2)]
 
 
+def _counts_columns(cells: Sequence[str]) -> bool:
+    """Whether a row only counts the columns, from 0 or 1."""
+    return list(cells) in ([str(k + first) for k in range(len(cells))] for first in (0, 1))
+
+
 def _kind_of_label(label: str) -> str:
     """Tell what numbers are by the word in front of them."""
     if not label or time_unit_in(label) is not None:
@@ -183,6 +215,13 @@ def _is_unit(cell: str) -> bool:
     bare = cell.strip().strip("[](){}<>").strip()
     known = bare.lower() in TIME_UNITS or bare.lower() in _OTHER_UNITS or parse_unit(bare) is not None
     return known or states_no_unit(bare) or re.fullmatch(r"\s*[\[(<].*[\])>]\s*", cell) is not None
+
+
+def _is_lone_time_unit(line: str) -> bool:
+    """Whether a line below the names holds nothing but a unit of time, which is that of the first column."""
+    bare = line.strip().strip("\"'")
+    inside = _BRACKETED.fullmatch(bare)
+    return (bare[1:-1] if inside else bare).strip().lower() in TIME_UNITS
 
 
 def _listed(path: Path, head: Sequence[str], width: int) -> tuple[_Row | None, Collection[int]]:
@@ -225,6 +264,8 @@ def _refuse_broken_rows(path: Path, lines: Sequence[str], rows: Rows, names: int
                 f"{wrong!r} stands in a row of values" if len(cells) == rows.width else f"a row of {len(cells)} cells"
             )
             what += f" in a table of {rows.width} columns" if len(cells) != rows.width else ""
+            if not wrong and len(cells) == rows.width:
+                what = f"a row of numbers ({_some(cells)}) stands among the lines of the header"
             raise DataError(Problem("bad_row", f"{path}, line {at + 1}", what, "Correct the row, or remove it"))
 
 
@@ -241,6 +282,9 @@ def _refuse_short_names(path: Path, lines: Sequence[str], rows: Rows, above: Seq
         if len(cells) < 2 or (time_unit_in(cells[0]) is None and told < 0.6 * len(cells)) or told < 2:
             continue
         what = f"{len(cells)} names stand above rows of {rows.width} numbers"
+        if len(cells) == rows.cells > rows.width:
+            what += f"; {cells[rows.width]!r} and what follows it hold nothing" if len(cells) > rows.width + 1 else ""
+            what += f"; {cells[-1]!r} holds nothing" if len(cells) == rows.width + 1 else ""
         remedy = "Export a name for every column, and a column for every name"
         points = any("." in line for line in lines[rows.first : rows.first + 50])
         if rows.separator == "," and not points and len(cells) < rows.width <= 2 * len(cells):

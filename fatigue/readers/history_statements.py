@@ -32,7 +32,7 @@ _RATE = re.compile(
 )
 _STEP = re.compile(
     rf"(?:\bdelta[ _]?[tx]\b|(?:sampl\w*|output)[ _]?(?:interval|step|period)|abtastintervall)"
-    rf"\s*(?:\[(\w+)\])?\s*[:=\t;,]\s*{_NUMBER}\s*(\w+)?",
+    rf"\s*(?:\[(\w+)\])?\s*[:=\t;,]\s*{_NUMBER}\s*([^\W\d]\w*)?",
     re.IGNORECASE,
 )
 _UNITS = re.compile(r"\W*(?:units?(?: system)?|system of units|einheiten(?:system)?)\s*[:=]\s*(.*)", re.IGNORECASE)

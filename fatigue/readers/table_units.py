@@ -6,6 +6,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.text_layout import TableLayout
 
 _SUFFIXES = ("s", "mm", "n", "nmm", "hz", "mpa", "km")
+_SPELLINGS = {"sec": "s", "second": "s", "seconds": "s", "sek": "s", "newton": "n", "millimeter": "mm"}
 _COORDINATE = ("mm", "mm*sqrt(t)", "mm*t^0.5", "sqrt(t)*mm", "t^0.5*mm", "t^0.5mm", "mmsqrt(t)")
 
 
@@ -39,6 +40,7 @@ def units_row_doubts(name: str, layout: TableLayout) -> tuple[Problem, ...]:
 def stated_unit_doubt(where: str, column: str, unit: str) -> Problem | None:
     """Compare a unit stated for a neutral column with its name: ``unit`` contradicts it, ``unit_unused`` is a doubt."""
     stated = re.sub(r"[\s.·]", "", unit.strip("[]()<> ")).lower()
+    stated = _SPELLINGS.get(stated, stated)
     own = column_unit(column)
     is_coordinate = re.fullmatch(r"\s*q_-?\d+\s*", column) is not None
     if stated in ("", "-", "1", own.lower()) or (is_coordinate and stated in _COORDINATE):

@@ -4,7 +4,8 @@ Encoding, separator, decimal sign, title lines, names and units are recognised. 
 number in their name (``q_12``, ``.FLEX.Q12``, ``$B_Car.q(12)``), or by a map of column to mode.
 """
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.naming import composed
-from fatigue.readers.channel_names import Channel, channel, seconds_per, unit_of_time
+from fatigue.readers.channel_names import Channel, channel, seconds_per, unit_of_time, without_unit_one
 from fatigue.readers.files import open_columns
 from fatigue.readers.foreign_history import ForeignHistory, check_values
 from fatigue.readers.history_body import find_rows, read_values
@@ -25,6 +26,12 @@ from fatigue.readers.history_statements import normalisation_in, stated_length, 
 from fatigue.readers.tables import seconds_of
 from fatigue.readers.text_encoding import read_head
 from fatigue.readers.text_layout import text_lines, whole_cells
+
+_COUNT_NAME = re.compile(
+    r"\s*(?:unnamed: \d+|index|idx|#|n[or]\.?|(?:lfd|lfd\.)[ _]?nr\.?|(?:sample|row|point|record|step|zeile|punkt)s?"
+    r"(?:[ _]?(?:no\.?|nr\.?|number|index|count))?|__index_level_\d+__)\s*\Z",
+    re.IGNORECASE,
+)
 
 Vectors = NDArray[np.float64]
 
@@ -66,13 +73,24 @@ def read_parquet_history(
     A column of durations is time, whatever their unit; dates are refused.
     """
     opened = open_columns(path, ())
-    names = [name.strip() for name in opened.names]
-    stated = zip(names, opened.kinds, opened.units, strict=True)
-    channels = [_with_type(path, channel(name), kind, unit) for name, kind, unit in stated]
-    table = np.column_stack([_numbers(path, name, opened.read(k)) for k, name in enumerate(names)])
+    every = [name.strip() for name in opened.names]
+    wanted = None if columns is None else {composed(name) for name in (*columns, time_column or "")}
+    taken = [k for k, name in enumerate(every) if _is_wanted(name, opened.kinds[k], wanted)]
+    if time_column is not None and time_column.isdecimal():
+        taken = list(range(len(every)))  # its position counts all columns
+    names = [every[k] for k in taken]
+    stated = zip(without_unit_one(names), taken, strict=True)
+    channels = [_with_type(path, channel(name), opened.kinds[k], opened.units[k]) for name, k in stated]
+    table = np.column_stack([_numbers(path, every[k], opened.read(k)) for k in taken])
     if table.shape[1] < 2:
         raise DataError(Problem("bad_table", str(path), "the table has one column", "Export time and coordinates"))
     return _history(path, Header((tuple(names),), tuple(channels), (), ()), table, None, columns, time_column)
+
+
+def _is_wanted(name: str, kind: pa.DataType, wanted: Collection[str] | None) -> bool:
+    """Whether a Parquet column is read: all are, but columns of no numbers that a map of columns does not name."""
+    is_number = pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)
+    return is_number or wanted is None or composed(name) in wanted or channel(name).is_time
 
 
 def _with_type(path: Path, own: Channel, kind: pa.DataType, unit: str) -> Channel:
@@ -97,7 +115,8 @@ def _numbers(path: Path, name: str, column: pa.ChunkedArray) -> Vectors:
         return seconds_of(column)
     if not (pt.is_integer(column.type) or pt.is_floating(column.type) or pt.is_decimal(column.type)):
         what = f"a column holds no numbers ({column.type})"
-        raise DataError(Problem("bad_table", f"{path}, column {name!r}", what, "Write columns of numbers only"))
+        remedy = "Write columns of numbers only, or name those to take by --columns"
+        raise DataError(Problem("bad_table", f"{path}, column {name!r}", what, remedy))
     return np.asarray(column.to_numpy()).astype(np.float64)
 
 
@@ -141,17 +160,19 @@ def _history(
 def _filled(
     path: Path, channels: Sequence[Channel], table: Vectors
 ) -> tuple[list[Channel], list[int], tuple[Problem, ...]]:
-    """Leave out columns without a name that hold nothing, as spreadsheets leave them, or the count of the rows."""
+    """Leave out columns without a name that hold nothing, as spreadsheets leave them, and counts of the rows."""
     count = np.arange(len(table))
     timed, kept, remarks = any(c.is_time for c in channels), [], []
     for k, own in enumerate(channels):
-        if own.name or not (np.isnan(table[:, k]).all() or timed):
+        empty = np.isnan(table[:, k]).all()
+        if (own.name and not _COUNT_NAME.match(own.name)) or not (timed or (empty and not own.name)):
             kept.append(k)
-        elif not np.isnan(table[:, k]).all():
+        elif own.name or not empty:
             if not (np.array_equal(table[:, k], count) or np.array_equal(table[:, k], count + 1)):
                 kept.append(k)
                 continue
-            what = f"column {k + 1} has no name and counts the rows; it is left out"
+            named = f"is named {own.name!r}" if own.name else "has no name"
+            what = f"column {k + 1} {named} and counts the rows; it is left out"
             remarks.append(Problem("row_count", str(path), what, "Export without it"))
     return [channels[k] for k in kept], kept, tuple(remarks)
 

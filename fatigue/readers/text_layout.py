@@ -17,11 +17,16 @@ from fatigue.readers.text_numbers import Decimal, is_number, split_fields
 SEPARATORS = (",", ";", "\t", "|")
 COMMENTS = ("#", "%", "!", "//")
 SAMPLE_LINES = 200
+_KEYS = ("weld", "mode", "node", "element", "column", "time_s")  # of the tables of the neutral format
 HEADER_LINES = 100  # within which names are broken over several lines
 MOST_BREAKS = 20  # lines of one cell
 
 _SEP_LINE = re.compile(r'\s*"?sep=(.)"?\s*\Z', re.IGNORECASE)
-_UNIT = re.compile(r"(?:[\[(<].*[\])>]|-|s|ms|us|µs|min|h|Hz|mm|cm|m|in|N|kN|N\.?mm|N\.?m|MPa|kg|t)\Z", re.IGNORECASE)
+_UNIT = re.compile(
+    r"(?:[\[(<].*[\])>]|-|s|sec|sek|ms|msec|us|µs|min|h|k?Hz|rad/s|mm|cm|m|in|inch|ft"
+    r"|k?N(?:[.* ]?m?m)?|lbf?|[MG]?Pa|psi|k?g|t)\Z",
+    re.IGNORECASE,
+)
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+")
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
@@ -39,7 +44,8 @@ class TableLayout:
     units : row of units below the names; empty if there is none
     first : number of lines above the first row of values
     line : line of the names, from 1
-    fortran : whether exponents of Fortran were seen in the head
+    fortran : whether exponents of Fortran, or minus signs of typography, were seen in the head
+    padded : whether blanks stand between a separator and a quotation mark
     """
 
     encoding: Encoding
@@ -50,6 +56,7 @@ class TableLayout:
     first: int
     line: int
     fortran: bool
+    padded: bool = False
 
     @property
     def is_plain(self) -> bool:
@@ -77,6 +84,12 @@ def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
     if "\0" in text:
         raise DataError(nul_problem(path, text[: text.index("\0")].count("\n") + 1))
     return layout_of(path, text_lines(text, whole=whole), encoding, lambda name: name not in texts)
+
+
+def declared_separator(line: str) -> str | None:
+    """Separator that a line such as ``sep=;`` declares; None of any other line."""
+    found = _SEP_LINE.match(line)
+    return None if found is None else found[1]
 
 
 def text_lines(text: str, *, whole: bool = True) -> list[str]:
@@ -108,8 +121,8 @@ def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: 
         raise DataError(_no_names(path))
     lines = whole_cells(lines[:HEADER_LINES]) + list(lines[HEADER_LINES:])
     for at, line in enumerate(lines):
-        if found := _SEP_LINE.match(line):
-            declared = found[1]
+        if found := declared_separator(line):
+            declared = found
         elif line.lstrip().startswith(COMMENTS):
             comment = at
         elif line.strip():
@@ -123,12 +136,13 @@ def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: 
     else:
         names_line, first = lines[at], at + 1
     separator = _separator(path, header, names_line, rows, declared)
-    names = tuple(_names(names_line, separator))
+    names = _as_wide_as(_names(names_line, separator), rows, separator)
     units: tuple[str, ...] = ()
     if rows and (found_units := _unit_row(rows[0], separator, len(names))):
         units, rows = found_units, rows[1:]
         first = next(k for k in range(first, len(lines)) if lines[k].strip()) + 1
-    layout = TableLayout(encoding, separator, None, names, units, first, header + 1, fortran=False)
+    padded = separator is not None and any(re.search(rf'{re.escape(separator)}[ \t]+"', row) for row in rows)
+    layout = TableLayout(encoding, separator, None, names, units, first, header + 1, fortran=False, padded=padded)
     return _with_numbers(path, layout, rows, is_numeric)
 
 
@@ -151,7 +165,9 @@ def _commented(comment: str, row: str, declared: str | None) -> str | None:
     for separator in (declared,) if declared else (*SEPARATORS, None):
         values, names = split_fields(row, separator), split_fields(text, separator)
         numbers = [is_number(v, ".") or is_number(v, ",") for v in values]
-        if len(values) > 1 and len(values) == len(names) and any(numbers) and not any(is_number(n, ".") for n in names):
+        known = any(name in _KEYS for name in names) and not any(value in _KEYS for value in values)
+        numbered = any(numbers) and not any(is_number(n, ".") for n in names)
+        if len(values) > 1 and len(values) == len(names) and (known or numbered):
             return text
     return None
 
@@ -183,6 +199,18 @@ def _names(line: str, separator: str | None) -> list[str]:
     return fields + [""] * max(0, _cells(line, separator) - len(fields))
 
 
+def _as_wide_as(names: Sequence[str], rows: Sequence[str], separator: str | None) -> tuple[str, ...]:
+    """Give the names as many empty ones at their end as the rows have empty cells."""
+    if separator is None or not rows:
+        return tuple(names)
+    filled = max((k + 1 for k, name in enumerate(names) if name.strip()), default=0)
+    width = {_cells(row, separator) for row in rows}
+    wanted = width.pop() if len(width) == 1 else len(names)
+    if wanted > len(names) and any(len(split_fields(row, separator)) > len(names) for row in rows):
+        return tuple(names)  # cells without a name hold something, which is told
+    return (*names[: max(filled, wanted)], *[""] * (wanted - len(names)))
+
+
 def _cells(line: str, separator: str) -> int:
     """Count the cells of a line, empty ones at its end too."""
     quoted = re.sub(r'"[^"]*"', "", line)
@@ -194,6 +222,8 @@ def _unit_row(row: str, separator: str | None, width: int) -> tuple[str, ...]:
     cells = split_fields(row, separator)
     if not any(cells) or len(cells) > width or not all(_UNIT.match(c) for c in cells if c):
         return ()
+    if len(cells) == width > 1 and all(c == "-" for c in cells):
+        return tuple(cells)
     if not any(len(c) > 1 or c in ("s", "m", "N") for c in cells):
         return ()
     return (*cells, *[""] * (width - len(cells)))
@@ -217,7 +247,7 @@ def _with_numbers(
                     signs[sign] += 1
                     commas |= {cell} if sign == "," else set()
                     first.setdefault(sign, cell)
-                    fortran |= re.search(r"[DQdq]|\d[+-]", cell) is not None
+                    fortran |= re.search("[DQdq\u2212]|\\d[+-]", cell) is not None
     if layout.separator == "," and signs[","] and all(map(_THOUSANDS.fullmatch, commas)):
         what = f"{first[',']} may have a decimal comma or a thousands separator"
         raise DataError(Problem("decimal_sign", path.name, what, "Write points, and no thousands separators"))

@@ -215,3 +215,17 @@ def test_many_unknown_welds_are_told_by_name(tmp_path):
         "f.parquet: column weld, row 4: 'X' is not one of the welds",
         "f.parquet: column weld, row 6: 'Y' is not one of the welds",
     ]
+
+
+@pytest.mark.parametrize("index", [True, False])
+@pytest.mark.parametrize("suffix", ["parquet", "csv"])
+def test_columns_without_a_name(tmp_path, index, suffix):
+    """An index is told in every piece; empty columns, as spreadsheets leave them, are nothing."""
+    table = forces()
+    table.insert(0, "", np.arange(60) if index else None)
+    path = tmp_path / f"forces.{suffix}"
+    table.to_csv(path, index=False) if suffix == "csv" else table.to_parquet(path, index=False, row_group_size=7)
+    piece = ForcePieces(path, GROUPS, tmp_path / "scratch").table(1)
+    piece.expect(("weld", "node", "fx_N"), (), strict=False)
+    assert [warning.code for warning in piece.warnings] == (["unknown_column"] if index else [])
+    assert piece.numbers("fx_N").tolist() == table[table.weld == "C"].fx_N.tolist()

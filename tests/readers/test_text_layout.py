@@ -12,6 +12,7 @@ from fatigue.readers.tables import open_table
 from fatigue.readers.text_layout import table_layout
 from fatigue.readers.text_numbers import as_numbers, is_number, plain_number, split_fields
 from fatigue.readers.text_rows import read_rows
+from fatigue.verify.recount.tables import read_frame
 
 PLAIN = "weld,x_mm,n\nTräger,1.5,7\nb,-2500.0,8\n"
 DIALECTS = {
@@ -45,6 +46,16 @@ DIALECTS = {
     "names in two lines": PLAIN.replace("x_mm", '"x_mm\n"').encode(),
     "old Mac": PLAIN.replace("\n", "\r").encode(),
     "no line end": PLAIN.rstrip().encode(),
+    "utf-32": PLAIN.encode("utf-32"),
+    "typographic minus": PLAIN.replace("-", "\u2212").encode(),
+    "end of a file of DOS": PLAIN.encode() + b"\x1a",
+    "blanks before quotation marks": PLAIN.replace("Träger,", '"Träger" , ').replace(",7", ', "7"').encode(),
+}
+BEHIND = {
+    "rows": PLAIN.replace("7\n", "7,\n").replace("8\n", "8,\n"),
+    "names": PLAIN.replace("n\n", "n,\n", 1),
+    "rows and names": PLAIN.replace("\n", ",,\n"),
+    "names, two of them": PLAIN.replace("n\n", "n,,\n", 1),
 }
 
 
@@ -76,6 +87,28 @@ def test_rows_of_texts(path):
     assert [row.cells["weld"] for row in rows] == ["Träger", "b"]
     assert [float(row.cells["x_mm"]) for row in rows] == [1.5, -2500.0]
     assert [row.number for row in rows] == [1, 2]
+
+
+@pytest.mark.parametrize("content", BEHIND.values(), ids=BEHIND)
+def test_separators_behind(tmp_path, content):
+    """Separators behind rows or names alone hold nothing."""
+    path = tmp_path / "t.csv"
+    path.write_text(content, encoding="utf-8")
+    table = open_table(path, texts=("weld",))
+    table.expect(("weld", "x_mm", "n"), (), strict=True)
+    assert table.integers("n").tolist() == [7, 8]
+    table.refuse()
+    assert [row.cells["n"] for row in read_rows(path)[1]] == ["7", "8"]
+    assert read_frame(path)["n"].tolist() == [7, 8]
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_names_of_texts_in_a_comment(tmp_path, separator):
+    """A table without numbers whose names stand in the comment above."""
+    path = tmp_path / "t.csv"
+    path.write_text(separator.join(["# weld", "surface\nb", '"a,b,c"\nd', "top\n"]), encoding="utf-8")
+    assert open_table(path, texts=("weld", "surface")).texts("surface") == ["a,b,c", "top"]
+    assert read_frame(path)["surface"].tolist() == ["a,b,c", "top"]
 
 
 def test_batches(path):

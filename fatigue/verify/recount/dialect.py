@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+_KEYS = {"weld", "mode", "node", "element", "time_s"}
 _SEPARATORS = ";\t|,"
 _UNIT = re.compile(r"[\[(<].*[\])>]|-|ms|s|mm|m|N|N ?mm|Hz|MPa|mm\*sqrt\(t\)|")
 
@@ -38,6 +39,8 @@ def read_texts(path: Path, texts: tuple[str, ...], rows_at_once: int | None = No
         )
         for piece in pieces:
             piece.columns = pd.Index(names)
+            if len(piece) and piece[names[0]].iloc[-1] == "\x1a":  # the end of a file of DOS
+                piece = piece[:-1]  # noqa: PLW2901
             if (piece[names[0]].str.strip() == names[0]).any():  # the names once more
                 again = piece.apply(lambda column: column.str.strip() == column.name).all(axis=1)
                 piece = piece[~again]  # noqa: PLW2901
@@ -48,6 +51,8 @@ def _encoding(path: Path) -> str:
     """Tell the encoding by the mark at the beginning, by zeros between letters, or by trying."""
     with path.open("rb") as file:
         head = file.read(64)
+        if head.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)):
+            return "utf-32"
         if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             return "utf-16"
         if len(head) > 1 and 0 in head[:2]:
@@ -74,16 +79,25 @@ def _header(head: list[str]) -> tuple[int, list[str], str]:
     """Find the number of lines above the rows, the names, and what separates them."""
     at = next(k for k, line in enumerate(head) if line.strip() and not re.match(r'"?sep=|\s*(#|%|!|//)', line, re.I))
     declared = next((m[1] for line in head[:at] if (m := re.match(r'"?sep=(.)', line, re.IGNORECASE))), None)
-    separator = declared or max(_SEPARATORS, key=head[at].count)
-    if separator not in head[at]:
-        separator = r"\s+" if len(head[at].split()) > 1 else ","
-    if re.match(r"[-+.\d]", _cells(head[at], separator)[-1]) and at:  # the names stand in the comment above
-        return at, _cells(head[at - 1].strip().lstrip("#%!/ "), separator), separator
+    if at and re.match(r"\s*(#|%|!|//)", head[at - 1]):  # names may stand in a comment
+        text = head[at - 1].strip().lstrip("#%!/ ")
+        separator = declared or _separator(text)
+        above, below = _cells(text, separator), _cells(head[at], separator)
+        are_numbers = re.match(r"[-+.\d]", below[-1]) is not None and len(above) == len(below)
+        if are_numbers or (_KEYS & set(above) and not _KEYS & set(below)):
+            return at, above, separator
+    separator = declared or _separator(head[at])
     names = _cells(head[at], separator)
     units = next((k for k in range(at + 1, len(head)) if head[k].strip()), at)
     cells = _cells(head[units], separator)
     are_units = any(cells) and all(_UNIT.fullmatch(cell) for cell in cells) and units > at
     return (units if are_units else at) + 1, names, separator
+
+
+def _separator(line: str) -> str:
+    """Find what divides most cells of a line: a sign, else blanks."""
+    separator = max(_SEPARATORS, key=line.count)
+    return separator if separator in line else r"\s+" if len(line.split()) > 1 else ","
 
 
 def _cells(line: str, separator: str) -> list[str]:
@@ -96,7 +110,7 @@ def _numbers(column: "pd.Series[str]") -> "pd.Series[str]":
     try:
         column.astype(np.float64)
     except ValueError:
-        plain = column.str.replace(",", ".").str.strip()
+        plain = column.str.replace(",", ".").str.replace("\u2212", "-").str.strip()
         plain = plain.str.replace(r"(?<=[\d.])[DdQq](?=[+-]?\d)", "E", regex=True)
         return plain.str.replace(r"^([+-]?\d*\.\d*)([+-]\d{1,3})$", r"\1E\2", regex=True)
     return column
