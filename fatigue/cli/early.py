@@ -28,6 +28,8 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():
         what, remedy = "there is no such file", "Correct the path after --case"
+        if case_file.is_dir():
+            what, remedy = "this is a folder", "Give the path of the case.toml in it"
         raise DataError(Problem("missing_case", str(case_file), what, remedy))
 
 

@@ -37,7 +37,7 @@ LAYOUTS = {
     "without mark": text("\t").encode("utf-16-be"),
     "declared": ("sep=;\r\n" + text(";", ",", "\r\n")).encode("utf-8-sig"),
     "bars": text("|").encode(),
-    "remark": ("# mine, with; many; semicolons; in; it; more; than; there; are; columns; yes; indeed; it; is\n").encode()
+    "remark": (b"# mine, with; many; semicolons; in; it; more; than; there; are; columns; yes; indeed; it; is\n")
     + text().encode(),
     "classic macintosh": text(end="\r").encode(),
     "letters and accents apart": unicodedata.normalize("NFD", text()).encode(),
