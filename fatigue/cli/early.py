@@ -3,9 +3,13 @@
 import difflib
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.naming import missing_file
+
+MOST_MODES = 100_000  # of one range
 
 
 def refuse_missing_case(path: Path) -> None:
@@ -13,7 +17,9 @@ def refuse_missing_case(path: Path) -> None:
     if path.is_dir():
         raise CaseError(Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it"))
     if not path.exists():
-        raise CaseError(Problem("missing_file", str(path), "there is no such file", "Give the path of a case.toml"))
+        found = missing_file(path)
+        remedy = "Give the path of a case.toml" if found.remedy == "Correct the path" else found.remedy
+        raise CaseError(replace(found, remedy=remedy))
 
 
 def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
@@ -38,6 +44,8 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
     for path in paths:
         try:
             path.open("rb").close()
+        except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+            yield missing_file(path, code="unreadable", wanted="the file itself")
         except OSError as error:
             yield Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
 
@@ -45,10 +53,8 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
 def missing_tables(*paths: Path | None) -> Iterable[Problem]:
     """Name tables that are not there, as `fatigue.readers.files.open_columns` does."""
     for path in paths:
-        if path is not None and path.is_dir():
-            yield Problem("not_a_file", str(path), "this is a folder", "Give a .parquet or .csv file")
-        elif path is not None and not path.exists():
-            yield Problem("missing_file", str(path), "there is no such file", "Correct the path")
+        if path is not None and not path.is_file() and (path.is_dir() or not path.exists()):
+            yield missing_file(path)
 
 
 def refuse_unknown_units(**systems: str) -> None:
@@ -61,9 +67,11 @@ def refuse_unknown_units(**systems: str) -> None:
 
 def refuse_bad_modes(option: str, text: str) -> None:
     """Refuse a list of modes that is none, as `fatigue.readers.modal_basis.mode_list` does."""
-    if text and not re.fullmatch(r"\s*\d+(-\d+)?\s*(,\s*\d+(-\d+)?\s*)*", text):
-        part = next(part for part in text.split(",") if not re.fullmatch(r"\s*\d+(-\d+)?\s*", part))
-        raise CaseError(Problem("bad_modes", option, f"{part!r} is no mode or range", "Write 1-6,31-52"))
+    for part in text.split(",") if text else ():
+        found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
+        if not found or not 0 <= int(found[2] or found[1]) - int(found[1]) <= MOST_MODES:
+            shown = part if len(part) <= 40 else part[:37] + "..."
+            raise CaseError(Problem("bad_modes", option, f"{shown!r} is no mode or range", "Write 1-6,31-52"))
 
 
 def refuse_unknown_curve(name: str) -> None:

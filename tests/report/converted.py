@@ -37,9 +37,7 @@ def converted(folder: Path) -> Path:
     return folder / "body"
 
 
-def assessed(
-    folder: Path, changes: list[dict[str, str]], share: float | None = None, name: str = "converted"
-) -> Path:
+def assessed(folder: Path, changes: list[dict[str, str]], share: float | None = None, name: str = "converted") -> Path:
     """Convert, edit the rows of the register, those beyond the last are new, and assess; returns the result folder."""
     folder = folder / name
     folder.mkdir()
