@@ -58,11 +58,12 @@ class CheckedCase:
 
     def as_text(self) -> str:
         """For people."""
+        candidates = f"{self.candidates} candidate{'s' * (self.candidates != 1)}"
         return "\n".join(
             [
                 f"{self.title}: the case is complete and consistent",
                 f"  welds            {self.welds} in {self.parts} straight parts, {self.stations} stations, both faces",
-                *([f"  not assessed     {self.excluded} excluded, {self.candidates} candidates"] * self.has_left_out),
+                *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",

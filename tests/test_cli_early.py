@@ -69,6 +69,15 @@ MISTAKES = {
     "convert columns": ((*CONVERT, "--columns", "none.csv"), "3", "none.csv: there is no such file"),
     "convert units": ((*CONVERT, "--coordinate-units", "SI"), "3", "coordinate units: unknown unit system 'SI'"),
     "convert modes": ((*CONVERT, "--ignore-modes", "1-6;9"), "3", "'1-6;9' is no mode or range"),
+    "convert range": ((*CONVERT, "--interface-modes", "5-2"), "3", "--interface-modes: '5-2' is no mode or range"),
+    "convert unit loads": ((*CONVERT, "--unit-loads", "none.op2"), "3", "none.op2: there is no such file"),
+    "convert displacement": ((*CONVERT, "--displacement", "no.csv", "3", "z"), "3", "no.csv: there is no such file"),
+    "convert target": ((*CONVERT, "--target-km", "inf"), "2", "'inf' is not a finite number"),
+    "convert step": ((*CONVERT, "--resample", "nan"), "2", "'nan' is not a finite number"),
+    "diagnose bin": (("diagnose", "result", "--bin-km", "0"), "2", "Invalid value for '--bin-km'"),
+    "diagnose share": (("diagnose", "result", "--share-of-limit", "nan"), "2", "'nan' is not a finite number"),
+    "verify all": (("verify", "--all"), "2", "--all recounts the points of a result"),
+    "synth rate": (("synth", "new", "--rate", "-1"), "2", "Invalid value for '--rate'"),
     "convert curve": ((*CONVERT, "--curve", "master-alu"), "3", "--curve: there is no curve 'master-alu'"),
     "convert speed": ((*CONVERT, "--speed", "0"), "2", "Invalid value for '--speed'"),
     "convert folder": ((*CONVERT, "-o", "body"), "3", "modes.csv: the file exists and is not the work of an earlier"),
@@ -98,15 +107,15 @@ def refusal_of(do, *arguments):
 
 def test_the_words_are_those_of_the_readers(tmp_path):
     """Who finds the mistake, early or late, makes no difference."""
-    for path in (tmp_path / "none.toml", tmp_path):
+    for name in ("case.toml", "run.op2", "there.csv"):
+        (tmp_path / name).write_text("x")
+    for path in (tmp_path / "none.toml", tmp_path, tmp_path / "CASE.toml", tmp_path / "none" / "case.toml"):
         assert refusal_of(refuse_missing_case, path) == refusal_of(load_case, path)
-    for path in (tmp_path / "none.op2", tmp_path):
+    for path in (tmp_path / "none.op2", tmp_path, tmp_path / "Run.op2", tmp_path / "run.op2" / "x"):
         assert tuple(missing_foreign(path)) == refusal_of(recognise, path)
-    for path in (tmp_path / "none.csv", tmp_path):
+    for path in (tmp_path / "none.csv", tmp_path, tmp_path / "There.csv"):
         assert tuple(missing_tables(path)) == refusal_of(open_columns, path, ())
-    for text in ("1-x", "1;2", "", "3,", "-4"):
-        if not text:
-            continue
+    for text in ("1-x", "1;2", "3,", "-4", "5-2", "1-999999", "1" * 60):
         early_one, late = (refusal_of(do, *of)[0] for do, of in ((refuse_bad_modes, ("o", text)), (mode_list, (text,))))
         assert (early_one.what, early_one.remedy) == (late.what, late.remedy)
     for text in ("1-6", "1-6,31-52", " 7 , 8-9"):

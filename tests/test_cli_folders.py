@@ -100,6 +100,8 @@ def test_a_case_that_is_not_the_one_is_refused(copied, result, tmp_path, command
     assert "is not the case of this result" in line or "is not the file the result was computed from" in line
     line = one_line(fatigue("-q", *command, copied, "--case", tmp_path / "none.toml"), 3)
     assert "none.toml: there is no such file. Correct the path after --case." in line
+    line = one_line(fatigue("-q", *command, copied, "--case", tmp_path / "edited"), 3)
+    assert "this is a folder. Give the path of the case.toml in it." in line
 
 
 def test_an_edited_case_is_told_by_the_report(result, tmp_path):

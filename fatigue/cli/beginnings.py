@@ -6,6 +6,7 @@ import click
 
 from fatigue.cli.early import refuse_existing
 from fatigue.cli.main import cli, print_json
+from fatigue.cli.numbers import ABOVE_ZERO
 from fatigue.cli.progress import is_quiet, narrated
 from fatigue.stages import stage
 
@@ -33,8 +34,8 @@ def example(folder: Path, force: bool) -> None:
 @click.option("--nodes", type=click.IntRange(min=10), default=10_000, show_default=True, help="Weld nodes.")
 @click.option("--modes", type=click.IntRange(min=2), default=60, show_default=True, help="Modes.")
 @click.option("--events", type=click.IntRange(min=1), default=3, show_default=True, help="Events.")
-@click.option("--seconds", type=float, default=60.0, show_default=True, help="Length of a record [s].")
-@click.option("--rate", type=float, default=250.0, show_default=True, help="Sampling rate [Hz].")
+@click.option("--seconds", type=ABOVE_ZERO, default=60.0, show_default=True, help="Length of a record [s].")
+@click.option("--rate", type=ABOVE_ZERO, default=250.0, show_default=True, help="Sampling rate [Hz].")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is drawn.")
 @click.option("--force", is_flag=True, help="Overwrite a case that is there already.")
 def synth(

@@ -8,6 +8,8 @@ from pathlib import Path
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.naming import missing_case, missing_file
 
+MOST_MODES = 100_000  # of one range
+
 
 def refuse_missing_case(path: Path) -> None:
     """Refuse a case file that is not there, as `fatigue.case.load_case` does."""
@@ -27,17 +29,18 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():
         what, remedy = "there is no such file", "Correct the path after --case"
+        if case_file.is_dir():
+            what, remedy = "this is a folder", "Give the path of the case.toml in it"
         raise DataError(Problem("missing_case", str(case_file), what, remedy))
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:
     """Name FE and simulation files that are not there, as `fatigue.readers.formats.recognise` does."""
     for path in paths:
-        if path.is_dir() or not path.exists():
-            yield missing_file(path, code="unreadable", wanted="the file itself")
-            continue
         try:
             path.open("rb").close()
+        except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+            yield missing_file(path, code="unreadable", wanted="the file itself")
         except OSError as error:
             yield Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
 
@@ -59,9 +62,11 @@ def refuse_unknown_units(**systems: str) -> None:
 
 def refuse_bad_modes(option: str, text: str) -> None:
     """Refuse a list of modes that is none, as `fatigue.readers.modal_basis.mode_list` does."""
-    if text and not re.fullmatch(r"\s*\d+(-\d+)?\s*(,\s*\d+(-\d+)?\s*)*", text):
-        part = next(part for part in text.split(",") if not re.fullmatch(r"\s*\d+(-\d+)?\s*", part))
-        raise CaseError(Problem("bad_modes", option, f"{part!r} is no mode or range", "Write 1-6,31-52"))
+    for part in text.split(",") if text else ():
+        found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
+        if not found or not 0 <= int(found[2] or found[1]) - int(found[1]) <= MOST_MODES:
+            shown = part if len(part) <= 40 else part[:37] + "..."
+            raise CaseError(Problem("bad_modes", option, f"{shown!r} is no mode or range", "Write 1-6,31-52"))
 
 
 def refuse_unknown_curve(name: str) -> None:

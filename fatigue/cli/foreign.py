@@ -16,11 +16,11 @@ from fatigue.cli.early import (
     refuse_unknown_units,
 )
 from fatigue.cli.main import as_json, cli, print_json
+from fatigue.cli.numbers import ABOVE_ZERO
 from fatigue.cli.progress import is_quiet, narrated, narrating
 from fatigue.stages import stage
 
 _FILE = click.Path(path_type=Path)
-ABOVE_ZERO = click.FloatRange(0.0, min_open=True)
 _COLOUR = {"red": "red", "amber": "yellow", "green": "green"}
 
 _sources = [
@@ -166,8 +166,9 @@ def convert(
       fatigue convert --mesh model.bdf --forces run.op2 --coordinates q.csv -o body
       fatigue assess body/case.toml -o result
     """
-    refuse_all(missing_foreign(forces, mesh, *coordinates))
-    refuse_all(missing_tables(register, node_lists, columns, simulation_modes))
+    refuse_all(missing_foreign(forces, mesh, *unit_loads, *coordinates))
+    tables = (register, node_lists, columns, simulation_modes, *(file for file, _, _ in displacements))
+    refuse_all(missing_tables(*tables))
     refuse_unknown_units(force_units=units, coordinate_units=coordinate_units)
     for option, modes in (("--interface-modes", interface_modes), ("--ignore-modes", ignore_modes)):
         refuse_bad_modes(option, modes)

@@ -13,6 +13,7 @@ import click
 from fatigue import __version__
 from fatigue.cli.early import refuse_missing_case, refuse_missing_result
 from fatigue.cli.memory import hold_little
+from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO, SHARE
 from fatigue.cli.progress import narrated
 from fatigue.errors import DataError, FatigueError, Problem, refuse
 from fatigue.stages import STAGES, stage
@@ -94,7 +95,7 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
 @click.option("--exact", is_flag=True, help="Count every point of a large job, also those a bound would settle.")
 @click.option(
     "--screen",
-    type=click.FloatRange(0.0, 1.0, min_open=True),
+    type=SHARE,
     metavar="SHARE",
     help="Do not count points proven to stay below this share of the damage limit.  [default: 0.1 for jobs of more "
     "than 5e9 stress samples, else every point is counted]",
@@ -223,7 +224,7 @@ def report(
       fatigue report result --pdf --xlsx
       fatigue report result --case body/case.toml
     """
-    refuse_missing_result(folder)
+    refuse_missing_result(folder, case_file)
     from fatigue.documents import AGAIN, CSV, missing_extras, write_documents
     from fatigue.results import PRINT, WORKBOOK
 
@@ -242,7 +243,7 @@ def report(
 @click.option("--case", "case_file", type=_CASE, help="Case file, if it is not where the result says.")
 @click.option(
     "--share-of-limit",
-    type=float,
+    type=FROM_ZERO,
     default=0.1,
     show_default=True,
     help="Utilisation from which points are shared out, when not all can be.",
@@ -250,7 +251,7 @@ def report(
 @click.option(
     "--edges", default=None, metavar="HZ,HZ,...", help="Edges between frequency bands [Hz]; default: third octaves."
 )
-@click.option("--bin-km", type=float, default=0.1, show_default=True, help="Length of a piece of track [km].")
+@click.option("--bin-km", type=ABOVE_ZERO, default=0.1, show_default=True, help="Length of a piece of track [km].")
 @as_json
 @click.pass_obj
 def diagnose(
@@ -329,6 +330,8 @@ def verify(
         refuse_missing_result(folder, case_file)
     elif case_file is not None:
         raise click.UsageError("--case names the case of a result: give --results DIR as well")
+    elif every:
+        raise click.UsageError("--all recounts the points of a result: give --results DIR as well")
     from fatigue.verify.check import VerificationTable
     from fatigue.verify.recount import Recount, recount
     from fatigue.verify.table import verification_table

@@ -13,7 +13,7 @@ from fatigue.readers.convert_record import convert_record
 from fatigue.readers.line_file import LineFile, line_file
 from fatigue.readers.neutral_folder import RECORD, read_record
 from fatigue.readers.registered import Registered, registered, unregistered
-from fatigue.readers.registered_lines import Joints, registered_lines
+from fatigue.readers.registered_lines import Joints, registered_lines, unconfirmed_thickness
 from fatigue.readers.spare_memory import give_back
 from fatigue.readers.weld_register import REGISTER, RegisterRow, open_register
 from fatigue.weld.line_units import unit_problems, unit_warnings
@@ -107,6 +107,7 @@ def _lines_on_disk(
     welds: tuple[Weld, ...] = plan.welds
     joints: Joints = {}
     if plan.file:
+        doubts += unconfirmed_thickness(lines, plan)
         welds, lines, joints = registered_lines(lines, plan, summed=case.body.nodal_forces is not None)
     doubts += checked_lines(lines, path.name)
     refuse(DataError, unit_problems(lines, case.body.weld_nodes))

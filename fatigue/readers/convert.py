@@ -16,7 +16,7 @@ from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_o
 from fatigue.readers.fe_model import in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
-from fatigue.readers.foreign_run import audited, read_run
+from fatigue.readers.foreign_run import audited, read_run, unknown_checks
 from fatigue.readers.modal_basis import SimulationModes, common_modes, mode_masses, mode_scale
 from fatigue.readers.neutral_folder import RECORD, check_folder, recorded_files, sha256, write_folder
 from fatigue.readers.neutral_tables import elements_table, forces_table, history_table, nodes_table, weld_tables
@@ -107,7 +107,8 @@ def convert(options: ConvertOptions) -> Conversion:
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
-    doubts = (*results.remarks, *model.remarks, *found.remarks, *remarks, *run.remarks)
+    doubts = (*unknown_checks(judged, options), *results.remarks, *model.remarks)
+    doubts += (*found.remarks, *remarks, *run.remarks)
     record = {
         "inputs": {str(p): sha256(p) for p in run.inputs(options)},
         "convention": convention,

@@ -110,6 +110,16 @@ def audited(run: ForeignRun, options: ConvertOptions) -> Audit:
     return judged
 
 
+def unknown_checks(judged: Audit, options: ConvertOptions) -> list[Problem]:
+    """Tell which checks to accept the audit does not have: their names are misspelt, or there is nothing to accept."""
+    known = sorted({row.check for row in judged.rows})
+    return [
+        Problem("unknown_check", f"--accept {name!r}", "the audit has no such check", f"Choose of {', '.join(known)}")
+        for name in options.accept
+        if name not in (*known, FREQUENCIES)
+    ]
+
+
 def _displacement_rows(run: ForeignRun, options: ConvertOptions) -> Iterator[AuditRow]:
     """Compare the displacements given with mode shapes times coordinates."""
     units = unit_system(options.force_units, "force units")

@@ -31,6 +31,7 @@ class Registered:
     warnings : what the user should know
     file : place of the register in messages; empty where there is none
     again : what to do where only another conversion helps
+    unconfirmed : thickness in the register that nobody has confirmed, as name in the tables, place and value [mm]
     """
 
     welds: tuple[Weld, ...]
@@ -40,6 +41,7 @@ class Registered:
     warnings: tuple[Problem, ...]
     file: str
     again: str
+    unconfirmed: tuple[tuple[str, str, float], ...] = ()
 
     @property
     def names(self) -> dict[str, str]:
@@ -74,6 +76,7 @@ def registered(
     problems += _unknown_curves(register, curves)
     groups: dict[str, list[tuple[Weld, list[RegisterRow]]]] = {}
     thickness: dict[str, float] = {}
+    unconfirmed: list[tuple[str, str, float]] = []
     warnings = list(register.warnings)
     for weld in welds:
         own = rows[weld.name]
@@ -88,6 +91,9 @@ def registered(
             problems.append(Problem("one_weld", register.where(own[0]), what, again or "Part them in the tables"))
         elif own[0].status == "assess":
             groups.setdefault(own[0].weld, []).append((weld, own))
+            unconfirmed += [
+                (weld.name, register.where(row, "thickness_mm"), row.thickness) for row in own if not row.confirmed
+            ]
             wanted = _thickness(own, conversion.lines.get(weld.name, {}))
             if wanted is None:
                 what = "the tables do not tell the plate thickness that is asked for"
@@ -110,6 +116,7 @@ def registered(
         warnings=tuple(warnings),
         file=register.path.name,
         again=again,
+        unconfirmed=tuple(unconfirmed),
     )
 
 

@@ -17,6 +17,8 @@ from fatigue.weld.line_check import check_line
 Joints = Mapping[str, tuple[Joint, ...]]
 """Where the lines of a joined weld meet, by its name."""
 
+_ROUNDED = 1e-3  # relative: as somebody may write a thickness down
+
 
 def registered_lines(
     lines: LineStack, register: Registered, *, summed: bool
@@ -55,6 +57,21 @@ def registered_lines(
         found.append(replace(line, weld=weld.name, end_length=weld.end_length))
     refuse(DataError, problems)
     return tuple(welds), stacked(found), joints
+
+
+def unconfirmed_thickness(lines: LineStack, register: Registered) -> list[Problem]:
+    """Tell the thicknesses written into the register that nobody has confirmed and the tables do not have."""
+    place = {name: at for at, name in enumerate(lines.weld)}
+    doubts = []
+    for name, where, wanted in register.unconfirmed:
+        there = lines[place[name]].thickness
+        thinnest, thickest = float(there.min()), float(there.max())
+        if wanted < thinnest * (1.0 - _ROUNDED) or wanted > thickest * (1.0 + _ROUNDED):
+            own = f"{thinnest:g} mm" if thinnest == thickest else f"{thinnest:g} to {thickest:g} mm"
+            what = f"{wanted:g} mm is not confirmed, and the weld is assessed with the {own} of the tables"
+            remedy = "Write true under confirmed to have it, or empty the cell"
+            doubts.append(Problem("unconfirmed_thickness", where, what, remedy))
+    return doubts
 
 
 def registered_sides(

@@ -164,7 +164,7 @@ def _head(result: Result) -> dict[str, Any]:
         "fulfilled": missed == 0,
         "missed": missed,
         "welds": len(welds),
-        "excluded": len(result.welds) - len(welds),
+        "left_out": len(result.welds) - len(welds),
         "points": result.toes,
         "worst": welds.iloc[0],
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),
@@ -175,7 +175,7 @@ def _head(result: Result) -> dict[str, Any]:
 
 
 def _listed(result: Result) -> pd.DataFrame:
-    """Keep the welds of the register that have a row: the worst, and those that are excluded."""
+    """Keep the welds of the register that have a row: the worst, and those that are not assessed."""
     listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
     return result.welds[listed]
 

@@ -172,13 +172,21 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
     return Table("weld-register", headings, rows, "Find a weld")
 
 
+def _status(row: Any) -> str:
+    """Status of a weld, with the reason where it is not assessed; that of a candidate says so itself."""
+    if row.reason in ("", row.status) or pd.isna(row.reason):
+        return str(row.status)
+    is_candidate = row.reason == "candidate" or row.reason.startswith("candidate: ")
+    return str(row.reason) if is_candidate else f"{row.status}: {row.reason}"
+
+
 def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
     """Cells of a weld; one that is not assessed has a name, a reason and perhaps a length, and dashes."""
-    is_assessed, is_candidate = row.status == "assessed", str(row.reason).startswith("candidate")
+    is_assessed = row.status == "assessed"
     return (
         _linked(row.weld, links),
         text(row.description),
-        text(row.status if not row.reason else row.reason if is_candidate else f"{row.status}: {row.reason}"),
+        text(_status(row)),
         verdict(row.fulfilled) if is_assessed else text(None),
         num(row.length_mm),
         integer(row.nodes, grouped=True),

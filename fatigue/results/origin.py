@@ -49,6 +49,8 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
     """
     if not case_file.is_file():
         what, remedy = "there is no such file", "Correct the path after --case"
+        if case_file.is_dir():
+            what, remedy = "this is a folder", "Give the path of the case.toml in it"
         raise DataError(Problem("missing_case", str(case_file), what, remedy))
     if _text(case_file) != record["case_text"]:
         what = f"is not the case of this result: its text differs from that of {record['case_file']} as it was assessed"

@@ -70,7 +70,7 @@ class Summary:
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
                 *self._left_out(),
                 "",
-                f"The {len(self.points)} worst points",
+                "The worst point" if len(self.points) == 1 else f"The {len(self.points)} worst points",
                 _text_table(
                     self.points.rename(columns={"surface": "face"}),
                     [
@@ -92,7 +92,7 @@ class Summary:
         """Say which welds are not assessed, and why; of many, every kind of reason with its number."""
         if self.not_assessed.empty:
             return []
-        head = ["", f"Not assessed: {len(self.not_assessed)} welds"]
+        head = ["", f"Not assessed: {len(self.not_assessed)} weld{'s' * (len(self.not_assessed) != 1)}"]
         if len(self.not_assessed) <= MOST_LEFT_OUT:
             return [*head, _text_table(self.not_assessed, ["weld", "reason"])]
         kind = self.not_assessed["reason"].str.replace(r"\d+", "0", regex=True)
@@ -172,7 +172,7 @@ def _cell(value: Any) -> str:
         if value > LONGEST_LIFE_KM:
             return "> 1e12"
         return f"{value:.4g}"
-    return str(value)
+    return " ".join(str(value).splitlines())  # a cell of a spreadsheet may hold several
 
 
 def _km(value: float) -> str:

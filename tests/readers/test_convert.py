@@ -577,6 +577,14 @@ def test_mode_lists():
         mode_list("1-x")
 
 
+def test_a_check_to_accept_that_there_is_not(files):
+    """A misspelt name accepts nothing: it is told with the names there are."""
+    said = [str(problem) for problem in convert(replace(files, accept=("grid total", "sign"))).remarks]
+    (line,) = [line for line in said if "--accept" in line]
+    assert line.startswith("--accept 'grid total': the audit has no such check. Choose of completeness, ")
+    assert "grid totals, " in line
+
+
 def test_undecided_sign_is_refused(files, tmp_path):
     """Without mode shapes nothing proves the sign: it has to be stated."""
     bare = replace(tee().results, shape_node=np.empty(0, np.int64), shape=np.empty((5, 0, 6)))

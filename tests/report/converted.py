@@ -37,8 +37,10 @@ def converted(folder: Path) -> Path:
     return folder / "body"
 
 
-def assessed(folder: Path, changes: list[dict[str, str]], share: float | None = None) -> Path:
+def assessed(folder: Path, changes: list[dict[str, str]], share: float | None = None, name: str = "converted") -> Path:
     """Convert, edit the rows of the register, those beyond the last are new, and assess; returns the result folder."""
+    folder = folder / name
+    folder.mkdir()
     body = converted(folder)
     register = body / "welds_register.csv"
     with register.open(newline="", encoding="utf-8") as file:

@@ -111,6 +111,20 @@ def test_workbook_and_csv_leave_their_numbers_empty(copy):
     }
 
 
+def test_the_words_for_them(tmp_path):
+    """Left out is not excluded; an excluded weld without a reason has none, and a reason may begin with any word."""
+    changes = [{"status": "excluded"}, {"status": "excluded", "reason": "candidates were ruled out"}, {}]
+    result = assessed(tmp_path, changes)
+    page = Page((result / "report.html").read_text(encoding="utf-8"))
+    statuses = {row[2] for row in page.tables["weld-register"][1:]}
+    assert statuses == {"assessed", "excluded", "excluded: candidates were ruled out"}
+    assert "2 welds are not assessed" in " ".join(" ".join(page.text).split())
+    folder = assessed(tmp_path, [{"status": "candidate", "reason": "two\nlines"}, {}, {}], name="another")
+    assert "Not assessed: 1 weld\n" in result_summary(folder, top=1).as_text()
+    assert "candidate: two lines\n" in result_summary(folder, top=1).as_text()
+    assert "The worst point\n" in result_summary(folder, top=1).as_text()
+
+
 def test_the_picture_has_the_assessed_lines(copy):
     """One line for each weld that was assessed."""
     assert f'NumberOfLines="{len(welds_of(copy)[0])}"' in write_vtp(copy).read_text()

@@ -1,16 +1,18 @@
 """The weld register read anew: which welds of the tables are recounted, under which names, and which are one."""
 
-import csv
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 import numpy as np
 import pandas as pd
 
+from fatigue.verify.recount.dialect import read_texts
+
+TEXTS = ("weld", "line", "status", "reason", "confirmed", "surface", "curve", "description")
 YES = ("true", "1", "yes", "wahr", "ja", "vrai", "oui")
 
 
@@ -115,21 +117,12 @@ def _with(a: WeldEntry, b: WeldEntry) -> WeldEntry:
 
 
 def _rows(path: Path) -> list[dict[str, str]]:
-    """Rows of the register as texts, however a spreadsheet has saved it."""
-    content = path.read_bytes()
-    encodings = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")
-    for encoding in encodings:
-        try:
-            text = content.decode(encoding)
-            break
-        except UnicodeDecodeError:
-            continue
-    mark = max(";\t,", key=text.strip().partition("\n")[0].count)
-    cells = [[cell.strip() for cell in row] for row in csv.reader(StringIO(text), delimiter=mark)]
-    names, *others = [row for row in cells if any(row)]
-    rows = [dict(zip(names, row, strict=False)) for row in others]
-    for row in rows if mark != "," else []:
-        row |= {name: row[name].replace(",", ".") for name in ("thickness_mm", "end_length_mm") if name in row}
+    """Rows of the register as trimmed texts, however a spreadsheet has saved it."""
+    rows = []
+    for piece in read_texts(path, TEXTS):
+        for cells in piece.fillna("").itertuples(index=False, name=None):
+            row = {name: normalize("NFC", cell.strip()) for name, cell in zip(piece.columns, cells, strict=True)}
+            rows += [row] if any(row.values()) else []
     return rows
 
 
