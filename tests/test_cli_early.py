@@ -1,5 +1,6 @@
 """Typing mistakes are told before anything heavy is imported, in the words of those who would find them later."""
 
+import errno
 import subprocess
 import sys
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from fatigue.case import load_case
+from fatigue.cli import cli, main
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_bad_modes, refuse_missing_case
 from fatigue.errors import FatigueError
 from fatigue.readers.files import open_columns
@@ -59,13 +61,13 @@ MISTAKES = {
     "report": (("report", "none"), "3", "none: no finished result in this folder"),
     "diagnose": (("diagnose", "none"), "3", "none: no finished result in this folder"),
     "verify": (("verify", "--results", "none"), "3", "none: no finished result in this folder"),
-    "welds": (("welds", "none.bdf"), "3", "none.bdf: the file cannot be read (No such file or directory)"),
+    "welds": (("welds", "none.bdf"), "3", "none.bdf: there is no such file"),
     "welds register": (("welds", "model.bdf", "--register", "none.csv"), "3", "none.csv: there is no such file"),
     "welds output": (("welds", "model.bdf", "-o", "there.csv"), "3", "there.csv: the file exists"),
     "welds picture": (("welds", "model.bdf", "--vtp", "there.vtp"), "3", "there.vtp: is there already"),
     "welds units": (("welds", "model.bdf", "--units", "mm-kg"), "3", "units: unknown unit system 'mm-kg'"),
-    "convert mesh": ((*CONVERT, "--mesh", "none.bdf"), "3", "none.bdf: the file cannot be read"),
-    "convert coordinates": ((*CONVERT, "--coordinates", "none.csv"), "3", "none.csv: the file cannot be read"),
+    "convert mesh": ((*CONVERT, "--mesh", "none.bdf"), "3", "none.bdf: there is no such file"),
+    "convert coordinates": ((*CONVERT, "--coordinates", "none.csv"), "3", "none.csv: there is no such file"),
     "convert columns": ((*CONVERT, "--columns", "none.csv"), "3", "none.csv: there is no such file"),
     "convert units": ((*CONVERT, "--coordinate-units", "SI"), "3", "coordinate units: unknown unit system 'SI'"),
     "convert modes": ((*CONVERT, "--ignore-modes", "1-6;9"), "3", "'1-6;9' is no mode or range"),
@@ -73,7 +75,7 @@ MISTAKES = {
     "convert speed": ((*CONVERT, "--speed", "0"), "2", "Invalid value for '--speed'"),
     "convert folder": ((*CONVERT, "-o", "body"), "3", "modes.csv: the file exists and is not the work of an earlier"),
     "tension patch": (("tension-patch", "there.csv"), "3", "there.csv: is there already"),
-    "patch results": (("tension-patch", "none.op2", "--results"), "3", "none.op2: the file cannot be read"),
+    "patch results": (("tension-patch", "none.op2", "--results"), "3", "none.op2: there is no such file"),
     "synth": (("synth", "synth"), "3", "case.toml: is there already"),
     "example": (("example", "synth"), "3", "case.toml: is there already"),
 }
@@ -119,3 +121,37 @@ def test_all_missing_files_are_named_at_once(folder):
     code, errors, _ = early(folder, "convert", "--mesh", "a.bdf", "--forces", "b.op2", "-o", "out")
     assert code == "3"
     assert len(errors) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("tension-patch", "nowhere/patch.bdf"), "nowhere/patch.bdf: there is no folder nowhere. Make it"),
+        (("synth", "there.csv/big", "--nodes", "20"), "there.csv/big: cannot be read or written (Not a directory)"),
+        (("show", "x" * 300), "cannot be read or written (File name too long)"),
+        (("check", "x" * 300), "cannot be read or written (File name too long)"),
+        (("example", "x" * 300), "cannot be read or written (File name too long)"),
+    ],
+    ids=["no folder", "below a file", "result too long", "case too long", "folder too long"],
+)
+def test_what_the_system_refuses_is_told(folder, arguments, words):
+    """It is no fault of the program: one line with place and reason, and the exit code of bad data."""
+    code, lines, _ = early(folder, *arguments)
+    assert code == "3"
+    assert len(lines) == 1
+    assert words in lines[0]
+
+
+@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT])
+def test_a_full_disk_is_told(code, monkeypatch, capsys):
+    """What to do is to make room; the system often names no file."""
+
+    def full(**_):
+        raise OSError(code, "No space left on device")
+
+    monkeypatch.setattr(cli, "main", full)
+    with pytest.raises(SystemExit) as done:
+        main()
+    assert done.value.code == 3
+    said = "error: a file: cannot be written (No space left on device). Make room, and give the same command again.\n"
+    assert capsys.readouterr().err == said

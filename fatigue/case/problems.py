@@ -15,7 +15,7 @@ from pydantic_core import ErrorDetails
 
 from fatigue.errors import CaseError, Problem
 from fatigue.known_formats import misplaced
-from fatigue.naming import composed, control_characters, missing_file
+from fatigue.naming import composed, control_characters, missing_case
 
 SHARE_TOLERANCE = 1e-6  # of the sum of all shares
 
@@ -45,11 +45,8 @@ def read_text(path: Path) -> str:
     """Read a text file as UTF-8, with or without byte order mark."""
     try:
         return path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError:
-        found = missing_file(path)
-        problem = replace(found, remedy="Give the path of a case.toml") if found.remedy == "Correct the path" else found
-    except IsADirectoryError:
-        problem = Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it")
+    except (FileNotFoundError, IsADirectoryError):
+        problem = missing_case(path)
     except OSError as error:
         problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
     except UnicodeDecodeError as error:

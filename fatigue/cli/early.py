@@ -6,14 +6,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.naming import missing_case, missing_file, missing_foreign_file
 
 
 def refuse_missing_case(path: Path) -> None:
     """Refuse a case file that is not there, as `fatigue.case.load_case` does."""
-    if path.is_dir():
-        raise CaseError(Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it"))
-    if not path.exists():
-        raise CaseError(Problem("missing_file", str(path), "there is no such file", "Give the path of a case.toml"))
+    if path.is_dir() or not path.exists():
+        raise CaseError(missing_case(path))
 
 
 def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
@@ -36,6 +35,8 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
     for path in paths:
         try:
             path.open("rb").close()
+        except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+            yield missing_foreign_file(path)
         except OSError as error:
             yield Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
 
@@ -43,10 +44,8 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
 def missing_tables(*paths: Path | None) -> Iterable[Problem]:
     """Name tables that are not there, as `fatigue.readers.files.open_columns` does."""
     for path in paths:
-        if path is not None and path.is_dir():
-            yield Problem("not_a_file", str(path), "this is a folder", "Give a .parquet or .csv file")
-        elif path is not None and not path.exists():
-            yield Problem("missing_file", str(path), "there is no such file", "Correct the path")
+        if path is not None and (path.is_dir() or not path.exists()):
+            yield missing_file(path)
 
 
 def refuse_unknown_units(**systems: str) -> None:
