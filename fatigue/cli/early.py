@@ -77,12 +77,10 @@ def refuse_foreign_conversion(folder: Path, *, force: bool, keep_case: bool) -> 
     """Refuse a folder to convert into that is a file or holds files of somebody else, as the conversion does later."""
     if force or not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         return
-    from fatigue.readers.neutral_folder import RECORD, check_folder
+    from fatigue.readers.neutral_folder import RECORD, TABLES, check_folder
 
-    tables = ("modes.csv", "nodes.parquet", "elements.parquet", "element_forces.parquet")
-    welds = ("welds.csv", "weld_nodes.csv", "weld_elements.csv")
     case = () if keep_case else ("case.toml",)
-    check_folder(folder, [*tables, *welds, "welds_register.csv", *case, RECORD], "welds_register.csv")
+    check_folder(folder, [*TABLES, "welds_register.csv", *case, RECORD], "welds_register.csv")
 
 
 def refuse_existing(path: Path | None, *, force: bool, what: str, remedy: str) -> None:
