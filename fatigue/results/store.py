@@ -157,12 +157,12 @@ def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = N
     CaseError : ``folder`` is no path, or ``columns`` are no names
     """
     path = table_path(folder, table)
-    wanted = None if columns is None else list(given_names(columns, "columns"))
+    own = [column.name for column in TABLES[table]]
+    wanted = own if columns is None else list(given_names(columns, "columns"))
+    refuse(DataError, _unknown_columns(path, wanted, own))
     with readable(path):
-        refuse(DataError, _unknown_columns(path, wanted or []))
-        found = pq.read_table(path, columns=wanted)
-        names = [column.name for column in TABLES[table]] if wanted is None else []
-        if missing := [name for name in names if name not in found.column_names]:
+        found = pq.read_table(path, columns=None if columns is None else wanted)
+        if missing := [name for name in wanted if name not in found.column_names]:
             raise pa.ArrowInvalid(f"it has no column {missing[0]}")
     return found
 
@@ -182,13 +182,12 @@ def table_path(folder: Path | str, table: str) -> Path:
     return given_path(folder, "folder") / f"{table}.parquet"
 
 
-def _unknown_columns(path: Path, wanted: Sequence[str]) -> Iterator[Problem]:
-    """Name columns that a table does not have, and what may have been meant."""
-    there = pq.read_schema(path).names if wanted else []
+def _unknown_columns(path: Path, wanted: Sequence[str], own: Sequence[str]) -> Iterator[Problem]:
+    """Name columns that such a table never has, and what may have been meant."""
     for name in wanted:
-        if name not in there:
-            near = difflib.get_close_matches(str(name), there, n=1)
-            remedy = f"Name {near[0]!r}" if near else f"Name some of {', '.join(there)}"
+        if name not in own:
+            near = difflib.get_close_matches(str(name), own, n=1)
+            remedy = f"Name {near[0]!r}" if near else f"Name some of {', '.join(own)}"
             yield Problem("no_column", str(path), f"the table has no column {name!r}", remedy)
 
 
