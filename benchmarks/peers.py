@@ -77,4 +77,5 @@ def _peer(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise SystemExit(f"{name} is missing: {install_command(name)}") from error
+        package = name.split(".", maxsplit=1)[0]
+        raise SystemExit(f"{package} is missing: {install_command(package)}") from error

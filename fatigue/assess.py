@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, refuse
+from fatigue.naming import given_path
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import Checkpoint, claimed, settle_folder
 from fatigue.pipeline.cycles import CycleWriter, kept_point
@@ -100,7 +101,7 @@ def assess(
     NumericalError : a computation lost its footing
     """
     refuse(CaseError, _senseless(threads, share, executor))
-    case, folder = given_case(case), Path(folder)
+    case, folder = given_case(case), given_path(folder, "folder")
     settle_folder(folder)
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)

@@ -1,7 +1,7 @@
 """The diagnosis as a story: a finished result, its records once more, and what makes the damage, where and when."""
 
 import logging
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.life.mission import Plan
+from fatigue.naming import given_path
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import locked, settle_folder
 from fatigue.pipeline.events import event_loads, mission_plan
@@ -74,7 +75,8 @@ def diagnose(
     CaseError : band edges or bins that make no sense
     """
     refuse(CaseError, _senseless(edges_hz, bin_km, share_of_limit))
-    folder, case_file = Path(folder), None if case_file is None else Path(case_file)
+    folder = given_path(folder, "folder")
+    case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
     settle_folder(folder)
     record = read_provenance(folder)
@@ -140,7 +142,8 @@ def _tables(
 
 def _senseless(edges_hz: Sequence[float] | None, bin_km: float, share_of_limit: float) -> Iterator[Problem]:
     if edges_hz is not None and not _ascends(edges_hz):
-        what = f"{edges_hz if isinstance(edges_hz, str) else list(edges_hz)} does not ascend from above 0 Hz"
+        shown = list(edges_hz) if isinstance(edges_hz, Iterable) and not isinstance(edges_hz, str) else edges_hz
+        what = f"{shown} does not ascend from above 0 Hz"
         yield Problem("bad_edges", "edges_hz", what, "Give edges of bands, sorted")
     if not (isinstance(bin_km, Real) and 0.0 < bin_km < np.inf):
         given = f"{bin_km:g}" if isinstance(bin_km, int | float) else repr(bin_km)

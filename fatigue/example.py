@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem
+from fatigue.naming import given_path
 
 
 def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
@@ -13,7 +14,7 @@ def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
     ------
     DataError : the folder holds files of the same names and ``force`` is not given, or it cannot be written
     """
-    folder, shipped = Path(folder), _shipped()
+    folder, shipped = given_path(folder, "folder"), _shipped()
     taken = [path.name for path in sorted(shipped.iterdir()) if (folder / path.name).exists()]
     if taken and not force:
         raise DataError(

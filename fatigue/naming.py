@@ -1,12 +1,14 @@
-"""Names that are not found as they are written: accented letters in their other spelling, paths of another system."""
+"""Names and paths as they are given: what was meant where accents, letter case or the system of a path differ."""
 
 import difflib
 import re
 import unicodedata
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from os import PathLike, fsencode, fspath
 from pathlib import Path, PureWindowsPath
 
-from fatigue.errors import Problem
+from fatigue.errors import CaseError, Problem
 
 PARTS_SHOWN = 3  # files of a folder named in a message
 
@@ -24,6 +26,44 @@ def composed(text: str) -> str:
     macOS writes file names with letter and accent apart (NFD); on screen both look the same.
     """
     return unicodedata.normalize("NFC", text.strip())
+
+
+def given_path(given: Path | str, argument: str) -> Path:
+    """Path that a caller gives as text or as a path.
+
+    Raises
+    ------
+    CaseError : anything else, or text that no file can have as its name
+    """
+    what = ""
+    if not isinstance(given, str | PathLike) or (isinstance(given, PathLike) and not isinstance(fspath(given), str)):
+        what = f"{type(given).__name__} is no path"
+    elif "\0" in fspath(given) or not _is_encodable(fspath(given)):
+        what = f"{fspath(given)!r} holds a character that no path can have"
+    if what:
+        raise CaseError(Problem("argument", argument, what, "Give a path, as text or as pathlib.Path"))
+    return Path(given)
+
+
+def given_names(given: str | Sequence[str], argument: str) -> tuple[str, ...]:
+    """Names that a caller gives, one or several.
+
+    Raises
+    ------
+    CaseError : anything else
+    """
+    names = (given,) if isinstance(given, str) else given
+    if not isinstance(names, Iterable) or isinstance(names, bytes) or not all(isinstance(n, str) for n in names):
+        raise CaseError(Problem("argument", argument, f"{given!r} is no list of names", "Give texts"))
+    return tuple(names)
+
+
+def _is_encodable(text: str) -> bool:
+    try:
+        fsencode(text)
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def control_characters(text: str) -> str:
@@ -62,6 +102,11 @@ def missing_case(path: Path) -> Problem:
         return Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it")
     found = missing_file(path)
     return replace(found, remedy="Give the path of a case.toml") if found.remedy == "Correct the path" else found
+
+
+def missing_foreign_file(path: Path) -> Problem:
+    """Say what is in the place of an FE or simulation file that is not there."""
+    return missing_file(path, code="unreadable", wanted="the file itself")
 
 
 def _instead(path: Path, given: Path, base: Path | None) -> tuple[str, str]:

@@ -23,6 +23,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from fatigue.naming import given_path
+
 Floats = NDArray[np.float64]
 
 EDGE = 10.0  # [mm] between neighbouring nodes
@@ -70,7 +72,7 @@ def synthesize(folder: Path | str, size: Size, seed: int = 0) -> Path:
 
     The same size and seed give the same case.
     """
-    folder = Path(folder)
+    folder = given_path(folder, "folder")
     folder.mkdir(parents=True, exist_ok=True)
     frequency = np.linspace(LOWEST_HZ, HIGHEST_HZ, size.modes)
     pq.write_table(

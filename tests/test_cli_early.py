@@ -1,5 +1,6 @@
 """Typing mistakes are told before anything heavy is imported, in the words of those who would find them later."""
 
+import errno
 import subprocess
 import sys
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from fatigue.case import load_case
+from fatigue.cli import cli, main
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_bad_modes, refuse_missing_case
 from fatigue.errors import FatigueError
 from fatigue.readers.files import open_columns
@@ -128,3 +130,37 @@ def test_all_missing_files_are_named_at_once(folder):
     code, errors, _ = early(folder, "convert", "--mesh", "a.bdf", "--forces", "b.op2", "-o", "out")
     assert code == "3"
     assert len(errors) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("tension-patch", "nowhere/patch.bdf"), "nowhere/patch.bdf: there is no folder nowhere. Make it"),
+        (("synth", "there.csv/big", "--nodes", "20"), "there.csv/big: cannot be read or written (Not a directory)"),
+        (("show", "x" * 300), "cannot be read or written (File name too long)"),
+        (("check", "x" * 300), "cannot be read or written (File name too long)"),
+        (("example", "x" * 300), "cannot be read or written (File name too long)"),
+    ],
+    ids=["no folder", "below a file", "result too long", "case too long", "folder too long"],
+)
+def test_what_the_system_refuses_is_told(folder, arguments, words):
+    """It is no fault of the program: one line with place and reason, and the exit code of bad data."""
+    code, lines, _ = early(folder, *arguments)
+    assert code == "3"
+    assert len(lines) == 1
+    assert words in lines[0]
+
+
+@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT])
+def test_a_full_disk_is_told(code, monkeypatch, capsys):
+    """What to do is to make room; the system often names no file."""
+
+    def full(**_):
+        raise OSError(code, "No space left on device")
+
+    monkeypatch.setattr(cli, "main", full)
+    with pytest.raises(SystemExit) as done:
+        main()
+    assert done.value.code == 3
+    said = "error: a file: cannot be written (No space left on device). Make room, and give the same command again.\n"
+    assert capsys.readouterr().err == said

@@ -3,11 +3,13 @@
 import builtins
 import re
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
+from benchmarks import peers
 from fatigue.cluster import cluster_executor
 from fatigue.errors import DataError
 from fatigue.extras import REQUIREMENTS, install_command
@@ -83,6 +85,15 @@ def test_a_missing_cluster_package_is_told(monkeypatch):
         cluster_executor("tcp://localhost:8786"),
     ):
         pass
+
+
+@pytest.mark.parametrize("name", ["pyyeti.cyclecount", "FLife"])
+def test_a_missing_package_of_the_benchmarks_is_told(name, monkeypatch):
+    """Of a module in a package, too: the command that installs the package."""
+    monkeypatch.setitem(sys.modules, name, None)
+    package = name.split(".")[0]
+    with pytest.raises(SystemExit, match=re.escape(f"{package} is missing: {install_command(package)}")):
+        peers._peer(name)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The table of contents of the package: names, types, and paths as text."""
 
 import re
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
@@ -94,7 +95,10 @@ def test_files_may_be_text(result, tmp_path):
 
 def test_options_of_a_conversion_may_be_text():
     """Text becomes a path at once; one file of coordinates needs no tuple."""
-    options = ConvertOptions("a.op2", "a.bdf", "out", coordinates="q.csv", welds=WeldSources(register="r.csv"))
+    welds = WeldSources(register="r.csv")
+    options = ConvertOptions("a.op2", "a.bdf", "out", coordinates="q.csv", unit_loads=["s.op2", "t.op2"], welds=welds)
+    assert options.unit_loads == (Path("s.op2"), Path("t.op2"))
+    assert replace(options, unit_loads="s.op2").unit_loads == (Path("s.op2"),)
     assert (options.forces, options.mesh, options.out) == (Path("a.op2"), Path("a.bdf"), Path("out"))
     assert options.coordinates == (Path("q.csv"),)
     assert options.welds.register == Path("r.csv")
@@ -122,6 +126,7 @@ def test_options_of_a_conversion_may_be_text():
         (lambda case, folder: assess(case, folder, executor=4), "executor: int is no executor"),
         (lambda case, folder: diagnose(folder, share_of_limit=float("nan")), "share_of_limit: nan"),
         (lambda case, folder: diagnose(folder, edges_hz="ab"), "edges_hz: ab does not ascend"),
+        (lambda case, folder: diagnose(folder, edges_hz=3), "edges_hz: 3 does not ascend"),
         (lambda case, folder: diagnose(folder, edges_hz=[]), r"edges_hz: \[\] does not ascend"),
         (lambda case, folder: diagnose(folder, edges_hz=[1.0, float("inf")]), "does not ascend"),
         (lambda case, folder: diagnose(folder, bin_km="long"), "bin_km: 'long' km is not a length"),
@@ -131,6 +136,45 @@ def test_senseless_arguments_are_refused(result, call, words):
     """One line for each, that names the argument and its value."""
     with pytest.raises((CaseError, DataError), match=words):
         call(*result)
+
+
+@pytest.mark.parametrize("given", [None, 3, b"case.toml", ["case.toml"], object(), "a\0b", "\ud800"])
+@pytest.mark.parametrize(
+    "call",
+    [
+        fatigue.load_case,
+        fatigue.check_case,
+        fatigue.read_model,
+        fatigue.read_provenance,
+        fatigue.result_summary,
+        fatigue.recount,
+        diagnose,
+        write_example,
+        write_report,
+        write_vtp,
+        write_csv,
+        lambda given: fatigue.read_table(given, "nodes"),
+        lambda given: assess(given, "result"),
+        lambda given: ConvertOptions(given, "a.bdf", "out"),
+        lambda given: ConvertOptions("a.op2", "a.bdf", "out", unit_loads=(given,)),
+    ],
+)
+def test_what_is_no_path_is_refused(call, given):
+    """One line that names the argument and what stands there."""
+    with pytest.raises(CaseError, match=r"\A\w+: .* (is no path|no path can have)\. Give a path[^\n]*\Z"):
+        call(given)
+
+
+def test_what_is_no_name_is_refused(result):
+    """Names of columns and of welds are texts."""
+    _, folder = result
+    for given in (3, [3], b"life_km", Path("life_km")):
+        with pytest.raises(CaseError, match=r"\Acolumns: .* is no list of names"):
+            fatigue.read_table(folder, "nodes", given)
+        with pytest.raises(CaseError, match=r"\Aonly: .* is no list of names"):
+            fatigue.result_summary(folder, only=given)
+    with pytest.raises(DataError, match="no table"):
+        fatigue.read_table(folder, ["nodes"])
 
 
 def test_the_catalogue_cannot_be_changed():

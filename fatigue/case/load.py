@@ -13,7 +13,7 @@ from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event,
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.known_formats import misplaced
 from fatigue.life.curves import catalogue
-from fatigue.naming import missing_file
+from fatigue.naming import given_path, missing_file
 
 CASE_FILE = "this is a case (case.toml)"
 DISTANCE_TOLERANCE = 1e-3  # relative, between length_km and speed times duration
@@ -38,7 +38,7 @@ def load_case(path: Path | str) -> Case:
     CaseError
         with every mistake of the file, not only the first
     """
-    path = Path(path)
+    path = given_path(path, "case")
     text = read_text(path)
     problems: list[Problem] = []
     try:

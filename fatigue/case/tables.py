@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator,
 
 from fatigue.case.problems import Contradictions, absent, clash, path_problems
 from fatigue.errors import Problem
-from fatigue.life.curves import Applies, Extension, Survival, catalogue
+from fatigue.life.curves import Applies, Extension, Survival
 from fatigue.life.damage import ThicknessRule
 from fatigue.life.history import Residue
 
@@ -280,10 +280,6 @@ class Case(_Table):
         body["body.register"] = self.body.weld_register
         histories = {f"mission.event[{i}].history": event.history for i, event in enumerate(self.mission.event, 1)}
         return {key: self.resolve(name) for key, name in (body | histories).items() if name is not None}
-
-    def curve_names(self) -> set[str]:
-        """List the curves a weld may name: the catalogue's and the case's own."""
-        return {*catalogue(), *self.curves}
 
     def residue(self, event: Event) -> Residue:
         """Residue rule of an event: its own, else ``half`` for one counted by number, else that of ``[counting]``."""

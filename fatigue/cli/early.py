@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import missing_case, missing_file
+from fatigue.naming import missing_case, missing_file, missing_foreign_file
 
 MOST_MODES = 100_000  # of one range
 
@@ -40,7 +40,7 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
         try:
             path.open("rb").close()
         except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-            yield missing_file(path, code="unreadable", wanted="the file itself")
+            yield missing_foreign_file(path)
         except OSError as error:
             yield Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
 
@@ -83,12 +83,10 @@ def refuse_foreign_conversion(folder: Path, *, force: bool, keep_case: bool) -> 
     """Refuse a folder to convert into that is a file or holds files of somebody else, as the conversion does later."""
     if force or not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         return
-    from fatigue.readers.neutral_folder import RECORD, check_folder
+    from fatigue.readers.neutral_folder import RECORD, TABLES, check_folder
 
-    tables = ("modes.csv", "nodes.parquet", "elements.parquet", "element_forces.parquet")
-    welds = ("welds.csv", "weld_nodes.csv", "weld_elements.csv")
     case = () if keep_case else ("case.toml",)
-    check_folder(folder, [*tables, *welds, "welds_register.csv", *case, RECORD], "welds_register.csv")
+    check_folder(folder, [*TABLES, "welds_register.csv", *case, RECORD], "welds_register.csv")
 
 
 def refuse_existing(path: Path | None, *, force: bool, what: str, remedy: str) -> None:

@@ -53,7 +53,7 @@ def weld_sources(command: Any) -> Any:
     "--unit-loads",
     type=_FILE,
     multiple=True,
-    help="Forces of static unit loads in a file of their own: interface modes.",
+    help="Forces of static unit loads in a file of their own: interface modes; repeatable.",
 )
 @click.option(
     "--coordinates", type=_FILE, multiple=True, help="Modal coordinates: CSV, text or .mcf; one file per event."

@@ -1,5 +1,6 @@
 """The command line: parse, call, print. Heavy imports stay inside the commands, so that ``--help`` is quick."""
 
+import errno
 import json
 import logging
 import sys
@@ -385,6 +386,18 @@ def _print_warnings(problems: tuple[Problem, ...], others_are: str = "see proven
         log.warning("%s%s", same[0], more)
 
 
+def _of_the_system(error: OSError) -> Problem:
+    """Say what the operating system refused: a folder that is not there, a name too long, a full disk."""
+    place = str(error.filename or "a file")
+    reason = error.strerror or str(error)
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return Problem("system", place, f"cannot be written ({reason})", "Make room, and give the same command again")
+    if error.errno == errno.ENOENT and error.filename and not Path(place).parent.is_dir():
+        return Problem("system", place, f"there is no folder {Path(place).parent}", "Make it, or correct the path")
+    remedy = "Correct the path, or give one that you may read and write"
+    return Problem("system", place, f"cannot be read or written ({reason})", remedy)
+
+
 def main() -> None:
     """Run the command line; every known failure is one clear line and its exit code."""
     verbose = bool({"-v", "--verbose"} & set(sys.argv[1:]))
@@ -404,6 +417,11 @@ def main() -> None:
     except BrokenPipeError:  # the reader of our output went away, as `| head` does
         sys.stderr.close()
         sys.exit(0)
+    except OSError as error:
+        if verbose:
+            raise
+        click.echo(f"error: {_of_the_system(error)}", err=True)
+        sys.exit(3)
     except MemoryError:
         click.echo("error: out of memory: close other programs, or assess fewer welds at once", err=True)
         sys.exit(4)

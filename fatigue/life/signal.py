@@ -11,6 +11,7 @@ from fatigue.life.history import Residue
 
 Floats = NDArray[np.float64]
 
+_FLAT = "Give its samples as a list or an array of one dimension"
 _NUMBERS = "biuf"  # kinds of numpy types that hold real numbers
 _IN_WORDS = {
     "c": "complex numbers",
@@ -35,9 +36,8 @@ def samples_of(signal: ArrayLike) -> Floats:
         raise _no_signal("it is a masked array", "Give the samples without a mask, for instance signal.compressed()")
     values = _array(signal)
     if values.ndim != 1:
-        raise _no_signal(
-            f"it has {values.ndim} dimensions, its shape is {values.shape}", "Give one signal after the other"
-        )
+        remedy = "Give one signal after the other" if values.size > max(values.shape, default=1) else _FLAT
+        raise _no_signal(f"it has {values.ndim} dimensions, its shape is {values.shape}", remedy)
     with np.errstate(over="ignore", invalid="ignore"):
         samples = np.array(values, np.float64)
         if not np.isfinite(samples).all():
@@ -87,7 +87,7 @@ def _array(signal: ArrayLike) -> NDArray[Any]:
     """Array of real numbers of any dimension."""
     try:
         values = np.asarray(signal)
-        if values.dtype.kind == "O" and _is_numeric(signal):
+        if values.dtype.kind == "O" and (_is_numeric(signal) or values.shape == (0,)):
             values = np.array(signal, np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         reason = str(error).strip().splitlines()[0].split(". ")[0].rstrip(".")

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from fatigue.naming import given_path
 from fatigue.readers.displacement.record import Displacement
 from fatigue.readers.forces import Convention
 from fatigue.readers.foreign_history import Match
@@ -66,9 +67,12 @@ class ConvertOptions:
     keep_case: bool = False
 
     def __post_init__(self) -> None:
-        """Take text for a path, and one file of coordinates for a tuple of one."""
+        """Take text for a path, and one file for a tuple of one."""
         for name in ("forces", "mesh", "out", "columns", "simulation_modes"):
-            if (given := getattr(self, name)) is not None:
-                object.__setattr__(self, name, Path(given))
-        files = (self.coordinates,) if isinstance(self.coordinates, Path | str) else self.coordinates
-        object.__setattr__(self, "coordinates", tuple(map(Path, files)))
+            given = getattr(self, name)
+            if given is not None or name in ("forces", "mesh", "out"):
+                object.__setattr__(self, name, given_path(given, name))
+        for name in ("coordinates", "unit_loads"):
+            given = getattr(self, name)
+            files = given if isinstance(given, tuple | list) else (given,)
+            object.__setattr__(self, name, tuple(given_path(file, name) for file in files))

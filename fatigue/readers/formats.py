@@ -6,7 +6,7 @@ from typing import Literal
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.known_formats import known_format, own_format, unknown_binary
-from fatigue.naming import missing_file
+from fatigue.naming import missing_foreign_file
 from fatigue.readers.fe_model import FeModel
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.foreign_history import ForeignHistory
@@ -55,7 +55,7 @@ def recognise(path: Path) -> Format:
         with path.open("rb") as file:
             head = file.read(_HEAD)
     except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-        raise DataError(missing_file(path, code="unreadable", wanted="the file itself")) from None
+        raise DataError(missing_foreign_file(path)) from None
     except OSError as error:
         raise DataError(
             Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")

@@ -17,6 +17,12 @@ from fatigue.errors import DataError, Problem, refuse
 RECORD = "convert.json"
 """Lists the files of a conversion with their hashes; what it lists unchanged may be written again."""
 
+TABLES = (
+    *("modes.csv", "nodes.parquet", "elements.parquet", "element_forces.parquet"),
+    *("welds.csv", "weld_nodes.csv", "weld_elements.csv"),
+)
+"""What every conversion writes besides histories, register, case and record."""
+
 
 def sha256(path: Path) -> str:
     """Hash of a file's content."""

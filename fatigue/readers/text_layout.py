@@ -58,11 +58,6 @@ class TableLayout:
     fortran: bool
     padded: bool = False
 
-    @property
-    def is_plain(self) -> bool:
-        """Whether the table is CSV as this program writes it: UTF-8, commas, points, nothing but names above."""
-        return self.encoding == "utf-8" and self.separator == "," and self.first == 1 and not self.fortran
-
 
 def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
     """Find the layout of a file; ``texts`` are columns of names, whose cells say nothing of decimal signs.

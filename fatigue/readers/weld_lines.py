@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem
+from fatigue.naming import given_path
 from fatigue.readers.fe_model import FeModel, in_mm
 from fatigue.readers.formats import read_model
 from fatigue.readers.joined_cuts import joined_cuts
@@ -44,7 +45,7 @@ class WeldSources:
         """Take text for a path."""
         for name in ("node_lists", "register"):
             if (given := getattr(self, name)) is not None:
-                object.__setattr__(self, name, Path(given))
+                object.__setattr__(self, name, given_path(given, name))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,7 +131,7 @@ def list_welds(
     DataError : as ``find_welds``; there are none; ``out`` exists, is not the register that was read, and may not be
         overwritten
     """
-    mesh, out = Path(mesh), None if out is None else Path(out)
+    mesh, out = given_path(mesh, "mesh"), None if out is None else given_path(out, "out")
     model = in_mm(read_model(mesh), unit_system(units, "units").length)
     found = find_welds(model, sources)
     if not found.rows:

@@ -204,16 +204,6 @@ def register_text(rows: Iterable[RegisterRow]) -> str:
     return text.getvalue()
 
 
-def read_register(path: Path) -> dict[str, RegisterRow]:
-    """Read a register, by line, or by weld where a row names no line.
-
-    Raises
-    ------
-    DataError : as ``open_register``
-    """
-    return {row.key: row for row in open_register(path, strict=False).rows}
-
-
 def open_register(path: Path, *, strict: bool) -> Register:
     """Read a register; an unknown column is a doubt, or a mistake where strict.
 

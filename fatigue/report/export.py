@@ -9,6 +9,7 @@ import pyarrow as pa
 
 from fatigue.errors import DataError, Problem
 from fatigue.extras import install_command
+from fatigue.naming import given_path
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
     CSV_TABLES,
@@ -61,7 +62,7 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
     refuse_without_xlsxwriter()
     import xlsxwriter  # noqa: PLC0415
 
-    folder = Path(folder)
+    folder = given_path(folder, "folder")
     record = read_provenance(folder)
     points = row_count(folder, "nodes")
     if points > _MOST_ROWS:
@@ -175,7 +176,7 @@ def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
     ------
     DataError : no finished result in the folder
     """
-    folder = Path(folder)
+    folder = given_path(folder, "folder")
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem
+from fatigue.naming import given_path
 from fatigue.report import body_sections, figures, method, tables, wording
 from fatigue.report.checks import recomputed
 from fatigue.report.details import Detail, weld_details
@@ -56,7 +57,7 @@ def write_report(
     ------
     DataError : no finished result in the folder
     """
-    folder = Path(folder)
+    folder = given_path(folder, "folder")
     path = (into or folder) / PAGE
     path.write_text(report_page(folder, case_path, verification), encoding="utf-8", newline="\n")
     if into is None:
@@ -68,7 +69,8 @@ def report_page(
     folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
 ) -> str:
     """Return the page as text; see `write_report`."""
-    folder, case_path = Path(folder), None if case_path is None else Path(case_path)
+    folder = given_path(folder, "folder")
+    case_path = None if case_path is None else given_path(case_path, "case_path")
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
     record = result.record
     inputs = find_inputs(record, folder, case_path)

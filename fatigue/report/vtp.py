@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.naming import given_path
 from fatigue.results import NODES, PICTURE, Column, enlist, marked, read_codes, read_provenance, read_table
 from fatigue.weld.line import WeldLine
 
@@ -44,7 +45,7 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
     ------
     DataError : the folder holds no result
     """
-    folder = Path(folder)
+    folder = given_path(folder, "folder")
     surface, faces = read_codes(folder, "nodes", "surface")
     register = read_table(folder, "welds", ["weld", "closed", "parts"]).to_pydict()
     rows = {face: np.flatnonzero(surface == i) for i, face in enumerate(faces)}
@@ -111,7 +112,7 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
     ------
     DataError : the file exists and may not be overwritten, or there are no lines
     """
-    path = Path(path)
+    path = given_path(path, "path")
     if not lines:
         raise DataError(Problem("no_welds", str(path), "there are no weld lines to draw", "Choose others"))
     if path.exists() and not overwrite:

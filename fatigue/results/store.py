@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from fatigue import __version__
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.naming import given_names, given_path
 from fatigue.results.columns import ASSESSED, TABLES, ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
@@ -153,10 +154,11 @@ def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = N
     Raises
     ------
     DataError : the folder holds no such table, there is no such table or column at all, or the file is damaged
+    CaseError : ``folder`` is no path, or ``columns`` are no names
     """
     path = table_path(folder, table)
     own = [column.name for column in TABLES[table]]
-    wanted = own if columns is None else [columns] if isinstance(columns, str) else list(columns)
+    wanted = own if columns is None else list(given_names(columns, "columns"))
     refuse(DataError, _unknown_columns(path, wanted, own))
     with readable(path):
         found = pq.read_table(path, columns=None if columns is None else wanted)
@@ -172,12 +174,12 @@ def table_path(folder: Path | str, table: str) -> Path:
     ------
     DataError : no table of results has this name
     """
-    if table not in TABLES:
+    if not (isinstance(table, str) and table in TABLES):
         names = ", ".join(TABLES)
         raise DataError(
             Problem("no_table", str(folder), f"there is no table {table!r} of a result", f"Name one of {names}")
         )
-    return Path(folder) / f"{table}.parquet"
+    return given_path(folder, "folder") / f"{table}.parquet"
 
 
 def _unknown_columns(path: Path, wanted: Sequence[str], own: Sequence[str]) -> Iterator[Problem]:
@@ -220,7 +222,7 @@ def read_provenance(folder: Path | str) -> dict[str, Any]:
     ------
     DataError : the folder holds no finished result
     """
-    folder = Path(folder)
+    folder = given_path(folder, "folder")
     path = folder / "provenance.json"
     try:
         record = json.loads(path.read_text(encoding="utf-8"))

@@ -9,6 +9,7 @@ from typing import Any
 import pandas as pd
 
 from fatigue.errors import CaseError, DataError, Problem
+from fatigue.naming import given_names, given_path
 from fatigue.results import assessed, not_assessed, read_provenance, read_rows, read_welds, refuse_mixed, worst_toes
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
@@ -109,11 +110,11 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
     Raises
     ------
     DataError : no finished result there, tables of different results, or no such weld in it
-    CaseError : ``top`` is no number of points
+    CaseError : ``top`` is no number of points, or ``only`` are no names
     """
     if not (isinstance(top, Integral) and top >= 1):
         raise CaseError(Problem("argument", "top", f"{top!r} is no number of points", "Give a whole number from 1 on"))
-    folder, only = Path(folder), (only,) if isinstance(only, str) else only
+    folder, only = given_path(folder, "folder"), given_names(only, "only")
     record = read_provenance(folder)
     refuse_mixed(folder, record, ("nodes", "welds"))
     every = read_welds(folder)

@@ -73,31 +73,3 @@ def band_products(x: Floats, y: Floats, bands: Sequence[slice]) -> Floats:
     Summed over the bands they are the products of the records, ``x @ y.T``.
     """
     return np.stack([x[:, band] @ y[:, band].T for band in bands], axis=-1)
-
-
-def band_split(x: NDArray[np.floating], step: float, edges: Sequence[float] | Floats, residue: Residue) -> Floats:
-    """Split records (..., t) into bands (b, ..., t), which add up to the records.
-
-    What lies below the first edge [Hz] is the first band, what lies from the last one on the last.
-    """
-    X = coefficients(x, residue)
-    parts = np.zeros((len(edges) + 1, *X.shape))
-    for part, band in zip(parts, band_slices(coefficient_frequencies(x.shape[-1], step, residue), edges), strict=True):
-        part[..., band] = X[..., band]
-        part[:] = _records(part, residue)
-    return parts
-
-
-def _records(coefficients: Floats, residue: Residue) -> Floats:
-    """Turn coefficients (..., t) back into records."""
-    if residue == "half":
-        from scipy.fft import idct  # noqa: PLC0415
-
-        return np.asarray(idct(coefficients, type=2, norm="ortho"))
-    samples = coefficients.shape[-1]
-    packed = np.zeros((*coefficients.shape[:-1], 2 * (samples // 2 + 1)))
-    packed[..., 0] = coefficients[..., 0]
-    packed[..., 2 : samples + 1] = coefficients[..., 1:] / np.sqrt(2.0)
-    if samples % 2 == 0:
-        packed[..., samples] *= np.sqrt(2.0)
-    return np.asarray(np.fft.irfft(packed.view(np.complex128), n=samples, norm="ortho"))

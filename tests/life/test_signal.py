@@ -66,6 +66,8 @@ def assert_as_ever(signal, residue):
         memoryview(np.array(PLAIN)),
         array.array("d", PLAIN),
         [],
+        pd.Series([]),
+        np.array([], object),
         [5e-324, 0.0, 5e-324],
     ],
     ids=lambda signal: f"{type(signal).__name__}-{getattr(signal, 'dtype', '')}",
@@ -100,7 +102,8 @@ def test_finite_signals_are_counted_as_ever_and_others_refused(signal, residue):
     [
         (3.0, "0 dimensions"),
         (np.ones((3, 2)), r"2 dimensions, its shape is \(3, 2\)"),
-        (np.array([PLAIN]), "2 dimensions"),
+        (np.array([PLAIN]), "2 dimensions.* as a list or an array of one dimension"),
+        (np.ones((2, 2)), "2 dimensions.* Give one signal after the other"),
         (pd.DataFrame({"a": PLAIN}), "2 dimensions"),
         ([[1, 2], [3]], "no array of numbers"),
         (np.array(PLAIN, object), "objects"),

@@ -15,6 +15,7 @@ from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.forces import read_element_forces, read_weld_elements
 from fatigue.readers.history import read_history
 from fatigue.readers.modal_basis import mode_list
+from fatigue.readers.neutral_folder import TABLES
 from fatigue.readers.weld_lines import WeldSources
 from fatigue.weld.element_forces import balance, side_forces
 from tests.readers.op2_writer import modal_op2
@@ -59,6 +60,12 @@ def test_neutral_forces_are_those_of_the_model(files):
     result = convert(files)
     case = tee()
     modes, lines, forces, sides, mesh = neutral(files.out)
+    assert set(TABLES) <= set(result.files)
+    assert not [
+        name
+        for name in set(result.files) - set(TABLES)
+        if not name.startswith("q_") and "." in name and name not in ("case.toml", "welds_register.csv", "convert.json")
+    ]
     assert result.audit.convention == "on_node"
     assert not result.audit.is_red
     assert len(lines) == 3

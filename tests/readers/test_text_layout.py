@@ -194,7 +194,7 @@ def test_a_plain_table_is_read_by_arrow_from_the_file(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("a,x\nw,1.5\n")
     layout = table_layout(path, ("a",))
-    assert layout.is_plain
+    assert (layout.encoding, layout.separator, layout.fortran) == ("utf-8", ",", False)
     assert (layout.names, layout.first, layout.line, layout.units) == (("a", "x"), 1, 1, ())
 
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.fft import idct
 
 from fatigue.spectrum.bands import (
     band_products,
     band_slices,
-    band_split,
     coefficient_frequencies,
     coefficients,
     third_octaves,
@@ -16,6 +16,32 @@ from fatigue.spectrum.bands import (
 
 STEP = 0.01
 RESIDUES = pytest.mark.parametrize("residue", ["repeat", "half"])
+
+
+def band_split(x, step, edges, residue):
+    """Split records (..., t) into bands (b, ..., t), which add up to the records.
+
+    What lies below the first edge [Hz] is the first band, what lies from the last one on the last.
+    """
+    X = coefficients(x, residue)
+    parts = np.zeros((len(edges) + 1, *X.shape))
+    for part, band in zip(parts, band_slices(coefficient_frequencies(x.shape[-1], step, residue), edges), strict=True):
+        part[..., band] = X[..., band]
+        part[:] = records(part, residue)
+    return parts
+
+
+def records(coefficients, residue):
+    """Turn coefficients (..., t) back into records."""
+    if residue == "half":
+        return np.asarray(idct(coefficients, type=2, norm="ortho"))
+    samples = coefficients.shape[-1]
+    packed = np.zeros((*coefficients.shape[:-1], 2 * (samples // 2 + 1)))
+    packed[..., 0] = coefficients[..., 0]
+    packed[..., 2 : samples + 1] = coefficients[..., 1:] / np.sqrt(2.0)
+    if samples % 2 == 0:
+        packed[..., samples] *= np.sqrt(2.0)
+    return np.asarray(np.fft.irfft(packed.view(np.complex128), n=samples, norm="ortho"))
 
 
 @given(

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.naming import given_path
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
 from fatigue.verify.recount.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
@@ -86,7 +87,8 @@ def recount(
     DataError : no finished result there, or inputs that are missing or changed since; CaseError : no number of points
     """
     refuse(CaseError, _senseless(sample, seed))
-    folder, case_file = Path(folder), None if case_file is None else Path(case_file)
+    folder = given_path(folder, "folder")
+    case_file = None if case_file is None else given_path(case_file, "case_file")
     record = read_provenance(folder)
     astray = tuple(strangers(folder, record))
     if {Path(problem.where).name for problem in astray} & {f"{table}.parquet" for table in ASSESSED}:
