@@ -212,7 +212,9 @@ def _nodal_totals(results: FeResults, convention: Convention | None) -> AuditRow
 
 def _sign(results: FeResults, model: FeModel, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
     """Compare the proven sign convention with the stated one."""
-    value, found, finding, contradiction, odd = prove_sign(results, whole_rows(results, model))
+    value, found, finding, contradiction, odd = prove_sign(
+        results, whole_rows(results, model), shell_rows(results, model)
+    )
     if found is None:
         remedy = "State the sign convention; prove it with the one-element tension patch" if stated is None else REQUEST
         return AuditRow("sign", "amber", value, f"{finding}: the sign is not proven", remedy), stated

@@ -7,7 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.fe_results import Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock, frequency_of
+from fatigue.readers.fe_results import (
+    REQUEST,
+    Eigenvalue,
+    FeResults,
+    ForceBlock,
+    ShapeBlock,
+    UnusableBlock,
+    frequency_of,
+)
 from fatigue.readers.force_rows import common_rows
 from fatigue.readers.force_sign import LOWEST_HZ
 
@@ -50,6 +58,8 @@ def assemble(
     DataError : no blocks, a choice of subcase is needed, a mode or a row given twice, rows that differ between modes, a
         value that is no number, eigenvalues that contradict each other
     """
+    if not forces and not unusable:
+        raise DataError(Problem("no_forces", source, "its table of grid point forces is empty", REQUEST))
     chosen, remarks = _choose(source, forces, unusable, subcase, interface)
     modal = {block.subcase for block in chosen if block.mode > 0}
     key = np.array([block.mode or block.subcase for block in chosen], np.int64)

@@ -39,14 +39,26 @@ class _Works(NamedTuple):
     terms: NDArray[np.float64]
     element: NDArray[np.int64]
 
+    def of_elements(self, elements: NDArray[np.int64]) -> "_Works":
+        """Return the works of some elements."""
+        some = np.isin(self.element, elements)
+        return _Works(self.work[:, some], self.terms[:, some], self.element[some])
 
-def prove_sign(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
+    def have_both_signs(self) -> NDArray[np.bool_]:
+        """Modes whose works have clearly both signs, (m,)."""
+        size = np.abs(self.work).sum(axis=1)
+        is_clear = size > _CLEAR * self.terms.sum(axis=1)
+        return np.asarray(is_clear & (np.abs(self.work.sum(axis=1)) <= _ONE_SIGN * size))
+
+
+def prove_sign(results: FeResults, whole: NDArray[np.bool_], shells: NDArray[np.bool_]) -> SignProof:
     """Find the sign convention from the work of the shapes, or else from loads and reactions.
 
-    ``whole``: (r,) rows of elements that have forces at all their nodes; only their work is a strain energy.
+    ``whole``: (r,) rows of elements that have forces at all their nodes, as far as known; only their work is a strain
+    energy. ``shells``: those of them that the mesh proves to be whole; they alone can contradict.
     """
     if results.shape_node.size:
-        proof = _by_work(results, whole)
+        proof = _by_work(results, whole, shells)
         if proof.convention is not None or results.analysis == "modal":
             return proof
     proof = _by_loads(results)
@@ -70,7 +82,7 @@ def _element_works(results: FeResults, whole: NDArray[np.bool_]) -> _Works:
     return _Works(work, terms, elements)
 
 
-def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
+def _by_work(results: FeResults, whole: NDArray[np.bool_], shells: NDArray[np.bool_]) -> SignProof:
     """Work of each mode shape on its own forces, over omega^2 m: -1 for forces on nodes, +1 on elements.
 
     Without generalised masses work over omega^2 gives them, and its sign is the proof. Without a frequency, the signs
@@ -84,6 +96,7 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
     known = np.isfinite(results.modal_mass)
     elastic = np.nan_to_num((2 * np.pi * results.frequency) ** 2 * np.where(known, results.modal_mass, 1.0))
     is_clear = np.abs(work) > _ONE_SIGN * size
+    sure = works.of_elements(results.element[shells])
     usable = (results.frequency > LOWEST_HZ) & (elastic > 0) & is_clear
     if usable.any():
         proof = _by_energy(work[usable] / elastic[usable], bool(known[usable].all()))
@@ -92,12 +105,11 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
         if other.any():
             finding = f"{proof.finding}; the forces of mode {results.mode[other][0]} have the other sign"
             return SignProof(proof.value, None, finding)
-        of_another = ~is_clear & (results.frequency >= results.frequency[usable].min())
-        of_another &= size > _CLEAR * works.terms.sum(axis=1)
+        of_another = sure.have_both_signs() & (results.frequency >= results.frequency[usable].min())
         if of_another.any():
             found = f"in mode {results.mode[of_another][0]} the elements do work of both signs, as if its shape were "
             return proof._replace(contradiction=proof.contradiction or f"{found}that of another mode")
-        return proof._replace(odd=_odd_elements(results.mode, works, usable, np.sign(proof.value or 0.0)))
+        return proof._replace(odd=_odd_elements(results.mode, sure, usable, np.sign(proof.value or 0.0)))
     balance_of_signs = float(work.sum() / size.sum())
     given = "static subcases" if results.analysis == "static" else "no elastic mode has a frequency"
     if results.analysis == "modal" and (results.frequency > LOWEST_HZ).any():
@@ -106,7 +118,7 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_]) -> SignProof:
     if abs(balance_of_signs) < _ONE_SIGN:
         return SignProof(balance_of_signs, None, text)
     convention: Convention = "on_node" if balance_of_signs < 0 else "on_element"
-    odd = _odd_elements(results.mode, works, is_clear, np.sign(balance_of_signs))
+    odd = _odd_elements(results.mode, sure, is_clear, np.sign(balance_of_signs))
     return SignProof(balance_of_signs, convention, text, odd=odd)
 
 

@@ -43,10 +43,18 @@ def mode_list(text: str) -> tuple[int, ...]:
 
 
 def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
-    """Leave modes out of a run."""
+    """Leave modes out of a run.
+
+    Raises
+    ------
+    DataError : no mode is left
+    """
     keep = ~np.isin(results.mode, np.array(sorted(ignored), np.int64))
     if keep.all():
         return results
+    if not keep.any():
+        what = f"all {results.mode.size} modes with forces are left out: {_short(results.mode.tolist())}"
+        raise DataError(Problem("no_modes", results.source, what, "Name fewer modes in --ignore-modes"))
     return replace(
         results,
         mode=results.mode[keep],
@@ -174,7 +182,7 @@ def common_modes(
                     "mode_without_forces",
                     history.source,
                     f"modes {_short(extra)} have coordinates and no forces",
-                    _in_order(history, results) or "Request their forces, or ignore the modes",
+                    _in_order(history, results) or f"Request their forces, or ignore the modes{_left_out(results)}",
                 )
             )
     if histories:
@@ -218,6 +226,12 @@ def _in_order(history: ForeignHistory, results: FeResults) -> str:
             f"--ignore-modes {some}"
         )
     return ""
+
+
+def _left_out(results: FeResults) -> str:
+    """Remind of static subcases that the force file has and that were not asked for."""
+    found = [remark.what for remark in results.remarks if remark.code == "static_left_out"]
+    return f"; {found[0]}, name them with --interface-modes if it is these" if found else ""
 
 
 def _short(modes: list[int]) -> str:

@@ -55,7 +55,9 @@ def heads(op2: Op2File, table: Op2Table) -> Iterator[Identification]:
 def blocks(op2: Op2File, table: Op2Table) -> Iterator[tuple[Identification, Record]]:
     """Identification and data of every block of a results table; the data may be cut into several records."""
     starts = [k for k, record in enumerate(table.records) if _is_head(op2, record)]
-    if table.records and starts[:1] != [0]:
+    if not table.records:
+        return
+    if starts[:1] != [0]:
         words = sum(chunk.length * chunk.number for chunk in table.records[0]) // op2.word
         raise damaged(op2, table, f"an identification record of {words} words, not {_ID_WORDS}")
     for start, end in zip(starts, [*starts[1:], len(table.records)], strict=True):

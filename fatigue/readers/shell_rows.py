@@ -16,6 +16,9 @@ from fatigue.weld.mesh import NONE, normals
 _ROUND_OFF = 1e-9
 """Of the largest force in any mode: rigid modes carry no more."""
 
+_CORNERS = {"HEXA": 8, "PENTA": 6, "PYRAM": 5, "TETRA": 4, "SHEAR": 4}
+"""Corners of elements that are no lines; a set of grids may hold a part of them."""
+
 
 def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
     """Rows of shells of the mesh that have all their nodes in the file, (r,)."""
@@ -27,9 +30,16 @@ def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
 
 
 def whole_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
-    """Rows of elements that have forces at all their nodes, (r,): shells, and others with two rows or more."""
-    _, element, count = np.unique(results.element, return_inverse=True, return_counts=True)
-    others = results.of_element & ~np.isin(results.element, model.mesh.element) & (count[element.ravel()] > 1)
+    """Rows of elements that have forces at all their nodes, (r,): shells, and others as far as their kind tells.
+
+    Rigid elements, of any number of nodes, do no work and are left out.
+    """
+    of_element = results.of_element
+    _, element, count = np.unique(results.element[of_element], return_inverse=True, return_counts=True)
+    kinds, kind = np.unique(results.kind[of_element], return_inverse=True)
+    least = np.array([np.inf if k.startswith("RB") else _CORNERS.get(k, 2) for k in kinds.tolist()])
+    others = of_element & ~np.isin(results.element, model.mesh.element)
+    others[of_element] &= count[element.ravel()] >= least[kind.ravel()]
     return shell_rows(results, model) | others
 
 

@@ -353,3 +353,21 @@ def test_drilling_springs_tied_to_the_ground(tmp_path):
         assert (row.light, found.grounded_drilling) == (light, component == 5)
         assert row.value > 0.1
         assert ("K6ROT" in row.remedy) == (component == 5)
+
+
+@pytest.mark.parametrize("kind", ["HEXA", "TETRA", "RBE2", "RBE3", "RBAR"])
+def test_solids_of_which_some_nodes_are_given_prove_nothing(model, kind):
+    """Their rows do works of any sign and size, as those of a set of grids around welds."""
+    results = tee().results
+    nodes = np.array([20, 60, 100])
+    extra = 1e3 * np.random.default_rng(2).normal(size=(5, 3, 6)) * np.abs(results.force).max()
+    sound = rows(only(results, results.of_element), model)["sign"]
+    part = only(results, results.of_element)
+    mixed = replace(
+        part,
+        node=np.append(part.node, nodes),
+        element=np.append(part.element, [9001] * 3),
+        kind=np.append(part.kind, [kind] * 3),
+        force=np.concatenate([part.force, extra], axis=1),
+    )
+    assert rows(mixed, model)["sign"] == sound

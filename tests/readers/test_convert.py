@@ -215,6 +215,7 @@ def test_layered_section_needs_a_confirmation(files):
         ({"forces": NASTRAN / "geom.inc"}, "no_forces", "format bdf"),
         ({"mesh": NASTRAN / "modes_elements.bdf"}, "audit", "not in the mesh"),
         ({"ignore_modes": (4, 5), "match": "order"}, "column_count", "5 columns for 3 modes"),
+        ({"ignore_modes": (1, 2, 3, 4, 5)}, "no_modes", "all 5 modes with forces are left out"),
         ({"welds": WeldSources(sets=(8,))}, "no_set", "Sets found: 7"),
         ({"welds": WeldSources(markers=("PLOTEL",))}, "no_marker", "no PLOTEL"),
     ],

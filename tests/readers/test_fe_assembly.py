@@ -307,6 +307,22 @@ def test_a_unit_load_with_the_number_of_a_mode(tmp_path):
     assert "subcase 5 has the number of a mode and needs another" in found.remarks[0].remedy
 
 
+def test_coordinates_of_subcases_not_asked_for_remind_of_them(tmp_path):
+    """Their forces are in the file, and the option that takes them is named."""
+    (tmp_path / "tee.bdf").write_text(bulk(tee()))
+    names = [f"q_{mode}" for mode in (1, 2, 3, 4, 5, *SUBCASES)]
+    rows = [",".join(str(x) for x in (0.1 * k, *[0.0] * len(names))) for k in range(4)]
+    (tmp_path / "q.csv").write_text("\n".join([",".join(["time_s", *names]), *rows]))
+    options = ConvertOptions(
+        forces=both(tmp_path / "both.op2"),
+        mesh=tmp_path / "tee.bdf",
+        out=tmp_path / "body",
+        coordinates=(tmp_path / "q.csv",),
+    )
+    with pytest.raises(DataError, match=r"modes 21, 22, 23 have .* 3 static subcases .*, name them with --interface"):
+        convert(options)
+
+
 def test_interface_modes_that_are_not_there(tmp_path):
     """Names of interface modes that are neither a mode nor a static subcase are told."""
     found = read_op2(both(tmp_path / "both.op2"), interface=(4, 21, 22, 23, 24, 25))

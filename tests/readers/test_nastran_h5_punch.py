@@ -121,6 +121,18 @@ def test_h5_sections_and_frames(h5):
     assert "not a PSHELL" in model.section_doubt[77]
 
 
+def test_h5_without_rows_of_forces(h5):
+    """A table that is there and empty is no damage, and holds no forces."""
+    path, file = h5
+    name = "NASTRAN/RESULT/NODAL/GRID_FORCE"
+    rows = file[name][:0]
+    del file[name]
+    file[name] = rows
+    file.close()
+    with pytest.raises(DataError, match=r"table of grid point forces is empty. Request GPFORCE"):
+        read_h5(path)
+
+
 @pytest.mark.parametrize("blank", [0.0, 1.7368e-18])
 def test_h5_thickness_left_blank(h5, blank):
     """Elements of the property may give their own; one that does not has no thickness."""

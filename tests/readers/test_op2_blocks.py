@@ -82,6 +82,15 @@ def test_tables_nobody_needs_are_never_a_reason_to_refuse(tmp_path):
     assert read_back(tmp_path / "a.op2", others, one_mode, others).mode.tolist() == [1]
 
 
+@pytest.mark.parametrize("name", ["OUGV1", "OUG1", "LAMA", "OGPFB1", "OQG1"])
+def test_tables_without_records_hold_nothing(tmp_path, name):
+    """Beside forces they do not matter; alone they are no forces."""
+    found = read_back(tmp_path / "a.op2", one_mode, lambda writer: writer.table(name, []))
+    assert found.force.shape == (1, 1, 6)
+    with pytest.raises(DataError, match=f"no grid point forces .*tables found: {name}"):
+        read_back(tmp_path / "b.op2", lambda writer: writer.table(name, []))
+
+
 def test_data_in_several_records(tmp_path):
     """The rows of a mode may be cut into several records behind one identification."""
     rows = [(n, n, "QUAD4", [float(n)] * 6) for n in range(1, 8)]
