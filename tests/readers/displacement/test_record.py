@@ -86,5 +86,5 @@ def test_a_name_and_a_row_of_units_that_disagree(tmp_path):
     """Neither is preferred."""
     path = tmp_path / "u.csv"
     path.write_text("time_s,u_mm\ns,m\n0,1\n1,2\n2,3\n")
-    with pytest.raises(DataError, match="column 'u_mm': its name states mm, and the row of units .* m. Correct one"):
+    with pytest.raises(DataError, match=r"column 'u_mm': its name states mm, and the row of units .* m\. Correct"):
         read_displacement(path, 1.0)
