@@ -293,3 +293,12 @@ def test_a_register_that_is_another_text(tmp_path, text, name):
     (tmp_path / "r.csv").write_text(text)
     with pytest.raises(DataError, match=f"this is {name}"):
         read_rows(tmp_path / "r.csv")
+
+
+@pytest.mark.parametrize("text", ["weld,x_mm\na,\nweld,x_mm\nb,\n", "weld , x_mm\na ,  \nb ,  \n"])
+def test_a_column_of_empty_cells(tmp_path, text):
+    """Empty cells are numbers that are missing, with the names again among them or blanks in them."""
+    (tmp_path / "t.csv").write_text(text)
+    table = open_table(tmp_path / "t.csv", texts=("weld",))
+    assert table.numbers("x_mm", default=7.0).tolist() == [7.0, 7.0]
+    table.refuse()
