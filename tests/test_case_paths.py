@@ -53,6 +53,20 @@ def test_another_syntax_error_keeps_its_remedy(tmp_path):
     assert refusal_of(tmp_path, "title = \n").endswith("Correct the line.")
 
 
+@pytest.mark.parametrize(
+    ("line", "remedy"),
+    [
+        ("share = 1,0", "Write numbers with a decimal point, and without thousands separators."),
+        ("target_km = 12 000 000", "Write numbers without thousands separators."),
+        ("title = \u201ccar\u201d", "Write straight quotation marks, as a plain text editor does."),
+        ("modes = modes.csv", "Put the path into quotation marks."),
+    ],
+)
+def test_slips_of_a_text_editor(tmp_path, line, remedy):
+    """Each has its own remedy."""
+    assert refusal_of(tmp_path, line + "\n").endswith(remedy)
+
+
 def test_event_names_in_two_spellings_are_one(tmp_path):
     """On screen the two names are the same."""
     text = MINIMAL.replace('"tangent"', '"Bögen"').replace('"curve"', f'"{unicodedata.normalize("NFD", "Bögen")}"')

@@ -71,6 +71,14 @@ def syntax_problem(text: str, error: tomllib.TOMLDecodeError) -> Problem:
     remedy = "Correct the line"
     if line and re.search(r'"[^"\n]*\\', lines[int(line) - 1]):
         remedy = "Write / between the folders of a path, or put the path into single quotes"
+    elif line and re.search(r"=\s*[-+]?\d+,\d", lines[int(line) - 1]):
+        remedy = "Write numbers with a decimal point, and without thousands separators"
+    elif line and re.search(r"=\s*[-+]?\d+[ '\u00a0\u202f]\d", lines[int(line) - 1]):
+        remedy = "Write numbers without thousands separators"
+    elif line and re.search("[\u2018\u2019\u201a\u201c\u201d\u201e\u00ab\u00bb]", lines[int(line) - 1]):
+        remedy = "Write straight quotation marks, as a plain text editor does"
+    elif line and re.search(r"=\s*[^\s\"'\[{#][^\"'=]*\.(?:csv|parquet)\b", lines[int(line) - 1]):
+        remedy = "Put the path into quotation marks"
     return Problem("toml_syntax", place, f"not valid TOML: {what}", remedy)
 
 

@@ -18,7 +18,8 @@ import pyarrow.parquet as pq
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError
+from fatigue.errors import DataError, refuse
+from fatigue.known_formats import misplaced
 from fatigue.naming import composed
 from fatigue.readers.files import DAMAGE, Columns, csv_batches, damaged
 from fatigue.readers.forces import COMPONENTS, open_nodal_forces
@@ -166,6 +167,7 @@ def parted(path: Path, welds: WeldCodes, scratch: Path) -> Source:
     if path.suffix.lower() != ".csv":
         header = open_nodal_forces(path)
         return _dealt_out(header, header.rows, _parquet_batches(path, _columns(header)), welds, scratch)
+    refuse(DataError, filter(None, [misplaced(path, path.name, text=False)]))
     layout = table_layout(path, ("weld",))
     kinds = tuple(CSV_KINDS.get(name.strip(), pa.string()) for name in layout.names)
     header = named(path, Columns(layout.names, kinds, 0, _unread))

@@ -78,6 +78,6 @@ def as_numbers(column: pa.ChunkedArray, decimal: Decimal | None) -> pa.ChunkedAr
         texts = pc.replace_substring_regex(texts, pattern, r"\1E\2")
     texts = pc.utf8_trim_whitespace(texts)
     texts = pc.if_else(pc.equal(texts, ""), pa.scalar(None, pa.string()), texts)
-    if not pc.all(pc.match_substring_regex(texts, _PLAIN)).as_py():
+    if pc.all(pc.match_substring_regex(texts, _PLAIN)).as_py() is False:  # None: all cells are empty
         return None
     return texts.cast(pa.float64())

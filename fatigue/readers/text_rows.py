@@ -40,6 +40,8 @@ def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...
     lines = text_lines(text)
     layout = layout_of(path, lines, encoding, lambda name: name in numbers)
     names = tuple(composed(name) for name in layout.names)
+    if "weld" not in names:  # which every register has
+        refuse(DataError, filter(None, [misplaced(path, str(path))]))
     twice = [name for name in names if name and names.count(name) > 1]
     if twice:
         where = f"{path}: line {layout.line}"

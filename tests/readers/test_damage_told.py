@@ -21,7 +21,7 @@ HEAD = "weld,line,status,reason,description"
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("time;q_1;q_2\n0,0;\u22121;2,0\n0,1;1;2\n0,2;1;3\n", "line 2: '\u22121' stands in a row of values"),
+        ("time;q_1;q_2\n0,0;\u20131;2,0\n0,1;1;2\n0,2;1;3\n", "line 2: '\u20131' stands in a row of values"),
         ("time,q_1,q_2\n0,x,2\n0.1,1,2\n0.2,1,3\n", "line 2: 'x' stands in a row of values"),
         (
             "run 1\ntime\tq_1\tq_2\n0\t1\t2\t0.1\t1\t2\n0.2\t1\t3\n0.3\t1\t3\n",

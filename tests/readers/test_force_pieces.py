@@ -1,5 +1,6 @@
 """Forces in pieces: sorted or not, Parquet or CSV, a group of welds gets its rows, numbered as in the file."""
 
+import gzip
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -229,3 +230,11 @@ def test_columns_without_a_name(tmp_path, index, suffix):
     piece.expect(("weld", "node", "fx_N"), (), strict=False)
     assert [warning.code for warning in piece.warnings] == (["unknown_column"] if index else [])
     assert piece.numbers("fx_N").tolist() == table[table.weld == "C"].fx_N.tolist()
+
+
+def test_a_packed_file_is_named(tmp_path):
+    """Bytes of another format under the name of a CSV file are told as what they are."""
+    path = tmp_path / "forces.csv"
+    path.write_bytes(gzip.compress(forces().to_csv(index=False).encode()))
+    with pytest.raises(DataError, match=r"forces\.csv: this is a gzip archive"):
+        ForcePieces(path, GROUPS, tmp_path / "scratch")

@@ -278,3 +278,27 @@ def test_decimal_signs_in_remarks(tmp_path):
     _, rows = read_rows(path, numbers=("thickness_mm",))
     assert [row.cells["thickness_mm"] for row in rows] == ["8.5", "8"]
     assert [row.cells["description"] for row in rows] == ["2.5", "t = 3,5 mm"]
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("*HEADING\nweld test\n*NODE\n1, 0., 0., 0.\n", "an Abaqus deck"),
+        ("/COM,ANSYS\n/PREP7\nNBLOCK,6,SOLID\n(3i9,6e21.13e3)\n", "an ANSYS archive"),
+        ("BEGIN BULK\nGRID,1,,0.,0.,0.\n", "a NASTRAN deck"),
+    ],
+)
+def test_a_register_that_is_another_text(tmp_path, text, name):
+    """Decks and archives are named, whatever their cells look like."""
+    (tmp_path / "r.csv").write_text(text)
+    with pytest.raises(DataError, match=f"this is {name}"):
+        read_rows(tmp_path / "r.csv")
+
+
+@pytest.mark.parametrize("text", ["weld,x_mm\na,\nweld,x_mm\nb,\n", "weld , x_mm\na ,  \nb ,  \n"])
+def test_a_column_of_empty_cells(tmp_path, text):
+    """Empty cells are numbers that are missing, with the names again among them or blanks in them."""
+    (tmp_path / "t.csv").write_text(text)
+    table = open_table(tmp_path / "t.csv", texts=("weld",))
+    assert table.numbers("x_mm", default=7.0).tolist() == [7.0, 7.0]
+    table.refuse()

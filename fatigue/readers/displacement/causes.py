@@ -16,6 +16,7 @@ Kind = Literal[
     "units",
     "sign",
     "axis",
+    "node",
     "mode sign",
     "mode order",
     "numbering",
@@ -187,7 +188,7 @@ def _factors(c: Comparison) -> Iterator[Cause]:
         yield Cause(
             "mode factor",
             float(c.relative(square - left[k] ** 2 / own[k])),
-            f"mode {c.mode[k]} takes part with a factor of {round(factor, 3):.3g}",
+            f"mode {c.mode[k]} takes part with a factor of {round(factor, 3) + 0.0:.3g}",
             "Give the simulation's generalised masses with --simulation-modes; near 0: the simulation lacks the mode",
         )
 
@@ -197,7 +198,7 @@ def _fit(c: Comparison) -> Iterator[Cause]:
     if not (off := fitted_factors(c)):
         return
     misfit, _ = best_fit(c)
-    some = ", ".join(f"mode {c.mode[k]}: {round(factor, 3):.3g}" for k, factor in off[:10])
+    some = ", ".join(f"mode {c.mode[k]}: {round(factor, 3) + 0.0:.3g}" for k, factor in off[:10])
     more = f" and {len(off) - 10} more" if len(off) > 10 else ""
     yield Cause(
         "fit",

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.audit import AuditRow
+from fatigue.readers.displacement.nodes import with_other_node
 from fatigue.readers.displacement.record import Displacement, DisplacementRecord
 from fatigue.readers.displacement.side_by_side import causes_of, compared
 from fatigue.readers.displacement.verdict import CHECK, judged
@@ -89,8 +90,23 @@ def displacement_row(
         explained = [(causes, event) for event in found if (causes := causes_of(event, record))]
         if explained:
             causes, best = min(explained, key=lambda pair: pair[0][0].misfit)
-            return judged(name, best, causes, lacking)
+        else:
+            causes = ()
+        if best.comparison is not None and np.isfinite(best.misfit):
+            grids = results.shape_node[np.isin(results.shape_node, model.mesh.node)]
+            millimetres = units.length * (scale / coordinate)[:, None, None]
+            causes = with_other_node(
+                causes, best.comparison, asked.node, grids, lambda at: _basic(grids[at], results, model) * millimetres
+            )
+        return judged(name, best, causes, lacking)
     return judged(name, best, (), lacking)
+
+
+def _basic(grids: NDArray[np.int64], results: FeResults, model: FeModel) -> Floats:
+    """Give the translations of grids in every mode (m, n, 3), basic frame, in the file's own units."""
+    order = np.argsort(results.shape_node, kind="stable")
+    at = order[np.searchsorted(results.shape_node, grids, sorter=order)]
+    return np.asarray(to_basic(results.shape[:, at].astype(np.float64), grids, model)[:, :, :3], np.float64)
 
 
 def _shape(asked: Displacement, name: str, results: FeResults, model: FeModel) -> Floats:

@@ -83,6 +83,10 @@ def _stated_unit(path: Path | str, name: str, unit: str) -> str:
     stated = _UNIT.search(name) or _OTHER_UNIT.search(name)
     label = stated[1] if stated else "" if states_no_unit(unit) else unit
     label = label.strip().lower().replace("μ", "µ")
+    beside = "" if states_no_unit(unit) else unit.strip().lower().replace("μ", "µ")
+    if label in _IN_MM and beside in _IN_MM and _IN_MM[label] != _IN_MM[beside]:
+        what = f"its name states {label}, and the row of units or the metadata {beside}"
+        raise DataError(Problem("header", f"{path}, column {name!r}", what, "Correct one of them"))
     if label and label not in _IN_MM:
         raise DataError(
             Problem(

@@ -209,3 +209,21 @@ def test_on_the_command_line(simulated):
     assert done.returncode == 3
     assert "likely cause: the sign of mode 2 is opposite" in done.stderr
     assert fatigue(*common, "--displacement", first.file, node, "up", "-o", options.out).returncode == 2
+
+
+@pytest.mark.parametrize("node", [60, 61, 110])
+def test_the_displacement_of_another_node(simulated, node):
+    """Factors that a fit gives every mode are no cause where a node explains the displacement."""
+    options, displacement = simulated
+    asked = replace(displacement(node, "z"), node=NODE)
+    found = row(replace(options, displacements=(asked,), accept=("displacement",)))
+    assert found.light == "red"
+    assert f"likely cause: it is the displacement of node {node} (error then" in found.finding
+
+
+def test_a_node_that_does_not_move(simulated):
+    """The node that moves so is named, where no mode moves the one that is asked."""
+    options, displacement = simulated
+    asked = replace(displacement(NODE, "z"), node=1)
+    found = row(replace(options, displacements=(asked,), accept=("displacement",)))
+    assert f"likely cause: it is the displacement of node {NODE}" in found.finding

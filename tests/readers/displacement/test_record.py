@@ -80,3 +80,11 @@ def test_of_an_instant_written_twice_the_later_sample_counts(tmp_path):
     path = tmp_path / "twice.csv"
     path.write_text("time_s,u_mm\n0,1\n1,2\n1,3\n2,4\n")
     assert read_displacement(path, 1.0).value.tolist() == [1.0, 3.0, 4.0]
+
+
+def test_a_name_and_a_row_of_units_that_disagree(tmp_path):
+    """Neither is preferred."""
+    path = tmp_path / "u.csv"
+    path.write_text("time_s,u_mm\ns,m\n0,1\n1,2\n2,3\n")
+    with pytest.raises(DataError, match=r"column 'u_mm': its name states mm, and the row of units .* m\. Correct"):
+        read_displacement(path, 1.0)
