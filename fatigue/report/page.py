@@ -78,6 +78,8 @@ def report_page(
     why = read_why(folder, result)
     for problem in missing:
         log.warning("the report lacks something: %s", problem)
+    for problem in inputs.outdated:
+        log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     figs = Figures()
     context = {
@@ -85,6 +87,7 @@ def report_page(
         "record": record,
         "result": record.get("result", ""),
         "missing": missing,
+        "outdated": inputs.outdated,
         "head": _head(result),
         "assumptions": method.assumptions(record),
         "warnings": _warnings(record),

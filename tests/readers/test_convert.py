@@ -585,6 +585,25 @@ def test_a_check_to_accept_that_there_is_not(files):
     assert "grid totals, " in line
 
 
+def test_the_register_to_edit(tmp_path):
+    """It is the one that the case names: a kept case may name another; one that cannot be read is another's matter."""
+    case = tmp_path / "case.toml"
+    assert register_named(case) == "welds_register.csv"
+    for text, name in (('[body]\nregister = "mine ä.csv"', "mine ä.csv"), ("body = 3", ""), ("[body", "")):
+        case.write_text(text, encoding="utf-8")
+        assert register_named(case) == (name or "welds_register.csv")
+
+
+def test_what_to_do_when_all_lines_are_left_out(files, tmp_path):
+    """No register is written then: the command that writes one is told."""
+    register = tmp_path / "mine.csv"
+    list_welds(files.mesh, WeldSources(), "mm-t-s", register)
+    register.write_text(register.read_text().replace(",assess,", ",excluded,"))
+    with pytest.raises(DataError, match=r"none of the 3 weld lines") as refused:
+        convert(replace(files, welds=WeldSources(register=register)))
+    assert f"`fatigue welds {files.mesh} -o welds_register.csv` writes it, --register reads it" in str(refused.value)
+
+
 def test_undecided_sign_is_refused(files, tmp_path):
     """Without mode shapes nothing proves the sign: it has to be stated."""
     bare = replace(tee().results, shape_node=np.empty(0, np.int64), shape=np.empty((5, 0, 6)))
