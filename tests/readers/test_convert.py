@@ -10,12 +10,13 @@ import pytest
 
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.body import read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.case_text import register_named
 from fatigue.readers.convert import convert
 from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.forces import read_element_forces, read_weld_elements
 from fatigue.readers.history import read_history
 from fatigue.readers.modal_basis import mode_list
-from fatigue.readers.weld_lines import WeldSources
+from fatigue.readers.weld_lines import WeldSources, list_welds
 from fatigue.weld.element_forces import balance, side_forces
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
@@ -597,7 +598,7 @@ def test_the_register_to_edit(tmp_path):
 def test_what_to_do_when_all_lines_are_left_out(files, tmp_path):
     """No register is written then: the command that writes one is told."""
     register = tmp_path / "mine.csv"
-    list_welds(files.mesh, WeldSources(), "mm-t-s", register)
+    list_welds(files.mesh, WeldSources(), "mm-t-s", register, overwrite=False)
     register.write_text(register.read_text().replace(",assess,", ",excluded,"))
     with pytest.raises(DataError, match=r"none of the 3 weld lines") as refused:
         convert(replace(files, welds=WeldSources(register=register)))
