@@ -168,6 +168,7 @@ def _head(result: Result) -> dict[str, Any]:
         "missed": missed,
         "welds": len(welds),
         "left_out": len(result.welds) - len(welds),
+        "has_candidates": any(map(tables.is_candidate, result.welds["reason"])),
         "points": result.toes,
         "worst": welds.iloc[0],
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),
