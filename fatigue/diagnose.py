@@ -15,7 +15,7 @@ from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.life.mission import Plan
 from fatigue.naming import given_path
-from fatigue.pipeline.body import Body, read_body
+from fatigue.pipeline.body import Body, conversion_file, read_body, register_file
 from fatigue.pipeline.checkpoint import locked, settle_folder
 from fatigue.pipeline.events import event_loads, mission_plan
 from fatigue.pipeline.folder import publish, result_log, staging_in
@@ -25,6 +25,7 @@ from fatigue.results import (
     case_of,
     changed_inputs,
     named_case,
+    new_inputs,
     read_provenance,
     read_rows,
     refuse_mixed,
@@ -189,7 +190,9 @@ def _same_body(record: Mapping[str, Any], folder: Path, case_file: Path | None) 
         what, remedy = "the case of this result is not there any more", "Name the case file with --case CASE"
         raise DataError(Problem("missing_case", str(path), what, remedy))
     refuse(DataError, changed_inputs(record, path))
-    return read_body(load_case(path), strict=False)
+    case = load_case(path)
+    refuse(DataError, new_inputs(record, filter(None, [register_file(case), conversion_file(case)])))
+    return read_body(case, strict=False)
 
 
 def _refuse_another(folder: Path, record: Mapping[str, Any]) -> None:

@@ -174,6 +174,7 @@ def convert(
         refuse_bad_modes(option, modes)
     refuse_unknown_curve(curve)
     refuse_foreign_conversion(output, force=force, keep_case=keep_case)
+    from fatigue.readers.case_text import register_named
     from fatigue.readers.convert import convert as read_and_write
     from fatigue.readers.convert_options import ConvertOptions
     from fatigue.readers.displacement.record import Displacement
@@ -242,7 +243,8 @@ def convert(
     )
     for number, reason in reasons(done.welds):
         click.echo(f"{number} weld line{'s' * (number > 1)} not assessed: {reason}")
-    click.echo(f"written to {done.folder}: edit case.toml and welds_register.csv, then `fatigue assess` the case")
+    edit = register_named(done.folder / "case.toml")
+    click.echo(f"written to {done.folder}: edit case.toml and {edit}, then `fatigue assess` the case")
 
 
 @cli.command()

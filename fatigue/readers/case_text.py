@@ -1,7 +1,11 @@
 """The first ``case.toml`` of a converted folder: every line that may be left out is there to be edited."""
 
 import json
+import tomllib
 from collections.abc import Sequence
+from pathlib import Path
+
+from fatigue.readers.weld_register import REGISTER
 
 _HEAD = """\
 # Written by fatigue convert. Check the lines marked EDIT: the files could not tell them.
@@ -81,3 +85,12 @@ def case_text(
         for (name, file), share in zip(events, shares, strict=True)
     ]
     return head + "".join(parts)
+
+
+def register_named(case_file: Path) -> str:
+    """Name the register that a case is assessed by; a case that was kept may name another than a new one does."""
+    try:
+        body = tomllib.loads(case_file.read_text(encoding="utf-8-sig")).get("body", {})
+        return str(body.get("register", REGISTER))
+    except (OSError, ValueError, AttributeError):  # kept, and not to be read: its check will say so
+        return REGISTER

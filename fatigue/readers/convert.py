@@ -12,7 +12,7 @@ from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.audit import Audit
 from fatigue.readers.case_text import case_text
 from fatigue.readers.convert_options import ConvertOptions
-from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, lines_of_welds
+from fatigue.readers.convert_record import COMMAND, LINES, arguments_of, command_line, lines_of_welds
 from fatigue.readers.fe_model import in_mm
 from fatigue.readers.fe_results import FeResults
 from fatigue.readers.force_sign import LOWEST_HZ
@@ -136,7 +136,9 @@ def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
         return no_welds(mesh)
     kinds = "; ".join(f"{number} because {reason}" for number, reason in reasons(found.rows))
     what = f"none of the {len(found.rows)} weld lines can be assessed: {kinds}"
-    return Problem("no_welds", str(mesh), what, "Remove the reasons, or set the status of some in the register")
+    how = f"`{command_line(['fatigue', 'welds', str(mesh), '-o', REGISTER])}` writes it, --register reads it"
+    remedy = f"Remove the reasons, or set the status of some in the register ({how})"
+    return Problem("no_welds", str(mesh), what, remedy)
 
 
 def _modes_table(results: FeResults, interface_modes: Sequence[int], table: SimulationModes) -> pa.Table:

@@ -42,7 +42,7 @@ class ConvertRecord:
         if not self.arguments:
             return f"Convert the files of {self.folder} again with --register {register}"
         words = ["fatigue", "convert", *self.arguments, "-o", str(self.folder), "--register", str(register)]
-        return f"Run `{_line([*words, '--keep-case'])}`"
+        return f"Run `{command_line([*words, '--keep-case'])}`"
 
 
 def convert_record(path: Path | None) -> ConvertRecord:
@@ -113,6 +113,6 @@ def _word(value: object) -> str:
     return str(value.resolve()) if isinstance(value, Path) else str(value)
 
 
-def _line(words: Sequence[str]) -> str:
-    """Command line as it is typed on this system."""
+def command_line(words: Sequence[str]) -> str:
+    """Write a command as it is typed on this system."""
     return subprocess.list2cmdline(words) if os.name == "nt" else shlex.join(words)

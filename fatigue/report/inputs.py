@@ -1,7 +1,7 @@
 """The input files of a finished result, found again and checked by their hashes, for what a report draws from them."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.life.history import ModalHistory, kept
 from fatigue.readers.body import Mesh, read_mesh
 from fatigue.readers.history import read_history
+from fatigue.readers.weld_register import REGISTER
 from fatigue.results import case_of, sha256
 
 
@@ -20,7 +21,8 @@ from fatigue.results import case_of, sha256
 class Inputs:
     """The inputs of a result: the case as it was assessed, the folder of its files and their hashes.
 
-    ``root`` is None where the case file was not found any more; ``lost`` says so then, and what to do.
+    ``root`` is None where the case file was not found any more; ``lost`` says so then, and what to do. ``outdated``
+    are doubts about the welds, which are shown as they were assessed.
     """
 
     case: Case
@@ -28,6 +30,7 @@ class Inputs:
     lost: Problem
     hashes: Mapping[str, str]
     modes: tuple[int, ...]
+    outdated: tuple[Problem, ...] = ()
 
     def history(self, event: Event) -> ModalHistory:
         """Read the kept record of an event as it was assessed, stress factor not applied.
@@ -86,7 +89,23 @@ def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None)
     found = _text(path)
     root = path.parent if found == text else None
     hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
-    return Inputs(case, root, _lost(record, moved=found is None), hashes, tuple(record["modes"]["used"]))
+    lost, modes = _lost(record, moved=found is None), tuple(record["modes"]["used"])
+    return Inputs(case, root, lost, hashes, modes, () if root is None else tuple(_outdated(case, root, hashes)))
+
+
+def _outdated(case: Case, root: Path, hashes: Mapping[str, str]) -> Iterator[Problem]:
+    """Say that the weld register was edited, taken away or written since the assessment."""
+    name = case.body.weld_register or str(Path(case.body.welds).parent / REGISTER)
+    path, known = root / name, hashes.get(Path(name).as_posix())
+    if not path.is_file():
+        what = "" if known is None else "is not there any more"
+    elif known is None and case.body.weld_register is None:
+        what = "was not there when the result was computed"
+    else:
+        what = "" if sha256(path) in hashes.values() else "has changed since the assessment"
+    if what:
+        what += ", and the welds are shown as they were assessed"
+        yield Problem("changed_input", path.name, what, "Assess the case again")
 
 
 def _text(path: Path) -> str | None:

@@ -80,6 +80,8 @@ def report_page(
     why = read_why(folder, result)
     for problem in missing:
         log.warning("the report lacks something: %s", problem)
+    for problem in inputs.outdated:
+        log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     figs = Figures()
     context = {
@@ -87,6 +89,7 @@ def report_page(
         "record": record,
         "result": record.get("result", ""),
         "missing": missing,
+        "outdated": inputs.outdated,
         "head": _head(result),
         "assumptions": method.assumptions(record),
         "warnings": _warnings(record),
@@ -167,6 +170,7 @@ def _head(result: Result) -> dict[str, Any]:
         "missed": missed,
         "welds": len(welds),
         "left_out": len(result.welds) - len(welds),
+        "has_candidates": any(map(tables.is_candidate, result.welds["reason"])),
         "points": result.toes,
         "worst": welds.iloc[0],
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),

@@ -54,7 +54,10 @@ def print_pdf(html: Path | str, pdf: Path | str, remark: str = "") -> None:
         if not printed.is_file():
             raise DataError(
                 Problem(
-                    "no_pdf", str(browser), f"could not print the page ({said[0]})", f"Open {html} and print it there"
+                    "no_pdf",
+                    str(browser),
+                    f"could not print the page ({said[0]})",
+                    f"Open {html.name} in any browser and print it there",
                 )
             )
         shutil.copyfile(printed, pdf)
@@ -75,6 +78,9 @@ def find_browser() -> Path:
     for candidate in _candidates():
         if candidate.is_file():
             return candidate
+    if named := os.environ.get("FATIGUE_BROWSER"):
+        what, remedy = f"no Chromium, Chrome or Edge is at {named}, as FATIGUE_BROWSER says", "Correct it, or unset it"
+        raise DataError(Problem("no_browser", "PDF", what, remedy))
     raise DataError(
         Problem(
             "no_browser",

@@ -176,8 +176,12 @@ def _status(row: Any) -> str:
     """Status of a weld, with the reason where it is not assessed; that of a candidate says so itself."""
     if row.reason in ("", row.status) or pd.isna(row.reason):
         return str(row.status)
-    is_candidate = row.reason == "candidate" or row.reason.startswith("candidate: ")
-    return str(row.reason) if is_candidate else f"{row.status}: {row.reason}"
+    return str(row.reason) if is_candidate(row.reason) else f"{row.status}: {row.reason}"
+
+
+def is_candidate(reason: Any) -> bool:
+    """Whether a weld is left out because nobody has decided about it yet."""
+    return isinstance(reason, str) and (reason == "candidate" or reason.startswith("candidate: "))
 
 
 def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:

@@ -32,7 +32,7 @@ from fatigue.results.columns import (
     WELDS,
     Column,
 )
-from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, way_to_case
+from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
 from fatigue.results.parts import (
     number_groups,
     read_codes,
@@ -95,6 +95,7 @@ __all__ = [
     "listed_of",
     "marked",
     "named_case",
+    "new_inputs",
     "not_assessed",
     "number_groups",
     "read_codes",

@@ -1,7 +1,7 @@
 """Where a result came from: the way to its case file, and whether case and inputs are still what they were."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +71,20 @@ def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:
         remedy = "Run the assessment again" + (", or name the case as it was with --case" if is_case else "")
         problems.append(Problem("changed_input", str(path), what, remedy))
     return problems
+
+
+def new_inputs(record: Mapping[str, Any], paths: Iterable[Path]) -> list[Problem]:
+    """Name files that the case of a result takes in without naming them, and that came after the assessment.
+
+    ``paths`` are the register and the record of a conversion that lie beside the welds; they need not be there.
+    """
+    known = {entry["sha256"] for entry in record["inputs"]}
+    what = "was not there when the result was computed"
+    return [
+        Problem("changed_input", str(path), what, "Run the assessment again, or take the file away")
+        for path in paths
+        if path.is_file() and sha256(path) not in known
+    ]
 
 
 def _placed(case_file: Path) -> Path:

@@ -10,13 +10,14 @@ import pytest
 
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.body import read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.case_text import register_named
 from fatigue.readers.convert import convert
 from fatigue.readers.convert_options import ConvertOptions
 from fatigue.readers.forces import read_element_forces, read_weld_elements
 from fatigue.readers.history import read_history
 from fatigue.readers.modal_basis import mode_list
 from fatigue.readers.neutral_folder import TABLES
-from fatigue.readers.weld_lines import WeldSources
+from fatigue.readers.weld_lines import WeldSources, list_welds
 from fatigue.weld.element_forces import balance, side_forces
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
@@ -591,6 +592,25 @@ def test_a_check_to_accept_that_there_is_not(files):
     (line,) = [line for line in said if "--accept" in line]
     assert line.startswith("--accept 'grid total': the audit has no such check. Choose of completeness, ")
     assert "grid totals, " in line
+
+
+def test_the_register_to_edit(tmp_path):
+    """It is the one that the case names: a kept case may name another; one that cannot be read is another's matter."""
+    case = tmp_path / "case.toml"
+    assert register_named(case) == "welds_register.csv"
+    for text, name in (('[body]\nregister = "mine ä.csv"', "mine ä.csv"), ("body = 3", ""), ("[body", "")):
+        case.write_text(text, encoding="utf-8")
+        assert register_named(case) == (name or "welds_register.csv")
+
+
+def test_what_to_do_when_all_lines_are_left_out(files, tmp_path):
+    """No register is written then: the command that writes one is told."""
+    register = tmp_path / "mine.csv"
+    list_welds(files.mesh, WeldSources(), "mm-t-s", register, overwrite=False)
+    register.write_text(register.read_text().replace(",assess,", ",excluded,"))
+    with pytest.raises(DataError, match=r"none of the 3 weld lines") as refused:
+        convert(replace(files, welds=WeldSources(register=register)))
+    assert f"`fatigue welds {files.mesh} -o welds_register.csv` writes it, --register reads it" in str(refused.value)
 
 
 def test_undecided_sign_is_refused(files, tmp_path):

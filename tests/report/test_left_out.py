@@ -118,8 +118,10 @@ def test_the_words_for_them(tmp_path):
     page = Page((result / "report.html").read_text(encoding="utf-8"))
     statuses = {row[2] for row in page.tables["weld-register"][1:]}
     assert statuses == {"assessed", "excluded", "excluded: candidates were ruled out"}
-    assert "2 welds are not assessed" in " ".join(" ".join(page.text).split())
+    assert "2 welds are excluded" in " ".join(" ".join(page.text).split())
     folder = assessed(tmp_path, [{"status": "candidate", "reason": "two\nlines"}, {}, {}], name="another")
+    page = Page((folder / "report.html").read_text(encoding="utf-8"))
+    assert "1 weld is not assessed" in " ".join(" ".join(page.text).split())
     assert "Not assessed: 1 weld\n" in result_summary(folder, top=1).as_text()
     assert "candidate: two lines\n" in result_summary(folder, top=1).as_text()
     assert "The worst point\n" in result_summary(folder, top=1).as_text()

@@ -30,7 +30,7 @@ def test_a_named_browser_is_taken_and_no_other(monkeypatch, tmp_path):
     monkeypatch.setenv("FATIGUE_BROWSER", str(program(tmp_path / "mine", "true")))
     assert find_browser() == tmp_path / "mine"
     monkeypatch.setenv("FATIGUE_BROWSER", str(tmp_path / "none"))
-    with pytest.raises(DataError, match="no Chromium"):
+    with pytest.raises(DataError, match=r"no Chromium.* is at .*none, as FATIGUE_BROWSER says\. Correct it"):
         find_browser()
 
 
@@ -51,7 +51,7 @@ def test_a_browser_that_fails_is_reported_with_its_last_words(monkeypatch, tmp_p
     page = tmp_path / "report.html"
     page.write_text("<p>")
     monkeypatch.setenv("FATIGUE_BROWSER", str(program(tmp_path / "broken", "echo no display >&2; exit 3")))
-    with pytest.raises(DataError, match=r"could not print the page .no display."):
+    with pytest.raises(DataError, match=r"could not print the page .no display.. Open report.html in any browser"):
         print_pdf(page, tmp_path / "report.pdf")
     assert not (tmp_path / "report.pdf").exists()
 

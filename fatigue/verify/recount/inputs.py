@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.results import case_of
+from fatigue.results import case_of, new_inputs
 from fatigue.verify.recount.register import WeldEntries, weld_entries
 from fatigue.verify.recount.tables import read_frame
 
@@ -69,6 +69,9 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
         raise DataError(Problem("missing_input", str(path), what, remedy))
     refuse(DataError, _changes(record, path))
     case, folder = tomllib.loads(path.read_text(encoding="utf-8-sig")), path.parent
+    beside = (folder / case["body"]["welds"]).parent
+    refuse(DataError, new_inputs(record, [beside / "welds_register.csv"] * ("register" not in case["body"])))
+    refuse(DataError, new_inputs(record, [beside / "convert.json"]))
     welds = read_frame(folder / case["body"]["welds"])
     return Inputs(case, folder, weld_entries(case, folder, welds))
 
