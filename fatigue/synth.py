@@ -23,6 +23,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from fatigue.errors import CaseError, Problem
 from fatigue.naming import given_path
 
 Floats = NDArray[np.float64]
@@ -42,6 +43,7 @@ PEAK_NODES = (1.5, 5.0)  # over which the excess falls to 1/e, from and to
 LOWEST_HZ, HIGHEST_HZ = 4.0, 45.0
 DAMPING = 0.02
 ROWS_AT_ONCE = 1_000_000
+FEWEST_SAMPLES = 16  # of a record, so that it has a standard deviation worth the name
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +73,15 @@ def synthesize(folder: Path | str, size: Size, seed: int = 0) -> Path:
     """Write the case of a given size into a folder and return the path of its ``case.toml``.
 
     The same size and seed give the same case.
+
+    Raises
+    ------
+    CaseError : records of less than 16 samples
     """
+    samples = round(size.seconds * size.rate)
+    if samples < FEWEST_SAMPLES:
+        what = f"{size.seconds:g} s at {size.rate:g} Hz are {samples} samples"
+        raise CaseError(Problem("short_record", "size", what, f"Give at least {FEWEST_SAMPLES}"))
     folder = given_path(folder, "folder")
     folder.mkdir(parents=True, exist_ok=True)
     frequency = np.linspace(LOWEST_HZ, HIGHEST_HZ, size.modes)

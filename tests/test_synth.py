@@ -10,6 +10,7 @@ import pytest
 from fatigue import synth
 from fatigue.case import load_case
 from fatigue.check import check_case
+from fatigue.errors import CaseError
 from fatigue.synth import Size, synthesize
 
 SMALL = Size(nodes=1000, modes=5, events=2, seconds=10.0, rate=100.0)
@@ -85,3 +86,10 @@ def test_stress_concentrates_at_a_few_nodes_of_a_weld() -> None:
         far.append(np.mean(rms < rms.max() / 30 ** (1 / 3.5)))
     assert 0.03 < np.median(near) < 0.15
     assert 0.4 < np.median(far) < 0.64
+
+
+def test_records_too_short_are_refused(tmp_path):
+    """A record of two samples is none."""
+    with pytest.raises(CaseError, match=r"size: 0\.01 s at 250 Hz are 2 samples\. Give at least 16"):
+        synthesize(tmp_path / "short", Size(30, 4, seconds=0.01))
+    assert not (tmp_path / "short").exists()

@@ -71,18 +71,22 @@ def read_run(options: ConvertOptions) -> ForeignRun:
     stage("reading forces and mesh")
     of_files = [read_forces(path, None) for path in options.unit_loads]
     beside = {mode for loads in of_files for mode in loads.mode.tolist()}
-    own = [mode for mode in options.interface_modes if mode not in beside]
-    results, model = read_forces(options.forces, options.subcase, own), read_model(options.mesh)
+    named = [mode for mode in options.interface_modes if mode not in beside]
+    results, model = read_forces(options.forces, options.subcase, named), read_model(options.mesh)
     for loads in of_files:
         results = with_unit_loads(results, loads)
-    interface_modes = (*own, *sorted(beside))
+    interface_modes = (*named, *sorted(beside))
+    numbers = set(results.mode.tolist())
     results = without_modes(results, options.ignore_modes)
     table, remarks = simulation_modes(options.simulation_modes)
     stage("reading modes and coordinates (%d files)", len(options.coordinates))
-    histories, simulated = _histories(options, results, table)
-    remarks += assumed_masses(results, simulated)
+    read = [_history(path, options, results, table) for path in options.coordinates]
+    simulated = {fe: table[mode] for _, own in read for fe, mode in own.items() if mode in table} if read else table
+    numbers |= {fe for _, own in read for fe in own}
+    remarks += assumed_masses(results, simulated) + _ignored_nowhere(options, numbers)
+    histories = tuple(history for history, _ in read)
     of_histories = [remark for history in histories for remark in history.remarks]
-    return ForeignRun(results, model, interface_modes, tuple(histories), simulated, (*remarks, *of_histories))
+    return ForeignRun(results, model, interface_modes, histories, simulated, (*remarks, *of_histories))
 
 
 def audited(run: ForeignRun, options: ConvertOptions) -> Audit:
@@ -131,17 +135,13 @@ def _displacement_rows(run: ForeignRun, options: ConvertOptions) -> Iterator[Aud
         )
 
 
-def _histories(
-    options: ConvertOptions, results: FeResults, table: SimulationModes
-) -> tuple[list[ForeignHistory], SimulationModes]:
-    """Read the coordinates of all events, and give the modes of the simulation their numbers in the FE run."""
-    histories: list[ForeignHistory] = []
-    simulated: SimulationModes = {}
-    for path in options.coordinates:
-        history, own = _history(path, options, results, table)
-        histories.append(history)
-        simulated |= {fe: table[mode] for fe, mode in own.items() if mode in table}
-    return histories, simulated if histories else table
+def _ignored_nowhere(options: ConvertOptions, numbers: set[int]) -> list[Problem]:
+    """Name modes to ignore that neither side has, as a slip of the pen is."""
+    nowhere = sorted(set(options.ignore_modes) - numbers)
+    if not nowhere:
+        return []
+    what = f"neither the forces nor the coordinates have the modes {', '.join(map(str, nowhere[:10]))}"
+    return [Problem("ignored_nowhere", "--ignore-modes", what, "Correct the list, unless it is meant for other files")]
 
 
 def _history(

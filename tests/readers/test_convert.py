@@ -293,6 +293,14 @@ def test_simulation_modes_scale_and_compare(files, tmp_path):
         convert(replace(files, simulation_modes=table))
 
 
+def test_modes_to_ignore_that_nobody_has(files):
+    """They are told; those of one side only are not."""
+    renamed(files, "time,q_1,q_2,q_3,q_4,q_5")
+    told = [str(r) for r in convert(replace(files, ignore_modes=(1, 77))).remarks if r.code == "ignored_nowhere"]
+    assert len(told) == 1
+    assert told[0].startswith("--ignore-modes: neither the forces nor the coordinates have the modes 77.")
+
+
 def test_masses_that_the_forces_do_not_state(files, tmp_path):
     """1 is assumed where the simulation's masses ask for them, and that is told."""
     table, f = tmp_path / "sim.csv", tee().frequency
