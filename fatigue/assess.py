@@ -14,8 +14,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
-from fatigue.errors import CaseError, Problem, refuse
-from fatigue.naming import given_path
+from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.body import Body, read_body
 from fatigue.pipeline.checkpoint import Checkpoint, claimed, settle_folder
 from fatigue.pipeline.cycles import CycleWriter, kept_point

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import load_case
-from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
-from fatigue.naming import given_path
 from fatigue.pipeline.body import Body, conversion_file, read_body, register_file
 from fatigue.pipeline.checkpoint import locked, settle_folder
 from fatigue.pipeline.events import event_loads, mission_plan

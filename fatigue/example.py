@@ -3,8 +3,7 @@
 import shutil
 from pathlib import Path
 
-from fatigue.errors import DataError, Problem
-from fatigue.naming import given_path
+from fatigue.errors import DataError, Problem, given_path
 
 
 def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:

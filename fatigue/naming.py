@@ -3,12 +3,10 @@
 import difflib
 import re
 import unicodedata
-from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from os import PathLike, fsencode, fspath
 from pathlib import Path, PureWindowsPath
 
-from fatigue.errors import CaseError, Problem
+from fatigue.errors import Problem
 
 PARTS_SHOWN = 3  # files of a folder named in a message
 
@@ -26,44 +24,6 @@ def composed(text: str) -> str:
     macOS writes file names with letter and accent apart (NFD); on screen both look the same.
     """
     return unicodedata.normalize("NFC", text.strip())
-
-
-def given_path(given: Path | str, argument: str) -> Path:
-    """Path that a caller gives as text or as a path.
-
-    Raises
-    ------
-    CaseError : anything else, or text that no file can have as its name
-    """
-    what = ""
-    if not isinstance(given, str | PathLike) or (isinstance(given, PathLike) and not isinstance(fspath(given), str)):
-        what = f"{type(given).__name__} is no path"
-    elif "\0" in fspath(given) or not _is_encodable(fspath(given)):
-        what = f"{fspath(given)!r} holds a character that no path can have"
-    if what:
-        raise CaseError(Problem("argument", argument, what, "Give a path, as text or as pathlib.Path"))
-    return Path(given)
-
-
-def given_names(given: str | Sequence[str], argument: str) -> tuple[str, ...]:
-    """Names that a caller gives, one or several.
-
-    Raises
-    ------
-    CaseError : anything else
-    """
-    names = (given,) if isinstance(given, str) else given
-    if not isinstance(names, Iterable) or isinstance(names, bytes) or not all(isinstance(n, str) for n in names):
-        raise CaseError(Problem("argument", argument, f"{given!r} is no list of names", "Give texts"))
-    return tuple(names)
-
-
-def _is_encodable(text: str) -> bool:
-    try:
-        fsencode(text)
-    except UnicodeEncodeError:
-        return False
-    return True
 
 
 def control_characters(text: str) -> str:

@@ -23,8 +23,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from fatigue.errors import CaseError, Problem
-from fatigue.naming import given_path
+from fatigue.errors import CaseError, Problem, given_path
 
 Floats = NDArray[np.float64]
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fatigue.naming import given_path
+from fatigue.errors import given_path
 from fatigue.readers.displacement.record import Displacement
 from fatigue.readers.forces import Convention
 from fatigue.readers.foreign_history import Match

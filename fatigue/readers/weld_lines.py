@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fatigue.errors import DataError, Problem
-from fatigue.naming import given_path
+from fatigue.errors import DataError, Problem, given_path
 from fatigue.readers.fe_model import FeModel, in_mm
 from fatigue.readers.formats import read_model
 from fatigue.readers.joined_cuts import joined_cuts

@@ -7,9 +7,8 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, given_path
 from fatigue.extras import install_command
-from fatigue.naming import given_path
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
     CSV_TABLES,

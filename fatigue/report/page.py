@@ -11,8 +11,7 @@ import pandas as pd
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
-from fatigue.errors import DataError, Problem
-from fatigue.naming import given_path
+from fatigue.errors import DataError, Problem, given_path
 from fatigue.report import body_sections, figures, method, tables, wording
 from fatigue.report.checks import recomputed
 from fatigue.report.details import Detail, weld_details

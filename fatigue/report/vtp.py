@@ -10,8 +10,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem
-from fatigue.naming import given_path
+from fatigue.errors import DataError, Problem, given_path
 from fatigue.results import NODES, PICTURE, Column, enlist, marked, read_codes, read_provenance, read_table
 from fatigue.weld.line import WeldLine
 

@@ -17,8 +17,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue import __version__
-from fatigue.errors import DataError, Problem, refuse
-from fatigue.naming import given_names, given_path
+from fatigue.errors import DataError, Problem, given_names, given_path, refuse
 from fatigue.results.columns import ASSESSED, TABLES, ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {

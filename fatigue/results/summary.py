@@ -8,8 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from fatigue.errors import CaseError, DataError, Problem
-from fatigue.naming import given_names, given_path
+from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
 from fatigue.results import assessed, not_assessed, read_provenance, read_rows, read_welds, refuse_mixed, worst_toes
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import given_path
+from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
 from fatigue.verify.recount.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
