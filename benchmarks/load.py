@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.counting.rainflow import BlockCount, count_block
+from fatigue.life.counting.single.count import Record, count_block_fast, record_of
 from fatigue.life.curves import DamageLaw, catalogue, damage_law
-from fatigue.life.rainflow import BlockCount, count_block
-from fatigue.life.rainflow_fast import Record, count_block_fast, record_of
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from benchmarks.load import CHOICES, RATE, aluminium, load
 from benchmarks.timing import Row, best_times
 from fatigue.extras import install_command
-from fatigue.life.rainflow import count_block
-from fatigue.life.rainflow_fast import count_block_fast, record_of
+from fatigue.life.counting.rainflow import count_block
+from fatigue.life.counting.single.count import count_block_fast, record_of
 from fatigue.spectrum.methods import dirlik_damage_rate
 
 

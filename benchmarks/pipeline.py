@@ -6,8 +6,8 @@ import numpy as np
 
 from benchmarks.load import load
 from benchmarks.timing import Row, best_times
-from fatigue.life.forms import face_forms
-from fatigue.life.screening import extent_bound, modal_extent
+from fatigue.life.bounds.forms import face_forms
+from fatigue.life.bounds.screening import extent_bound, modal_extent
 
 
 def against_the_product() -> list[Row]:

@@ -2,9 +2,9 @@
 
 from fatigue.case import load_case as load_case
 from fatigue.check import check_case as check_case
+from fatigue.life.counting.rainflow import rainflow as rainflow
 from fatigue.life.curves import catalogue as catalogue
-from fatigue.life.rainflow import rainflow as rainflow
-from fatigue.pipeline.model import read_model as read_model
+from fatigue.pipeline.solve.model import read_model as read_model
 from fatigue.results import read_provenance as read_provenance
 from fatigue.results import read_table as read_table
 from fatigue.results.summary import result_summary as result_summary

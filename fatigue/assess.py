@@ -15,27 +15,27 @@ from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
-from fatigue.pipeline.body import Body, read_body
-from fatigue.pipeline.checkpoint import Checkpoint, claimed, settle_folder
-from fatigue.pipeline.cycles import CycleWriter, kept_point
-from fatigue.pipeline.doubts import Doubts
-from fatigue.pipeline.events import mission_plan
-from fatigue.pipeline.folder import publish, refuse_foreign, remember_case, result_log, stale_files
-from fatigue.pipeline.model import toe_faces
-from fatigue.pipeline.orders import Order
-from fatigue.pipeline.piece import TIERS
-from fatigue.pipeline.provenance import provenance_record
-from fatigue.pipeline.register import WorstPoint, excluded_rows, weld_rows, worst_points
-from fatigue.pipeline.rows import damage_rows, node_rows, stress_rows
+from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
+from fatigue.pipeline.run.orders import Order
+from fatigue.pipeline.run.work import Counted, Work, input_paths, inputs_of, key_of, open_work
+from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.side_by_side import meanwhile
-from fatigue.pipeline.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.work import Counted, Work, input_paths, inputs_of, key_of, open_work
-from fatigue.pipeline.workers import Group, by_orders, by_threads
-from fatigue.readers.spare_memory import give_back
+from fatigue.pipeline.solve.body import Body, read_body
+from fatigue.pipeline.solve.model import toe_faces
+from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
+from fatigue.pipeline.tables.cycles import CycleWriter, kept_point
+from fatigue.pipeline.tables.provenance import provenance_record
+from fatigue.pipeline.tables.register import WorstPoint, excluded_rows, weld_rows, worst_points
+from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
+from fatigue.pipeline.tables.warnings import Doubts
+from fatigue.readers.neutral.spare_memory import give_back
+from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
-from fatigue.report.vtp import write_vtp
 from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
-from fatigue.spectrum.diagnosis import FEW_SAMPLES_PER_PEAK, sampling_loss
+from fatigue.results.folder import publish, refuse_foreign, remember_case, result_log, stale_files
+from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
 
 log = logging.getLogger(__name__)

@@ -9,12 +9,12 @@ from typing import Any
 
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
-from fatigue.pipeline.body import read_body
-from fatigue.pipeline.doubts import Doubts
-from fatigue.pipeline.events import mission_plan
-from fatigue.pipeline.model import solve_group
+from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.solve.body import read_body
+from fatigue.pipeline.solve.model import solve_group
+from fatigue.pipeline.solve.weld_groups import weld_groups
+from fatigue.pipeline.tables.warnings import Doubts
 from fatigue.pipeline.trial import JobTime, job_time
-from fatigue.pipeline.weld_groups import weld_groups
 from fatigue.stages import stage
 
 

@@ -14,11 +14,10 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
-from fatigue.pipeline.body import Body, conversion_file, read_body, register_file
-from fatigue.pipeline.checkpoint import locked, settle_folder
-from fatigue.pipeline.events import event_loads, mission_plan
-from fatigue.pipeline.folder import publish, result_log, staging_in
-from fatigue.pipeline.weld_groups import weld_groups
+from fatigue.pipeline.mission.events import event_loads, mission_plan
+from fatigue.pipeline.run.checkpoint import locked, settle_folder
+from fatigue.pipeline.solve.body import Body, conversion_file, read_body, register_file
+from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
     case_of,
@@ -31,6 +30,7 @@ from fatigue.results import (
     row_count,
     table_writer,
 )
+from fatigue.results.folder import publish, result_log, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
 from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point

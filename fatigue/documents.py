@@ -6,12 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.pipeline.checkpoint import locked, settle_folder
-from fatigue.pipeline.folder import publish, staging_in
-from fatigue.report.export import refuse_without_xlsxwriter, write_csv, write_xlsx
+from fatigue.pipeline.run.checkpoint import locked, settle_folder
+from fatigue.report.files.export import refuse_without_xlsxwriter, write_csv, write_xlsx
+from fatigue.report.files.pdf import find_browser, print_pdf
+from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
-from fatigue.report.pdf import find_browser, print_pdf
-from fatigue.report.vtp import write_vtp
 from fatigue.results import (
     CSV_TABLES,
     DOCUMENTS,
@@ -28,6 +27,7 @@ from fatigue.results import (
     refuse_mixed,
     write_list,
 )
+from fatigue.results.folder import publish, staging_in
 from fatigue.stages import stage
 
 AGAIN = (PAGE, PICTURE)  # written again without being asked

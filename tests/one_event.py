@@ -1,9 +1,9 @@
 """One event at a block of stations in one call, as tests want it: estimated, then counted."""
 
-from fatigue.pipeline.estimate import estimate_event, member_variances
-from fatigue.pipeline.event_block import EventBlock, count_event, judged
-from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.shapes import Shapes
+from fatigue.pipeline.count.estimate import estimate_event, member_variances
+from fatigue.pipeline.count.event_block import EventBlock, count_event, judged
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.modal_stress import Shapes
 
 
 def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> EventBlock:

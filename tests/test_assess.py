@@ -230,7 +230,7 @@ def test_groups_of_welds_do_not_change_a_number(tmp_path, monkeypatch, suffix):
     hot = case.nodal_forces.node.isin([103, 204])  # so that no rounding decides which point is worst
     case.nodal_forces.loc[hot, "fy_N"] *= 1.2
     assess(load_case(case.write(tmp_path / "whole", suffix)), tmp_path / "one group")
-    monkeypatch.setattr("fatigue.pipeline.weld_groups.SMALLEST_GROUP", 7)
+    monkeypatch.setattr("fatigue.pipeline.solve.weld_groups.SMALLEST_GROUP", 7)
     case.nodal_forces = case.nodal_forces.sample(frac=1.0, random_state=1)
     assess(load_case(case.write(tmp_path / "case", suffix)), tmp_path / "result", threads=2)
     for name in TABLES:
@@ -242,7 +242,7 @@ def test_groups_of_welds_do_not_change_a_number(tmp_path, monkeypatch, suffix):
 
 def test_large_jobs_count_in_single_precision_and_say_so(tmp_path, small_result, monkeypatch):
     """Above the limit the fast kernel counts; lives agree to 1e-6 and the record names the precision."""
-    monkeypatch.setattr("fatigue.pipeline.events.DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES", 0.0)
     assess(load_case(small_case().write(tmp_path / "case")), tmp_path / "result")
     single, double = (pd.read_parquet(f / "nodes.parquet") for f in (tmp_path / "result", small_result))
     assert single.life_km.to_numpy() == pytest.approx(double.life_km.to_numpy(), rel=1e-6)
@@ -252,7 +252,7 @@ def test_large_jobs_count_in_single_precision_and_say_so(tmp_path, small_result,
 
 def test_a_mistake_in_the_forces_of_the_last_group_is_refused_at_once(tmp_path, monkeypatch):
     """Nothing is counted and nothing is left when a later group is wrong; the row is that of the file."""
-    monkeypatch.setattr("fatigue.pipeline.weld_groups.SMALLEST_GROUP", 7)
+    monkeypatch.setattr("fatigue.pipeline.solve.weld_groups.SMALLEST_GROUP", 7)
     case = small_case()
     row = int(np.flatnonzero(case.nodal_forces.weld == "B")[5])
     case.nodal_forces.loc[row, "mx_Nmm"] = np.inf

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fatigue.case import Case, case_schema, check_distance, check_files, event_length_km, load_case
 from fatigue.errors import CaseError, DataError
-from fatigue.pipeline.rated_curves import curves_of_case
+from fatigue.pipeline.solve.rated_curves import curves_of_case
 
 jsonschema = pytest.importorskip("jsonschema")
 

@@ -11,9 +11,9 @@ from fatigue.case import load_case
 from fatigue.cli import cli, main
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_bad_modes, refuse_missing_case
 from fatigue.errors import FatigueError
-from fatigue.readers.files import open_columns
-from fatigue.readers.formats import recognise
-from fatigue.readers.modal_basis import mode_list
+from fatigue.readers.convert.modal_basis import mode_list
+from fatigue.readers.foreign.formats import recognise
+from fatigue.readers.neutral.files import open_columns
 
 ROOT = Path(__file__).parents[1]
 HEAVY = "{'numba', 'scipy', 'plotly', 'jinja2'}"

@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tests.readers.convert.audit.test_audit import static_results
 from tests.readers.op2_writer import modal_op2
-from tests.readers.test_audit import static_results
 from tests.test_cli import assess, fatigue
 
 NASTRAN = Path(__file__).parents[1] / "data" / "nastran"

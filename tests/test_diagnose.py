@@ -13,8 +13,8 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
-from fatigue.pipeline.events import event_load, mission_plan
-from fatigue.pipeline.model import read_model
+from fatigue.pipeline.mission.events import event_load, mission_plan
+from fatigue.pipeline.solve.model import read_model
 from fatigue.results import json_ready
 from fatigue.spectrum.bands import third_octaves
 from fatigue.why.attribute import Attribution, attribute_event
@@ -251,7 +251,7 @@ def test_summary_names_event_modes_bands_lever_and_verdict(small):
 def test_too_many_points_leave_the_worst_and_those_above_a_share(tmp_path, monkeypatch):
     """Where all points would take long the table says of every point why it is there."""
     monkeypatch.setattr(fatigue.why.points, "MOST_SAMPLES", 0)
-    monkeypatch.setattr("fatigue.pipeline.weld_groups.SMALLEST_GROUP", 7)  # one weld at a time
+    monkeypatch.setattr("fatigue.pipeline.solve.weld_groups.SMALLEST_GROUP", 7)  # one weld at a time
     found = run(small_case(seconds=6.0), tmp_path, share_of_limit=0.5)
     toe = found.nodes[found.nodes.toe].set_index(POINT)
     chosen = found.attribution.drop_duplicates(POINT).set_index(POINT)["chosen"]
@@ -296,7 +296,7 @@ def test_pieces_of_points_write_the_same_tables(tmp_path, monkeypatch):
 def test_records_on_disk_give_the_same_diagnosis(tmp_path, monkeypatch):
     """Records that are too long to be held together are read again and again."""
     found = run(small_case(seconds=6.0), tmp_path)
-    monkeypatch.setattr("fatigue.pipeline.events.HELD_BYTES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.events.HELD_BYTES", 0.0)
     diagnose(found.folder)
     for name in TABLES:
         pd.testing.assert_frame_equal(

@@ -11,7 +11,7 @@ from fatigue.documents import AGAIN, CSV, missing_extras, write_documents
 from fatigue.errors import DataError
 from fatigue.results import PAGE, PRINT, WORKBOOK, is_derived, read_provenance, strangers, write_json
 from fatigue.results.belonging import carried
-from tests.report.test_pdf import program
+from tests.report.files.test_pdf import program
 from tests.small_case import sine_only
 
 PRINTS = 'for a in "$@"; do case "$a" in --print-to-pdf=*) echo "%PDF" > "${a#*=}";; esac; done'

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from benchmarks import peers
-from fatigue.cluster import cluster_executor
 from fatigue.errors import DataError
 from fatigue.extras import REQUIREMENTS, install_command
+from fatigue.pipeline.run.cluster import cluster_executor
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]

@@ -23,8 +23,8 @@ from pyarrow import feather, orc
 from fatigue.case import load_case
 from fatigue.errors import FatigueError
 from fatigue.known_formats import known_format, misplaced
-from fatigue.readers.formats import read_coordinates, read_forces, read_model
-from fatigue.readers.tables import open_table
+from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
+from fatigue.readers.neutral.tables import open_table
 
 NASTRAN = Path("data/nastran")
 FRAME = pd.DataFrame({"mode": [1, 2], "frequency_hz": [1.0, 2.0]})

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.naming import composed, missing_file
-from fatigue.readers.tables import open_table
+from fatigue.readers.neutral.tables import open_table
 
 DECOMPOSED = unicodedata.normalize("NFD", "Träger")
 

@@ -12,11 +12,11 @@ from fatigue.assess import assess
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
 from fatigue.example import write_example
-from fatigue.readers.convert_options import ConvertOptions
-from fatigue.readers.weld_lines import WeldSources
-from fatigue.report.export import write_csv
+from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.convert.weld_lines import WeldSources
+from fatigue.report.files.export import write_csv
+from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import report_page, write_report
-from fatigue.report.vtp import write_vtp
 from fatigue.results import read_rows, row_count, row_groups, worst_toes
 from tests.small_case import small_case
 

@@ -12,7 +12,7 @@ from fatigue.assess import Assessment, assess
 from fatigue.case import Case
 from fatigue.diagnose import diagnose
 from fatigue.errors import FatigueError
-from fatigue.life.rainflow import Cycles
+from fatigue.life.counting.rainflow import Cycles
 from fatigue.report import figures
 from fatigue.report.page import write_report
 from fatigue.results.summary import Summary

@@ -20,7 +20,7 @@ def refuse_missing_case(path: Path) -> None:
 def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
     """Refuse a folder without result, or a case file named for it that is not there; complete a result cut off."""
     if (folder / ".fatigue-publish").exists():
-        from fatigue.pipeline.checkpoint import settle_folder
+        from fatigue.pipeline.run.checkpoint import settle_folder
 
         settle_folder(folder)
     if not (folder / "provenance.json").exists():
@@ -35,7 +35,7 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:
-    """Name FE and simulation files that are not there, as `fatigue.readers.formats.recognise` does."""
+    """Name FE and simulation files that are not there, as `fatigue.readers.foreign.formats.recognise` does."""
     for path in paths:
         try:
             path.open("rb").close()
@@ -46,7 +46,7 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
 
 
 def missing_tables(*paths: Path | None) -> Iterable[Problem]:
-    """Name tables that are not there, as `fatigue.readers.files.open_columns` does."""
+    """Name tables that are not there, as `fatigue.readers.neutral.files.open_columns` does."""
     for path in paths:
         if path is not None and (path.is_dir() or not path.exists()):
             yield missing_file(path)
@@ -54,14 +54,14 @@ def missing_tables(*paths: Path | None) -> Iterable[Problem]:
 
 def refuse_unknown_units(**systems: str) -> None:
     """Refuse names of unit systems that there are not."""
-    from fatigue.readers.units import unit_system
+    from fatigue.readers.units.systems import unit_system
 
     for where, name in systems.items():
         unit_system(name, where.replace("_", " "))
 
 
 def refuse_bad_modes(option: str, text: str) -> None:
-    """Refuse a list of modes that is none, as `fatigue.readers.modal_basis.mode_list` does."""
+    """Refuse a list of modes that is none, as `fatigue.readers.convert.modal_basis.mode_list` does."""
     for part in text.split(",") if text else ():
         found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
         if not found or not 0 <= int(found[2] or found[1]) - int(found[1]) <= MOST_MODES:
@@ -83,7 +83,7 @@ def refuse_foreign_conversion(folder: Path, *, force: bool, keep_case: bool) -> 
     """Refuse a folder to convert into that is a file or holds files of somebody else, as the conversion does later."""
     if force or not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         return
-    from fatigue.readers.neutral_folder import RECORD, TABLES, check_folder
+    from fatigue.readers.convert.folder import RECORD, TABLES, check_folder
 
     case = () if keep_case else ("case.toml",)
     check_folder(folder, [*TABLES, "welds_register.csv", *case, RECORD], "welds_register.csv")

@@ -174,13 +174,13 @@ def convert(
         refuse_bad_modes(option, modes)
     refuse_unknown_curve(curve)
     refuse_foreign_conversion(output, force=force, keep_case=keep_case)
-    from fatigue.readers.case_text import register_named
-    from fatigue.readers.convert import convert as read_and_write
-    from fatigue.readers.convert_options import ConvertOptions
-    from fatigue.readers.displacement.record import Displacement
-    from fatigue.readers.modal_basis import mode_list
-    from fatigue.readers.weld_lines import WeldSources
-    from fatigue.readers.weld_register import reasons
+    from fatigue.readers.convert.case_text import register_named
+    from fatigue.readers.convert.convert import convert as read_and_write
+    from fatigue.readers.convert.displacement.record import Displacement
+    from fatigue.readers.convert.modal_basis import mode_list
+    from fatigue.readers.convert.options import ConvertOptions
+    from fatigue.readers.convert.weld_lines import WeldSources
+    from fatigue.readers.neutral.register.weld_register import reasons
 
     run = narrating(read_and_write)
     done = run(
@@ -289,8 +289,8 @@ def welds(
     from dataclasses import asdict
 
     from fatigue.errors import DataError, Problem
-    from fatigue.readers.weld_lines import WeldSources, list_welds
-    from fatigue.report.vtp import write_line_picture
+    from fatigue.readers.convert.weld_lines import WeldSources, list_welds
+    from fatigue.report.files.vtp import write_line_picture
 
     sources = WeldSources(node_lists, sets, markers, detect, candidates, register)
     with narrated(quiet=is_quiet()):
@@ -329,8 +329,8 @@ def tension_patch(file: Path, results: bool, force: bool) -> None:
         refuse_all(missing_foreign(file))
     else:
         refuse_existing(file, force=force, what="is there already", remedy="Use --force to overwrite it")
-    from fatigue.readers.formats import read_forces
-    from fatigue.readers.tension_patch import DECK, convention_of
+    from fatigue.readers.convert.audit.tension_patch import DECK, convention_of
+    from fatigue.readers.foreign.formats import read_forces
 
     if results:
         click.echo(f'force_convention = "{convention_of(read_forces(file, None))}"')

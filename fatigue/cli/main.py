@@ -144,8 +144,8 @@ def assess(
         raise click.UsageError("--exact counts every point: leave out --screen and --likely-worst")
     refuse_missing_case(case_file)
     from fatigue.case import check_files, load_case
-    from fatigue.pipeline.folder import refuse_foreign
     from fatigue.results import JOURNAL
+    from fatigue.results.folder import refuse_foreign
 
     case = load_case(case_file)
     check_files(case)
@@ -153,7 +153,7 @@ def assess(
         own = [case_file, *case.input_files().values()]
         refuse_foreign(output, force=force, case_file=case_file, inputs=own)
     from fatigue.assess import assess as run
-    from fatigue.cluster import cluster_executor
+    from fatigue.pipeline.run.cluster import cluster_executor
     from fatigue.results.summary import result_summary
 
     workers = cluster_executor(scheduler) if scheduler else nullcontext()

@@ -10,21 +10,21 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Event
-from fatigue.life.history import ModalHistory
 from fatigue.life.mission import Pass, Plan
-from fatigue.pipeline.body import Body
-from fatigue.pipeline.event_load import EventLoad
-from fatigue.pipeline.events import (
+from fatigue.life.records.history import ModalHistory
+from fatigue.pipeline.count.group import GroupResult, assess_group
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
     LARGEST_UPSAMPLE,
     SAMPLES_PER_PEAK,
     load_of,
     shortened_record,
 )
-from fatigue.pipeline.group import GroupResult, assess_group
-from fatigue.pipeline.model import Model
-from fatigue.pipeline.register import worst_points
-from fatigue.pipeline.work import SHARE, screening_of
+from fatigue.pipeline.run.work import SHARE, screening_of
+from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.tables.register import worst_points
 
 Result = TypeVar("Result")
 

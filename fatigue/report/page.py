@@ -12,15 +12,17 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem, given_path
-from fatigue.report import body_sections, figures, method, tables, wording
-from fatigue.report.checks import recomputed
-from fatigue.report.details import Detail, weld_details
-from fatigue.report.embed import Figures, embedded
+from fatigue.report import figures, wording
 from fatigue.report.figures.scene import Body
 from fatigue.report.inputs import Inputs, find_inputs
 from fatigue.report.result import Result, read_result
-from fatigue.report.weld_page import weld_page
-from fatigue.report.why import read_why
+from fatigue.report.sections import body as body_sections
+from fatigue.report.sections import method, tables
+from fatigue.report.sections.checks import recomputed
+from fatigue.report.sections.details import Detail, weld_details
+from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.weld import weld_page
+from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
 
 log = logging.getLogger(__name__)

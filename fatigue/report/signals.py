@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import ModalHistory, mean_and_covariance, stress_history
+from fatigue.life.records.history import ModalHistory, mean_and_covariance, stress_history
 from fatigue.spectrum.moments import cross_densities, has_spectrum, segment_spectra
 
 CLOSE_UP_SAMPLES = 75  # before and after an instant of a cycle

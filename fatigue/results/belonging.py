@@ -21,7 +21,7 @@ from fatigue.results.store import read_provenance, sha256, write_json
 
 PICTURE, PAGE, PRINT, WORKBOOK = "weld_lines.vtp", "report.html", "report.pdf", "nodes.xlsx"
 CSV_TABLES = ("nodes", "damage", "cycles", "welds")
-DOCUMENTS = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
+DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
 MARK = "fatigue-result"  # before the hash in documents that are text; the name of a property in the workbook
 _MARKED = re.compile(rb"fatigue-result.{1,60}?\b([0-9a-f]{32})\b", re.DOTALL)

@@ -26,7 +26,7 @@ _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
     "flag": pa.bool_(),
     "float": pa.float64(),
 }
-JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.pipeline.folder`
+JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.results.folder`
 _CODED_TEXT = pa.dictionary(pa.int32(), pa.string())
 _ROWS_PER_GROUP = dict.fromkeys(TABLES, 65_536) | {"structural_stress": 131_072, "nodes": 16_384, "welds": 2_048}
 """Rows wait in memory until a group of them is full, and what Parquet says of each group until the file is closed.

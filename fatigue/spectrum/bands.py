@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import Residue
+from fatigue.life.records.history import Residue
 
 Floats = NDArray[np.float64]
 

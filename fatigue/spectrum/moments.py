@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.pairs import pairs
 from fatigue.spectrum.taper import hann, tapered
 

@@ -3,7 +3,8 @@
 import math
 from collections.abc import Callable
 
-from fatigue.spectrum.diagnosis import (
+from fatigue.spectrum.stationarity import FEWEST_PERIODS
+from fatigue.spectrum.trust import (
     CONFIDENT,
     FEWEST_SAMPLES_PER_PEAK,
     HIGHEST_PEAK_RATE,
@@ -12,7 +13,6 @@ from fatigue.spectrum.diagnosis import (
     Diagnosis,
     sampling_loss,
 )
-from fatigue.spectrum.stationarity import FEWEST_PERIODS
 
 
 def reason(of: Diagnosis, i: int) -> str:

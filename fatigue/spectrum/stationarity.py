@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.quotient import quotient
 from fatigue.spectrum.moments import (
     DIRLIK_ORDERS,

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.moments import samples_per_segment, segment_starts, windowed
 from fatigue.spectrum.taper import hann
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.history import ModalHistory, mean_and_covariance
-from fatigue.life.spool import Samples
+from fatigue.life.records.history import ModalHistory, mean_and_covariance
+from fatigue.life.records.spool import Samples
 from fatigue.spectrum.taper import tapered
 
 SLOWEST_HZ = 0.3

@@ -16,6 +16,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.weld.line import WeldLine
 from fatigue.weld.line_geometry import edges
 
+BALANCE_RED = 1e-2  # of the largest term of an element: beyond it something is missing or of another frame
 BALANCE_FLOOR = 1e-3  # of the mode's largest term: what hardly strains carries only the round-off of the others
 
 

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.attribution import Credit, DamageRule, credit
-from fatigue.life.history import Residue
+from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.mission import Pass, Plan
-from fatigue.life.rainflow import rainflow
-from fatigue.pipeline.event_load import EventLoad
-from fatigue.readers.body import Modes
+from fatigue.life.records.history import Residue
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.readers.neutral.body import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
 from fatigue.why.points import Points
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan, life_km
-from fatigue.pipeline.event_load import EventLoad
+from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.why.attribute import Attribution, count_credit
 
 Floats = NDArray[np.float64]

@@ -15,8 +15,8 @@ from fatigue.errors import DataError, Problem
 from fatigue.life.attribution import DamageRule, size_exponent
 from fatigue.life.damage import size_factor
 from fatigue.life.mission import Plan
-from fatigue.pipeline.model import Model, solve_group
-from fatigue.pipeline.weld_groups import SideForces, WeldGroups
+from fatigue.pipeline.solve.model import Model, solve_group
+from fatigue.pipeline.solve.weld_groups import SideForces, WeldGroups
 from fatigue.results import read_codes, read_table
 from fatigue.weld.line_geometry import split_at_kinks
 

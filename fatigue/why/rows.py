@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from fatigue.life.mission import Plan, life_km
-from fatigue.pipeline.rows import FACES
-from fatigue.readers.body import Modes
+from fatigue.pipeline.tables.rows import FACES
+from fatigue.readers.neutral.body import Modes
 from fatigue.why.attribute import Attribution, EventAttribution
 from fatigue.why.levers import Levers
 from fatigue.why.points import Points

@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from fatigue.life.attribution import DamageRule
 from fatigue.life.damage import ratio_factor
-from fatigue.life.history import ModalHistory
-from fatigue.pipeline.body import Body
-from fatigue.pipeline.event_load import EventLoad
+from fatigue.life.records.history import ModalHistory
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.body import Body
 from fatigue.quotient import quotient
-from fatigue.spectrum.diagnosis import VERDICTS, Diagnosis, diagnosis_matrices
-from fatigue.spectrum.diagnosis import diagnose as spectral_diagnosis
 from fatigue.spectrum.methods import dirlik_damage_rate
 from fatigue.spectrum.moments import point_moments, segment_spectra
 from fatigue.spectrum.reasons import reason
 from fatigue.spectrum.stationarity import damage_rate_by_period
 from fatigue.spectrum.surrogates import RatioSplit, explained_share, ratio_split
+from fatigue.spectrum.trust import VERDICTS, Diagnosis, diagnosis_matrices
+from fatigue.spectrum.trust import diagnose as spectral_diagnosis
 from fatigue.why.attribute import EventAttribution, count_credit
 from fatigue.why.points import Points
 
@@ -39,8 +39,8 @@ class EventVerdicts:
     Attributes
     ----------
     event : name
-    verdict, reason : one of `fatigue.spectrum.diagnosis.VERDICTS`, and the same in words with its numbers
-    measured : the numbers of `fatigue.spectrum.diagnosis.Diagnosis` by name
+    verdict, reason : one of `fatigue.spectrum.trust.VERDICTS`, and the same in words with its numbers
+    measured : the numbers of `fatigue.spectrum.trust.Diagnosis` by name
     segmentwise_ratio : Dirlik summed over the periods of the record, over rainflow; where the event is not stationary
     formula, process, standard_error : the split of Dirlik over rainflow, see `RatioSplit`; where it was asked for
     explained : share of ln(process) that the modulation and the tones found explain

@@ -12,23 +12,28 @@ import pyarrow.parquet as pq
 
 from fatigue.case import load_case
 from fatigue.errors import DataError, Problem
-from fatigue.readers.body import Modes, read_mesh, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.fe_model import FeModel
-from fatigue.readers.fe_results import FeResults
-from fatigue.readers.forces import open_nodal_forces, read_element_forces, read_nodal_forces, read_weld_elements
-from fatigue.readers.foreign_history import ForeignHistory, matched, uniform
-from fatigue.readers.formats import read_coordinates, read_forces, read_model
-from fatigue.readers.history import read_history
-from fatigue.readers.modal_basis import common_modes
-from fatigue.readers.neutral_folder import read_record
-from fatigue.readers.tables import open_table
-from fatigue.readers.weld_register import open_register
+from fatigue.readers.convert.folder import read_record
+from fatigue.readers.convert.modal_basis import common_modes
+from fatigue.readers.foreign.fe.model import FeModel
+from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
+from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.neutral.forces.tables import (
+    open_nodal_forces,
+    read_element_forces,
+    read_nodal_forces,
+    read_weld_elements,
+)
+from fatigue.readers.neutral.history import read_history
+from fatigue.readers.neutral.register.weld_register import open_register
+from fatigue.readers.neutral.tables import open_table
 from fatigue.results import read_provenance, read_table
 from fatigue.results.store import schema, write_json
 from tests.fuzz import damage
-from tests.readers import neutral
+from tests.readers import neutral_tables as neutral
+from tests.readers.foreign.histories.test_foreign_history import MCF
 from tests.readers.op2_writer import modal_op2
-from tests.readers.test_foreign_history import MCF
 
 Columns = dict[str, Any]
 Reader = Callable[[Path], tuple[Columns, tuple[Problem, ...]]]

@@ -12,9 +12,9 @@ from fatigue.life.attribution import (
     log_ratio_factor_slope,
     size_exponent,
 )
+from fatigue.life.counting.rainflow import count_block, rainflow
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.damage import M_SS, cycle_damage, ratio_factor, size_factor
-from fatigue.life.rainflow import count_block, rainflow
 
 ALUMINIUM = catalogue()["master-aluminium"]
 THREE_SLOPES = user_curve("three", (3.0, 5.0, 9.0), (5e6, 1e8), 60.0, "dS", "a test")

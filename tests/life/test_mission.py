@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fatigue.life.counting.rainflow import HISTOGRAM_EDGES
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.damage import cycle_damage
 from fatigue.life.mission import Pass, equivalent_range, life_km, load_factor, mission_sum, straight_load_factor
-from fatigue.life.rainflow import HISTOGRAM_EDGES
 
 
 def test_shares_and_numbers_add_up_per_km():

@@ -8,8 +8,8 @@ import pandas as pd
 
 from fatigue.assess import assess
 from fatigue.case import load_case
-from fatigue.readers.convert import Conversion, convert
-from fatigue.readers.convert_options import ConvertOptions
+from fatigue.readers.convert.convert import Conversion, convert
+from fatigue.readers.convert.options import ConvertOptions
 from tests.mystran.solver import solve_text
 
 STEP_S, STEPS = 0.005, 400

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fatigue.readers.units import SYSTEMS
+from fatigue.readers.units.systems import SYSTEMS
 from tests.mystran.plates import Plates
 
 YOUNG_MPA = 210_000.0

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.audit import audit
-from fatigue.readers.formats import read_forces, read_model
-from fatigue.readers.tension_patch import DECK, convention_of
+from fatigue.readers.convert.audit.audit import audit
+from fatigue.readers.convert.audit.tension_patch import DECK, convention_of
+from fatigue.readers.foreign.formats import read_forces, read_model
 from tests.mystran import plates as joints
 from tests.mystran.chain import chain
 from tests.mystran.decks import plain

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.report.pdf import find_browser
+from fatigue.report.files.pdf import find_browser
 from tests.mystran import plates as joints
 from tests.mystran.chain import chain, waves_file
 from tests.mystran.decks import plain

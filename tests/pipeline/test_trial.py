@@ -6,11 +6,11 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from fatigue.case import load_case
-from fatigue.pipeline.body import read_body
-from fatigue.pipeline.events import mission_plan
-from fatigue.pipeline.model import solve_group
+from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.solve.body import read_body
+from fatigue.pipeline.solve.model import solve_group
+from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.trial import CELL, CYCLE, DETAIL, PAGE, START, job_time
-from fatigue.pipeline.weld_groups import weld_groups
 from tests.small_case import sine_only, small_case
 
 

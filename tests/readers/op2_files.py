@@ -1,6 +1,6 @@
 """Small OP2 files of a row or two."""
 
-from fatigue.readers.nastran_op2 import read_op2
+from fatigue.readers.foreign.nastran.results.op2 import read_op2
 from tests.readers.op2_writer import Op2Writer
 
 ROW = (1, 1, "QUAD4", [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])

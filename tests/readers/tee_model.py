@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from fatigue.readers.fe_results import FeResults
+from fatigue.readers.foreign.fe.results import FeResults
 from tests.shell_fe import ShellModel, grid, joined
 
 FRAMES = {3: np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])}

@@ -7,8 +7,8 @@ import numpy as np
 
 from fatigue.assess import assess
 from fatigue.case import load_case
-from fatigue.readers.convert import convert
-from fatigue.readers.convert_options import ConvertOptions
+from fatigue.readers.convert.convert import convert
+from fatigue.readers.convert.options import ConvertOptions
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
 

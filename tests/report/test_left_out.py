@@ -9,16 +9,16 @@ import pytest
 
 from fatigue.diagnose import diagnose
 from fatigue.errors import DataError
-from fatigue.report.export import write_csv, write_xlsx
+from fatigue.report.files.export import write_csv, write_xlsx
+from fatigue.report.files.pdf import find_browser, print_pdf
+from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import report_page
-from fatigue.report.pdf import find_browser, print_pdf
-from fatigue.report.vtp import write_vtp
 from fatigue.results import json_ready
 from fatigue.results.summary import result_summary
 from fatigue.verify.recount import recount
 from tests.report.converted import NAME, NOTHING_KNOWN, REASON, assessed
+from tests.report.files.test_export import sheet
 from tests.report.reading import Page
-from tests.report.test_export import sheet
 
 CASES = {
     "excluded and candidate": ([{"weld": NAME}, {"status": "excluded", "reason": REASON}, {}, NOTHING_KNOWN], None),

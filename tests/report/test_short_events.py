@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from fatigue.report import figures
-from fatigue.report.why import Why, band_shares
+from fatigue.report.sections.why import Why, band_shares
 
 
 def test_events_without_bands_stay_out_of_the_picture():

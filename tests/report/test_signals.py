@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import welch
 
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.report import signals
 
 STEP = 0.004

@@ -8,9 +8,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.report.export import write_csv, write_xlsx
+from fatigue.report.files.export import write_csv, write_xlsx
+from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
-from fatigue.report.vtp import write_vtp
 from fatigue.results import is_derived, read_provenance, refuse_mixed, strangers, write_json
 from fatigue.results.belonging import carried, listed
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum import moments
 from fatigue.spectrum.moments import (
     cross_densities,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fatigue.spectrum.diagnosis import VERDICTS, Diagnosis
 from fatigue.spectrum.reasons import reason
+from fatigue.spectrum.trust import VERDICTS, Diagnosis
 
 MEASURED = {
     "dirlik_ratio": 1.02,

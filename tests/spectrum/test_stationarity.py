@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from fatigue.life.history import ModalHistory
-from fatigue.life.rainflow import rainflow
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.methods import dirlik_damage_rate
 from fatigue.spectrum.moments import moment_matrices, point_moments, segment_spectra
 from fatigue.spectrum.pairs import pair_forms

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fatigue.life.history import ModalHistory
-from fatigue.life.rainflow import rainflow
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.methods import dirlik_damage_rate
 from fatigue.spectrum.moments import moment_matrices, point_moments, segment_spectra
 from fatigue.spectrum.surrogates import explained_share, gaussian_surrogate, ratio_split

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum import whole_record
 from fatigue.spectrum.moments import quadratic_forms
 from fatigue.spectrum.taper import hann

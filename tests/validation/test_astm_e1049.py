@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fatigue.life.rainflow import Cycles, rainflow
+from fatigue.life.counting.rainflow import Cycles, rainflow
 
 FIGURE_6 = np.array([-2, 1, -3, 5, -1, 3, -4, 4, -2])
 

@@ -7,7 +7,7 @@ error 0.5 %; repeated here on one record of each spectrum, so within 5 %.
 import numpy as np
 import pytest
 
-from fatigue.life.rainflow import rainflow
+from fatigue.life.counting.rainflow import rainflow
 from fatigue.spectrum.methods import (
     dirlik_damage_rate,
     narrow_band_damage_rate,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.methods import (
     dirlik_damage_rate,
     narrow_band_damage_rate,

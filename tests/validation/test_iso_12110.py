@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.life.rainflow import rainflow
+from fatigue.life.counting.rainflow import rainflow
 from tests import naive
 
 EXAMPLE = np.array([4, 7, 2, 10, 5, 9, 3, 4, 2, 12, 5, 11, 1, 4, 3, 10, 6, 12, 4, 8, 1, 9, 4, 6])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fatigue.life.rainflow import Cycles, rainflow
+from fatigue.life.counting.rainflow import Cycles, rainflow
 
 TEST_CASE_2 = [-1.5, 1, -3, 10, -1, 3, -8, 4, -2, 6, -1, -4, -8, 2, 1, -5, 0, 2.5, -4, 1, 0, 2, -0.5]
 WIKIPEDIA = [2, -14, 10, 0, 13, -9, 11, -8, 8, -9, 15, -4, 10, 0, 13, 0]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import simpson
 
-from fatigue.life.history import ModalHistory
-from fatigue.spectrum.diagnosis import tone_damage_factor
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.methods import narrow_band_damage_rate, spectral_shape
 from fatigue.spectrum.moments import moment_matrices, point_moments, segment_spectra
+from fatigue.spectrum.trust import tone_damage_factor
 from tests.naive_spectrum import moments_of, straight_law
 
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from fatigue.readers.tables import open_table
-from fatigue.verify.recount.tables import read_frame, read_pieces
-from tests.readers.test_text_layout import DIALECTS
+from fatigue.readers.neutral.tables import open_table
+from fatigue.verify.recount.inputs.tables import read_frame, read_pieces
+from tests.readers.text.test_layout import DIALECTS
 
 
 @pytest.mark.parametrize("content", DIALECTS.values(), ids=DIALECTS)

@@ -13,7 +13,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.results import json_ready, schema
 from fatigue.verify.recount import folder as story
-from fatigue.verify.recount import recount, tables
+from fatigue.verify.recount import recount
+from fatigue.verify.recount.inputs import tables
 from tests.verify.test_recount import assessed, differing, edit
 from tests.verify.tiny_case import TinyCase
 

@@ -7,10 +7,10 @@ import pytest
 from scipy.integrate import quad
 from scipy.signal import resample, welch
 
-from fatigue.verify.recount.curve import curve_named
-from fatigue.verify.recount.cycles import count_cycles
-from fatigue.verify.recount.record import SpectrumRules, finer, welch_moments
-from fatigue.verify.recount.spectral import dirlik, tovo_benasciutti
+from fatigue.verify.recount.anew.curve import curve_named
+from fatigue.verify.recount.anew.cycles import count_cycles
+from fatigue.verify.recount.anew.record import SpectrumRules, finer, welch_moments
+from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 
 
 def spectrum_of(sequence, *, recurs):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.readers.nastran_bdf import read_bdf
+from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
 from fatigue.weld.cuts import trace
 from fatigue.weld.detection import WELDS, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line

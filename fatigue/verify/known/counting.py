@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.counting.rainflow import count_block, rainflow
 from fatigue.life.curves import DamageLaw
-from fatigue.life.history import ModalHistory, Residue, upsampled
-from fatigue.life.rainflow import count_block, rainflow
+from fatigue.life.records.history import ModalHistory, Residue, upsampled
 from fatigue.verify.check import Check
 
 ASTM = [-2, 1, -3, 5, -1, 3, -4, 4, -2]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
-from fatigue.life.history import ModalHistory
+from fatigue.life.records.history import ModalHistory
 from fatigue.spectrum.methods import (
     dirlik_damage_rate,
     dirlik_density,

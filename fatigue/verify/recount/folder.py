@@ -14,16 +14,17 @@ import numpy as np
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
-from fatigue.verify.recount.body import closed_welds, layout, solved_lines
+from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
+from fatigue.verify.recount.anew.curve import curve_named
+from fatigue.verify.recount.anew.point import Event, MeanStress, OnePass, Values, one_pass, point_of, point_values
+from fatigue.verify.recount.anew.record import read_record, spectrum_rules
 from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
-from fatigue.verify.recount.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
-from fatigue.verify.recount.curve import curve_named
-from fatigue.verify.recount.inputs import Inputs, Modes, open_inputs, read_modes
+from fatigue.verify.recount.inputs.case import Inputs, Modes, open_inputs, read_modes
 from fatigue.verify.recount.layout import FACES, Key, Layout
-from fatigue.verify.recount.point import Event, MeanStress, OnePass, Values, one_pass, point_of, point_values
-from fatigue.verify.recount.record import read_record, spectrum_rules
-from fatigue.verify.recount.rows import Station, Weld, cycle_row, damage_row, node_row, stress_rows, weld_row
-from fatigue.verify.recount.stored import (
+from fatigue.verify.recount.stored.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
+from fatigue.verify.recount.stored.rows import Station, Weld, cycle_row, damage_row, node_row, stress_rows, weld_row
+from fatigue.verify.recount.stored.sums import check_sums
+from fatigue.verify.recount.stored.tables import (
     Stored,
     fastest_peaks,
     governing_points,
@@ -34,7 +35,6 @@ from fatigue.verify.recount.stored import (
     toes_and_utilisation,
     with_cycles,
 )
-from fatigue.verify.recount.sums import check_sums
 
 TOES = {"top": ("top",), "bottom": ("bottom",), "both": FACES}
 FORCES_AT_ONCE = 400_000  # nodes times modes of the welds that are solved at a time: some 150 MB

@@ -1,0 +1,1 @@
+"""Proven upper bounds of the damage, for points that need no counting."""

@@ -1,0 +1,1 @@
+"""From stress to cycles to damage: rainflow counters."""

@@ -1,0 +1,370 @@
+"""Counting records of any length in double precision: chunk by chunk, the counter carrying its state, for any law.
+
+The stress of some thousand samples is recovered, its reversals are appended to those that wait, cycles that close are
+summed up at once, and what is left waits for the next chunk: values of membrane and bending stress, as many as it
+takes. Cycles are found and summed up by the loops of `rainflow`.
+
+A single pass is counted just as there: the stack of open reversals is all that the counter knows. A block that recurs
+is counted there from its largest sample on, which here is known at the end only. Until then a range is closed when it
+is smaller than the one before it and not larger than the one after it: what lies before cannot change that, so it is a
+cycle wherever counting begins. The rest is turned so that it begins at its largest reversal, and closes entirely. Every
+cycle is the one of `rainflow`. Only where the largest or smallest stress of a block that recurs occurs several times,
+exactly equal, other instants of it may be paired: same ranges, but perhaps other bending ratios.
+"""
+
+import math
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.compiled import compiled
+from fatigue.life.counting.rainflow import (
+    BlockCount,
+    Buffers,
+    Point,
+    Rules,
+    block_count,
+    buffers_for,
+    close_cycles,
+    nothing_counted,
+    plain,
+    refuse_not_finite,
+    rules_of,
+    tally,
+)
+from fatigue.life.curves import DamageLaw
+from fatigue.life.records.history import Residue
+from fatigue.life.records.spool import Samples
+
+Floats = NDArray[np.float64]
+
+POINTS = 128  # counted at a time
+CHUNK = 8192  # samples recovered at a time
+WAITING = 64  # reversals of a point there is room for at first
+
+
+class _State(NamedTuple):
+    """What is known of each point and surface (n, 2) between two chunks; pairs (..., 2) are membrane and bending.
+
+    ``first`` (n, 2) is the first sample. ``first_step`` and ``step`` are the directions of the first step and of the
+    last one, 0 before there is any; ``plateau`` (n, 2, 2) is the sample before the first step. The first ``waiting`` of
+    the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``moments`` (n, 2, 5) are number, mean, and sums of
+    the 2nd, 3rd and 4th power of the deviations from it, of the samples so far.
+    """
+
+    first: Floats
+    first_step: NDArray[np.int64]
+    step: NDArray[np.int64]
+    plateau: Floats
+    waiting: NDArray[np.int64]
+    m: Floats
+    b: Floats
+    moments: Floats
+
+
+class _Block(NamedTuple):
+    """What is its own of each point, and what is counted: totals (n, 2) and histogram (n, 2, b, 2)."""
+
+    size: Floats
+    same_ratio: Floats
+    totals: NDArray[np.void]
+    histogram: Floats
+
+
+class _Room(NamedTuple):
+    """Work space of one row: stress of a chunk, and membrane, bending and structural stress of its reversals."""
+
+    stress: Floats
+    m: Floats
+    b: Floats
+    s: Floats
+    buffers: Buffers
+
+
+class _Stage(NamedTuple):
+    """Samples of a chunk, whether the record ends with it, and the steps between its columns."""
+
+    samples: int
+    ends: bool
+    steps: int
+
+
+def count_block_long(
+    S_m: Floats,
+    S_b: Floats,
+    q: Samples,
+    size: Floats,
+    same_ratio: Floats,
+    law: DamageLaw,
+    *,
+    uses_bending_ratio: bool,
+    residue: Residue,
+    yield_MPa: float | None,
+    mean_stress: bool,
+    chunk: int = CHUNK,
+) -> BlockCount:
+    """Count the stress S_m @ q + S_b @ q (top) and S_m @ q - S_b @ q (bottom) of a block as `count_block` does.
+
+    Parameters
+    ----------
+    S_m, S_b : (n, m) membrane stress, and bending stress of the top surface [MPa per unit modal coordinate]
+    q : (m, t) modal coordinates
+    size, same_ratio, law, uses_bending_ratio, residue, yield_MPa, mean_stress : as in `count_block`
+    chunk : samples recovered at a time
+
+    Raises
+    ------
+    NumericalError : a stress is not finite; CaseError : ``mean_stress`` without a yield stress
+    """
+    rules = rules_of(law, uses_bending_ratio, residue, yield_MPa, mean_stress)
+    totals, histogram = nothing_counted(len(S_m), law)
+    for first in range(0, len(S_m), POINTS):
+        piece = slice(first, first + POINTS)
+        block = _Block(plain(size)[piece], plain(same_ratio)[piece], totals[piece], histogram[piece])
+        _count(plain(S_m)[piece], plain(S_b)[piece], q, block, rules, chunk)
+    return block_count(totals, histogram, rules)
+
+
+def _count(S_m: Floats, S_b: Floats, q: Samples, block: _Block, rules: Rules, chunk: int) -> None:
+    """Count some points, chunk by chunk."""
+    shapes = np.concatenate([S_m, S_b])
+    points, t = len(S_m), q.shape[1]
+    edges = np.linspace(0, t, -(-t // chunk) + 1).astype(int).tolist()
+    width = max((end - first for first, end in pairwise(edges)), default=0)
+    stress = np.zeros((2 * points, width + 2))  # between the last sample before and, at the end, the first of all
+    state = _fresh_state(points)
+    room = _room_for(width + 1, WAITING)
+    for first, end in pairwise(edges):
+        samples, ends = end - first, end == t
+        recovered = stress[:, 1 : samples + 1]
+        np.matmul(shapes, q[:, first:end].astype(np.float64, copy=False), out=recovered)
+        refuse_not_finite(recovered[:points], recovered[points:])
+        if first == 0:
+            stress[:, 0] = stress[:, 1]
+            state.first[:] = stress[:, 1].reshape(2, points).T
+        if ends and rules.recurs:
+            stress[:, samples + 1] = state.first.T.ravel()
+        stage = _Stage(samples, ends, samples + int(ends and rules.recurs))
+        at = count_chunk(stress, stage, 0, state, block, rules, room)
+        while at < 2 * points:  # more reversals wait than there is room for
+            left, room_before = int(state.waiting.ravel()[at]), room
+            state = _grown(state, 2 * left)
+            room = _room_for(width + 1, 2 * left)
+            for rows, kept in ((state.m, room_before.m), (state.b, room_before.b)):
+                rows.reshape(2 * points, -1)[at, :left] = kept[:left]
+            at = count_chunk(stress, stage, at + 1, state, block, rules, room)
+        stress[:, 0] = stress[:, samples]
+    moments = state.moments
+    _, mean, second, _, fourth = np.moveaxis(moments, 2, 0)
+    flat = second * second == 0.0
+    block.totals["mean"] = mean if t else math.nan
+    block.totals["kurtosis"] = np.where(flat, math.nan, fourth * t / np.where(flat, 1.0, second * second))
+    block.totals["r_largest"][block.totals["max_range"] == 0.0] = math.nan
+
+
+def _fresh_state(points: int) -> _State:
+    """Nothing counted yet."""
+    one, pair, rows = (points, 2), (points, 2, 2), (points, 2, WAITING)
+    steps = (np.zeros(one, np.int64) for _ in range(3))
+    first_step, step, waiting = steps
+    return _State(
+        np.zeros(one), first_step, step, np.zeros(pair), waiting, np.zeros(rows), np.zeros(rows), np.zeros((*one, 5))
+    )
+
+
+def _grown(state: _State, room: int) -> _State:
+    """Make room for more reversals that wait."""
+    more = ((0, 0), (0, 0), (0, room - state.m.shape[2]))
+    return state._replace(m=np.pad(state.m, more), b=np.pad(state.b, more))
+
+
+def _room_for(steps: int, waiting: int) -> _Room:
+    """Work space for the reversals of so many steps behind those that wait: once, and once more to turn them."""
+    reversals = steps + waiting + 2
+    m, b, s = (np.empty(2 * reversals + 1) for _ in range(3))
+    return _Room(np.empty(steps + 1), m, b, s, buffers_for(reversals))
+
+
+@compiled()
+def add_moments(s: Floats, moments: Floats) -> None:
+    """Join the moments of some more samples to those so far (Pebay, 2008, Sandia SAND2008-6212)."""
+    n_b = float(s.size)
+    offset = 0.0
+    for i in range(s.size):
+        offset += s[i] - s[0]
+    mean_b = s[0] + offset / n_b
+    second_b, third_b, fourth_b = 0.0, 0.0, 0.0
+    for i in range(s.size):
+        d = s[i] - mean_b
+        second_b += d * d
+        third_b += d * d * d
+        fourth_b += d * d * d * d
+    n_a, mean_a, second_a, third_a, fourth_a = moments
+    n = n_a + n_b
+    d = mean_b - mean_a if n_a > 0.0 else 0.0
+    moments[0] = n
+    moments[1] = mean_a + d * n_b / n if n_a > 0.0 else mean_b
+    moments[2] = second_a + second_b + d**2 * n_a * n_b / n
+    moments[3] = (
+        third_a + third_b + d**3 * n_a * n_b * (n_a - n_b) / n**2 + 3.0 * d * (n_a * second_b - n_b * second_a) / n
+    )
+    moments[4] = (
+        fourth_a
+        + fourth_b
+        + d**4 * n_a * n_b * (n_a**2 - n_a * n_b + n_b**2) / n**3
+        + 6.0 * d**2 * (n_a**2 * second_b + n_b**2 * second_a) / n**2
+        + 4.0 * d * (n_a * third_b - n_b * third_a) / n
+    )
+
+
+@compiled()
+def append(m: float, b: float, side: float, n: int, room: _Room) -> int:
+    """Append a reversal and return how many there are."""
+    room.m[n], room.b[n], room.s[n] = m, b, m + side * b
+    return n + 1
+
+
+@compiled()
+def append_reversals(m: Floats, b: Floats, side: float, steps: int, step: int, n: int, room: _Room) -> tuple[int, int]:
+    """Append the reversals among the first columns of a row, the last samples of their plateaus.
+
+    ``step`` is the direction before. Returns how many reversals there are, and the direction behind them.
+    """
+    s, signs, at = room.stress, room.buffers.step, room.buffers.reversal
+    for i in range(steps):
+        signs[i] = int(s[i + 1] > s[i]) - int(s[i + 1] < s[i])
+    reversals = 0
+    for i in range(steps):
+        at[reversals] = i
+        reversals += int(signs[i] * step < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
+        step = signs[i] if signs[i] != 0 else step
+    for k in range(reversals):
+        n = append(m[at[k]], b[at[k]], side, n, room)
+    return n, step
+
+
+@compiled()
+def close_open(s: Floats, waiting: int, reversals: int, recurs: bool, buffers: Buffers) -> tuple[int, int]:
+    """Close what closes whatever is still to come: the first ``waiting`` of the reversals are open ones.
+
+    A single pass follows `rainflow.close_cycles`: a range that contains the starting point is a half cycle. In a block
+    that recurs such a range waits, as does one that is not smaller than the range before it. Returns how many cycles
+    there are, and how many reversals are left, by their places in ``buffers.reversal``.
+    """
+    reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
+    cycles = 0
+    base = 0
+    top = waiting - 1
+    for k in range(reversals):
+        reversal[k] = k
+    for k in range(waiting, reversals):
+        top += 1
+        reversal[top] = k
+        while top - base >= 2:
+            X = abs(s[reversal[top]] - s[reversal[top - 1]])
+            Y = abs(s[reversal[top - 1]] - s[reversal[top - 2]])
+            if X < Y or (recurs and (top == 2 or abs(s[reversal[top - 2]] - s[reversal[top - 3]]) <= Y)):
+                break
+            start[cycles], end[cycles] = reversal[top - 2], reversal[top - 1]
+            if top - base == 2:
+                weight[cycles] = 0.5
+                base += 1
+            else:
+                weight[cycles] = 1.0
+                reversal[top - 2] = reversal[top]
+                top -= 2
+            cycles += 1
+    for k in range(base, top + 1):
+        reversal[k - base] = reversal[k]
+    return cycles, top + 1 - base
+
+
+@compiled()
+def turn_to_largest(n: int, room: _Room) -> None:
+    """Begin the cyclic list of reversals at its first largest one, and end it there too."""
+    first = 0
+    for i in range(1, n):
+        first = i if room.s[i] > room.s[first] else first
+    for values in (room.m, room.b, room.s):
+        for i in range(n + 1):
+            values[n + i] = values[(first + i) % n]
+        for i in range(n + 1):
+            values[i] = values[n + i]
+
+
+@compiled()
+def close_all(n: int, recurs: bool, room: _Room) -> int:
+    """Close all cycles of the reversals at the end of the record and return how many there are."""
+    if recurs and n > 0:
+        turn_to_largest(n, room)
+        n += 1
+    for k in range(n):
+        room.buffers.reversal[k] = k
+    return close_cycles(room.s, n, recurs, room.buffers)
+
+
+@compiled()
+def gather_reversals(
+    m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, recurs: bool, state: _State, room: _Room
+) -> int:
+    """Put the reversals of a chunk behind those that wait and return how many there are, 0 before the first step."""
+    row, side, s = at[0], 1.0 - 2.0 * at[1], room.stress
+    n = 0
+    for i in range(state.waiting[at]):
+        n = append(state.m[at][i], state.b[at][i], side, n, room)
+    step = state.step[at]
+    if step == 0:
+        i = 0
+        while step == 0 and i < stage.steps:
+            step = int(s[i + 1] > s[i]) - int(s[i + 1] < s[i])
+            i += 1
+        if step == 0:
+            return 0
+        state.first_step[at] = step
+        state.plateau[at][0], state.plateau[at][1] = m[i - 1], b[i - 1]
+        if not recurs:  # a single pass turns at its first sample
+            n = append(state.first[row, 0], state.first[row, 1], side, n, room)
+    n, step = append_reversals(m, b, side, stage.steps, step, n, room)
+    state.step[at] = step
+    if stage.ends and not recurs:
+        n = append(m[stage.samples], b[stage.samples], side, n, room)
+    elif stage.ends and step != state.first_step[at]:  # a block that recurs turns where its first plateau ends
+        n = append(state.plateau[at][0], state.plateau[at][1], side, n, room)
+    return n
+
+
+@compiled()
+def count_chunk(
+    stress: Floats, stage: _Stage, first: int, state: _State, block: _Block, rules: Rules, room: _Room
+) -> int:
+    """Count the steps between the first columns of a block, its membrane rows above its bending rows.
+
+    Begins with one surface of one point, ``first = 2 * row + surface``, and stops where there is no room for the
+    reversals that wait, with these at the front of ``room``. Returns where it stopped.
+    """
+    points = stress.shape[0] // 2
+    for number in range(first, 2 * points):
+        row, surface = number // 2, number % 2
+        m, b, side = stress[row], stress[points + row], 1.0 - 2.0 * surface
+        for i in range(stage.steps + 1):
+            room.stress[i] = m[i] + side * b[i]
+        add_moments(room.stress[1 : stage.samples + 1], state.moments[row, surface])
+
+        n = gather_reversals(m, b, (row, surface), stage, rules.recurs, state, room)
+        if stage.ends:
+            cycles, left = close_all(n, rules.recurs, room), 0
+        else:
+            cycles, left = close_open(room.s, state.waiting[row, surface], n, rules.recurs, room.buffers)
+        point = Point(room.m, room.b, side, block.size[row], block.same_ratio[row, surface])
+        tally(point, block.totals[row, surface], block.histogram[row, surface], rules, room.buffers, cycles)
+
+        state.waiting[row, surface] = left
+        for k in range(left):
+            room.m[k], room.b[k] = room.m[room.buffers.reversal[k]], room.b[room.buffers.reversal[k]]
+        if left > state.m.shape[2]:
+            return number
+        for k in range(left):
+            state.m[row, surface, k], state.b[row, surface, k] = room.m[k], room.b[k]
+    return int(2 * points)

@@ -1,0 +1,1 @@
+"""Records of modal coordinates: in memory, or on disk."""

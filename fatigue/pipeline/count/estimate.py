@@ -1,0 +1,95 @@
+"""What the second-order statistics of an event say of every station, before any cycle is counted."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.bounds.forms import face_forms
+from fatigue.life.damage import ratio_factor
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.modal_stress import Shapes
+from fatigue.quotient import quotient
+from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
+from fatigue.spectrum.moments import quadratic_forms
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Estimate:
+    """One pass of one event at a block of stations in the frequency domain; arrays are (n, 2), top and bottom face.
+
+    ``bending_ratio`` is ``std(sigma_b) / (std(sigma_m) + std(sigma_b))``, NaN where nothing varies; ``mean`` [MPa] the
+    time mean of the stress; ``moments`` (4, n, 2) are the spectral moments of orders 0, 1, 2, 4 [MPa^2 Hz^p];
+    ``dirlik`` and ``tb`` damages of one pass. What needs a spectrum is NaN without one.
+    """
+
+    bending_ratio: NDArray[np.float64]
+    mean: NDArray[np.float64]
+    moments: NDArray[np.float64]
+    dirlik: NDArray[np.float64]
+    tb: NDArray[np.float64]
+    irregularity: NDArray[np.float64]
+    peaks_per_s: NDArray[np.float64]
+    samples_per_peak: NDArray[np.float64]
+
+    @property
+    def one_ratio(self) -> NDArray[np.float64]:
+        """The bending ratio for formulas: 0 where nothing varies, so that there is nothing to count either."""
+        return np.nan_to_num(self.bending_ratio)
+
+    def at(self, rows: NDArray[np.intp]) -> Self:
+        """Take some stations."""
+        return type(self)(
+            bending_ratio=self.bending_ratio[rows],
+            mean=self.mean[rows],
+            moments=self.moments[:, rows],
+            dirlik=self.dirlik[rows],
+            tb=self.tb[rows],
+            irregularity=self.irregularity[rows],
+            peaks_per_s=self.peaks_per_s[rows],
+            samples_per_peak=self.samples_per_peak[rows],
+        )
+
+
+def mean_stress(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
+    """Time mean of the stress at both faces of every station, (n, 2) [MPa]."""
+    mean_m, mean_b = (load.stress_factor * (S @ load.mean) for S in (shapes.membrane, shapes.bending))
+    return np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
+
+
+def member_variances(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
+    """Variances of membrane and of bending stress over the kept samples, (n, 2), stress factor left out [MPa^2]."""
+    C = load.covariance[None]
+    return np.stack([np.maximum(quadratic_forms(S, C)[0], 0.0) for S in (shapes.membrane, shapes.bending)], axis=1)
+
+
+def estimate_event(shapes: Shapes, load: EventLoad, variances: NDArray[np.float64]) -> Estimate:
+    """Estimate the damage of one pass of an event at every station of a block from its spectrum.
+
+    ``variances`` (n, 2) are the `member_variances`.
+    Both the estimates and the rainflow damage they are compared with use one bending ratio per station.
+    """
+    S_m, S_b, f = shapes.membrane, shapes.bending, load.stress_factor
+    std_m, std_b = f * np.sqrt(variances.T)
+    bending_ratio = np.repeat(quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
+    mean = mean_stress(shapes, load)
+    if load.moments is None:
+        nothing = np.full(mean.shape, np.nan)
+        return Estimate(bending_ratio, mean, np.full((4, *mean.shape), np.nan), *(nothing,) * 5)
+
+    moments = f**2 * np.concatenate([face_forms(S_m, S_b, pair) for pair in load.moment_pairs])
+    I_s = ratio_factor(np.nan_to_num(bending_ratio)) if shapes.uses_bending_ratio else 1.0
+    equivalent = (moments * (shapes.size[:, None] / I_s) ** 2).reshape(4, -1)
+    m0, _, m2, m4 = moments
+    peaks_per_s = np.sqrt(quotient(m4, m2))
+    return Estimate(
+        bending_ratio=bending_ratio,
+        mean=mean,
+        moments=moments,
+        dirlik=load.duration * dirlik_damage_rate(equivalent, shapes.law).reshape(mean.shape),
+        tb=load.duration * tovo_benasciutti_damage_rate(equivalent, shapes.law).reshape(mean.shape),
+        irregularity=quotient(m2, np.sqrt(m0 * m4)),
+        peaks_per_s=peaks_per_s,
+        samples_per_peak=quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s),
+    )

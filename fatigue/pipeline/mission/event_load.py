@@ -1,0 +1,109 @@
+"""What an event brings to every station: its record ready to be counted, and its second-order statistics."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.bounds.forms import FormPair, form_pair
+from fatigue.life.counting.single.count import Record, record_of
+from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
+from fatigue.life.records.spool import Samples, Spool, create_spool
+from fatigue.spectrum.moments import MomentMatrices, Spectra
+from fatigue.spectrum.trust import DiagnosisMatrices, diagnosis_matrices
+
+HELD_SINGLE = 256e6  # bytes of one record
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EventLoad:
+    """What an event brings to every station: the record to be counted and its second-order statistics.
+
+    Attributes
+    ----------
+    counted : the kept record, upsampled as asked, on which cycles are counted
+    single : the same prepared for the kernel in single precision; None: count in double precision
+    residue : how the rest of the count is closed
+    stress_factor : partial or allowance factor on all stresses of the event
+    duration : duration of one pass [s]
+    mean : (m,) time mean of q over the kept samples
+    covariance : (m, m) covariance of q over the kept samples
+    moments, diagnosis : moment matrices of q and what the diagnosis needs, None for a record shorter than one segment
+    is_upsampled : whether mean and covariance are of other samples than those that are counted
+    moment_pairs : those of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
+    top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
+    """
+
+    counted: ModalHistory
+    single: Record | None
+    residue: Residue
+    stress_factor: float
+    duration: float
+    mean: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    is_upsampled: bool
+    moments: MomentMatrices | None
+    moment_pairs: tuple[FormPair, ...]
+    diagnosis: DiagnosisMatrices | None
+    top_mode_hz: float | None
+
+    @property
+    def known(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        """Mean and covariance of the samples that are counted; None where those known are of other samples."""
+        return None if self.is_upsampled else (self.mean, self.covariance)
+
+
+def prepare_event(
+    history: ModalHistory,
+    residue: Residue,
+    stress_factor: float,
+    upsample: int,
+    spectra: Spectra | None,
+    top_mode_hz: float | None,
+    *,
+    single: bool = False,
+    scratch: Path | None = None,
+) -> EventLoad:
+    """Compute once per event what all stations share, from its kept record.
+
+    ``single``: for the fast kernel; ``scratch``: folder for whatever is as large as the record, None: in memory.
+    """
+    diagnosis = None if spectra is None else diagnosis_matrices(history, spectra)
+    if diagnosis is None:
+        moments, (mean, covariance) = None, mean_and_covariance(history.q)
+    else:
+        moments, mean, covariance = diagnosis.moments, diagnosis.record.mean, diagnosis.record.covariance
+    counted = upsampled(history, upsample, residue, scratch and scratch / "upsampled")
+    return EventLoad(
+        counted=counted,
+        single=fast_record(counted.q, scratch, (mean, covariance) if counted is history else None) if single else None,
+        residue=residue,
+        stress_factor=stress_factor,
+        duration=history.duration,
+        mean=mean,
+        covariance=covariance,
+        is_upsampled=counted is not history,
+        moments=moments,
+        moment_pairs=() if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])),
+        diagnosis=diagnosis,
+        top_mode_hz=top_mode_hz,
+    )
+
+
+def fast_record(
+    q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
+) -> Record:
+    """Prepare modal coordinates for the kernel in single precision.
+
+    Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
+    goes to the folder ``scratch``. ``known`` are their mean and covariance, None: to be computed.
+
+    Raises
+    ------
+    NumericalError : a sample is not finite; DataError : the disk is full
+    """
+    if not isinstance(q, Spool) or scratch is None or 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
+        return record_of(q, known=known)
+    path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
+    return record_of(q, create_spool(path, q.shape, np.dtype(np.float32)), known)

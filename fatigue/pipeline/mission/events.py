@@ -1,0 +1,268 @@
+"""The events of a mission: their records read, cut and checked, and what each brings to every station."""
+
+import logging
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.case import Case, Event, check_distance, event_length_km
+from fatigue.errors import CaseError, DataError, FatigueError, NumericalError, Problem, refuse
+from fatigue.life.mission import Pass, Plan
+from fatigue.life.records.history import ModalHistory, first_kept, kept
+from fatigue.pipeline.mission.event_load import EventLoad, prepare_event
+from fatigue.pipeline.mission.record_units import step_problems, step_warnings
+from fatigue.pipeline.side_by_side import in_order
+from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.model import solve_group
+from fatigue.pipeline.solve.weld_groups import WeldGroups
+from fatigue.readers.neutral.history import TimeGrid, check_history, read_history
+from fatigue.spectrum.moments import (
+    Spectra,
+    has_spectrum,
+    moment_matrices,
+    point_moments,
+    segment_count,
+    segment_spectra,
+)
+
+log = logging.getLogger(__name__)
+
+FEW_SEGMENTS = 8  # below, the spectrum is an estimate from too little
+SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
+LARGEST_UPSAMPLE = 64
+DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (1e-7 of damage)
+RECORD = "record"  # file of the samples as they were read
+HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
+
+
+def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
+    """Read and check every record of the mission; return its passes per km and the doubts about the records.
+
+    The records are read on some threads, by default one per processor core, and a column of each is in memory.
+    """
+    mission = body.case.mission
+    warnings: list[Problem] = []
+    problems: list[Problem] = []
+    passes: list[Pass] = []
+    for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
+        if isinstance(checked, FatigueError):
+            problems += checked.problems
+        else:
+            passes.append(checked[0])
+            warnings += checked[1]
+    refuse(DataError, problems)
+    return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
+
+
+def event_loads(
+    groups: WeldGroups, plan: Plan, scratch: Path | None = None, threads: int | None = None
+) -> tuple[EventLoad, ...]:
+    """Read the records of all events and compute what all stations share; they are kept while welds stream by.
+
+    ``scratch`` is a folder for the longest records where all of them are more than ``HELD_BYTES``; None: all are held
+    in memory, whatever their size. ``threads`` prepare an event each, by default one per processor core; the numbers do
+    not depend on how many there are.
+    """
+    body, events = groups.body, groups.body.case.mission.event
+    sizes = np.array([len(body.modes.mode) * p.samples for p in plan.passes])
+    factor = body.case.counting.upsample
+    folders = _folders(4 * sizes, scratch)
+    factors = _automatic_factors(groups, folders) if factor == "auto" else [factor] * len(events)
+    stations = int(body.lines.begin[-1])
+    samples = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
+    single = 2 * stations * samples > DOUBLE_PRECISION_SAMPLES
+    log.info("cycles are counted in %s precision", "single" if single else "double")
+    for event, upsample in zip(events, factors, strict=True):
+        if upsample > 1:
+            log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
+    bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
+
+    def prepared(job: tuple[Event, int, Path | None]) -> EventLoad:
+        event, upsample, folder = job
+        return event_load(body, event, upsample, single=single, scratch=folder)
+
+    jobs = zip(events, factors, _folders(bytes_held, scratch), strict=True)
+    return tuple(in_order(prepared, jobs, threads))
+
+
+def event_load(
+    body: Body, event: Event, upsample: int, *, single: bool = False, scratch: Path | None = None
+) -> EventLoad:
+    """Read the record of one event and compute what all stations share; ``scratch``: folder to keep the record in."""
+    load = load_of(body, event, _record(body, event, scratch), upsample, single=single, scratch=scratch)
+    if upsample > 1 and scratch is not None:
+        (scratch / RECORD).unlink()
+    return load
+
+
+def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> ModalHistory:
+    """Read the record of an event and keep the first samples behind its start-up only."""
+    history = _record(body, event, scratch)
+    shortened = replace(history, q=np.ascontiguousarray(history.q[:, 0:samples]))
+    (scratch / RECORD).unlink(missing_ok=True)
+    return shortened
+
+
+def load_of(
+    body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool, scratch: Path | None = None
+) -> EventLoad:
+    """Compute what all stations share of a record; ``scratch``: folder for what is computed of each sample."""
+    try:
+        with np.errstate(over="raise"):
+            spectra = event_spectra(body, history)
+            return prepare_event(
+                history,
+                body.case.residue(event),
+                event.stress_factor,
+                upsample,
+                spectra,
+                top_mode_hz(body),
+                single=single,
+                scratch=scratch,
+            )
+    except FloatingPointError:
+        problem = Problem(
+            "overflow",
+            event.history,
+            f"modal coordinates of event '{event.name}' are so large that their squares exceed double precision",
+            "Look for a value that is far too large",
+        )
+        raise NumericalError(problem) from None
+
+
+def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
+    """Segment spectra of a record; None where it is shorter than one segment."""
+    segment_s = body.case.spectrum.segment_s
+    if not has_spectrum(history, segment_s):
+        return None
+    return segment_spectra(history, segment_s, upper_hz(body, history))
+
+
+def top_mode_hz(body: Body) -> float | None:
+    """Highest frequency of a normal mode [Hz]; None where there is none above 0."""
+    frequencies = zip(body.modes.frequency, body.modes.kind, strict=True)
+    return max((float(f) for f, kind in frequencies if kind == "normal" and f > 0.0), default=None)
+
+
+def upper_hz(body: Body, history: ModalHistory) -> float:
+    """Upper frequency of the spectra [Hz]: as given, else the lower of 0.4 f_s and 1.5 x the highest normal mode."""
+    if body.case.spectrum.upper_hz is not None:
+        return body.case.spectrum.upper_hz
+    top = top_mode_hz(body)
+    return 0.4 / history.step if top is None else min(0.4 / history.step, 1.5 * top)
+
+
+def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
+    """Read the record of an event and cut its start-up."""
+    case = body.case
+    whole, _ = read_history(
+        case.resolve(event.history),
+        event.name,
+        body.modes.mode,
+        case.body.ignore_modes,
+        strict=body.strict,
+        scratch=scratch and scratch / RECORD,
+    )
+    return kept(whole, event.start_s)
+
+
+def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
+    """Read and check the record of an event: its passes and the doubts about it, or what is wrong with it."""
+    case = body.case
+    path = case.resolve(event.history)
+    try:
+        grid, doubts = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
+        refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
+        samples = _kept_samples(case, event, grid)
+    except FatigueError as error:
+        return error
+    one = Pass(
+        event=event.name,
+        samples=samples,
+        length=event_length_km(event, samples * grid.step),
+        share=event.share,
+        per_1000_km=event.per_1000_km,
+    )
+    doubts += step_warnings(grid, body.modes, path.name, event.name)
+    return one, doubts + _record_warnings(body, event, samples, grid.step)
+
+
+def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
+    """Count the samples behind the start-up of a record, and check its length."""
+    where = f"{case.path.name}: mission.event '{event.name}'"
+    samples = max(0, grid.samples - first_kept(grid.step, event.start_s))
+    if samples < 2:
+        raise CaseError(
+            Problem(
+                "short_record",
+                f"{where}: start_s",
+                f"start_s = {event.start_s:g} leaves {samples} samples of {case.resolve(event.history).name}, which "
+                f"lasts {grid.samples * grid.step:g} s",
+                "Cut less, or record longer",
+            )
+        )
+    check_distance(event, samples * grid.step, where)
+    return samples
+
+
+def _record_warnings(body: Body, event: Event, samples: int, step: float) -> list[Problem]:
+    where = f"event '{event.name}'"
+    segment_s = body.case.spectrum.segment_s
+    segments = segment_count(samples, step, segment_s)
+    if segments == 0:
+        return [
+            Problem(
+                "no_spectrum",
+                where,
+                f"the record of {samples * step:g} s has no spectral segment of {segment_s:g} s (at least four "
+                "samples), so there is no frequency-domain estimate",
+                "Record longer or shorten segment_s if you need one",
+            )
+        ]
+    if segments < FEW_SEGMENTS:
+        return [
+            Problem(
+                "few_segments",
+                where,
+                f"the spectrum is an average of {segments} segments of {segment_s:g} s",
+                f"Record longer, or shorten segment_s to get {FEW_SEGMENTS} segments or more",
+            )
+        ]
+    return []
+
+
+def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | None]:
+    """Folder of each record that does not fit in memory after all shorter ones; None for those that do."""
+    order = np.argsort(sizes, kind="stable")
+    held = np.empty(len(sizes), dtype=np.bool_)
+    held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
+    return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
+
+
+def _automatic_factors(groups: WeldGroups, folders: Sequence[Path | None]) -> list[int]:
+    """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak.
+
+    ``folders`` are those for the records of the events, None: in memory. One record is open at a time.
+    """
+    body = groups.body
+    steps, moments = [], []
+    for event, folder in zip(body.case.mission.event, folders, strict=True):
+        history = _record(body, event, folder)
+        spectra = event_spectra(body, history)
+        steps.append(history.step)
+        moments.append(None if spectra is None else moment_matrices(spectra))
+    peaks_per_s = np.zeros(len(steps))
+    for number in range(len(groups)):
+        stress = solve_group(groups, number).stations.treated
+        faces = np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending])
+        for i, matrices in enumerate(moments):
+            if matrices is not None:
+                _, _, m2, m4 = point_moments(faces, matrices)
+                fastest = np.max(np.divide(m4, m2, out=np.zeros_like(m4), where=m2 > 0.0))
+                peaks_per_s[i] = max(peaks_per_s[i], np.sqrt(fastest))
+    wanted = SAMPLES_PER_PEAK * peaks_per_s * np.array(steps)
+    return [min(LARGEST_UPSAMPLE, 2 ** max(0, math.ceil(math.log2(w)))) if w > 0.0 else 1 for w in wanted]

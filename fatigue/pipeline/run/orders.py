@@ -1,0 +1,70 @@
+"""Groups of welds assessed by other processes: the names of files travel there, arrays of results come back."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import Lock
+from typing import Any
+
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from fatigue.case import load_case
+from fatigue.errors import DataError, Problem
+from fatigue.pipeline.count.group import arrays_of
+from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.run.work import Counted, Work, inputs_of, key_of, open_work
+from fatigue.pipeline.solve.body import read_body
+from fatigue.pipeline.solve.weld_groups import weld_groups
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """One group of welds to be assessed in a process that sees the same files.
+
+    ``key`` is that of the job, so that a worker with other inputs or another version of the program is found out.
+    """
+
+    case: str
+    strict: bool
+    counted: Counted
+    key: str
+    group: int
+
+
+def fulfil(order: Order) -> dict[str, NDArray[Any]]:
+    """Assess the group of an order; the files are read once per process.
+
+    Raises
+    ------
+    DataError : this process sees other inputs, or is another version of the program
+    """
+    with _OPENING:  # the first thread reads, the others wait for it
+        work, _ = _opened(order.case, order.strict, order.counted, order.key)
+    _, result = work.group(order.group)
+    return arrays_of(result)
+
+
+_OPENING = Lock()
+
+
+@lru_cache(maxsize=1)
+def _opened(path: str, strict: bool, counted: Counted, key: str) -> tuple[Work, TemporaryDirectory[str]]:
+    """Open the work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
+    threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
+    case = load_case(Path(path))
+    if key_of(inputs_of(case), counted) != key:
+        raise DataError(
+            Problem(
+                "other_inputs",
+                path,
+                "a worker sees other input files or other versions of packages than the process that gave the order",
+                "Give all workers the same files under the same path and the same installation",
+            )
+        )
+    body = read_body(case, strict=strict)
+    plan, _ = mission_plan(body, threads=1)
+    folder = TemporaryDirectory(prefix="fatigue-")
+    scratch = Path(folder.name)
+    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch, threads=1), folder

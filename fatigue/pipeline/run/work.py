@@ -1,0 +1,102 @@
+"""The job of an assessment, opened: any group of welds can be assessed from it, in any order, by any thread."""
+
+import logging
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from fatigue.case import Case
+from fatigue.life.bounds.screening import modal_extent
+from fatigue.life.mission import Plan
+from fatigue.pipeline.count.group import GroupResult, assess_group
+from fatigue.pipeline.count.settle import Screening
+from fatigue.pipeline.mission.event_load import EventLoad, fast_record
+from fatigue.pipeline.mission.events import event_loads
+from fatigue.pipeline.run.checkpoint import state_key
+from fatigue.pipeline.side_by_side import in_order
+from fatigue.pipeline.solve.body import conversion_file, register_file
+from fatigue.pipeline.solve.model import Model, solve_group
+from fatigue.pipeline.solve.weld_groups import GROUPS, LARGEST_GROUP, PORTION, SMALLEST_GROUP, WeldGroups
+from fatigue.results import input_register, software_versions
+
+log = logging.getLogger(__name__)
+
+SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten times as long as it must
+
+
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """Which points are to be counted.
+
+    ``share`` of the damage limit below which a proven bound is enough; 0: count every point; None: `SHARE` for a job
+    large enough for the kernel in single precision, else 0. ``proves_worst``: see `settle.Screening`.
+    """
+
+    share: float | None = None
+    proves_worst: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Work:
+    """What every group of welds needs to be assessed; threads may share it.
+
+    ``screening`` is None where every point is to be counted; ``kept_from`` is the utilisation from which the cycles of
+    a weld's worst point are kept: those of all welds of a train would fill the disk.
+    """
+
+    groups: WeldGroups
+    loads: tuple[EventLoad, ...]
+    plan: Plan
+    screening: Screening | None
+    kept_from: float
+
+    def group(self, number: int) -> tuple[Model, GroupResult]:
+        """Solve one group of welds and assess it."""
+        model = solve_group(self.groups, number)
+        return model, assess_group(model, self.loads, self.plan, self.screening)
+
+
+def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, threads: int | None) -> Work:
+    """Read the records of all events and prepare the screening, on some threads, by default one per processor core.
+
+    ``scratch`` is a folder for what memory cannot hold.
+    """
+    loads = event_loads(groups, plan, scratch / "histories", threads)
+    large = SHARE if any(load.single is not None for load in loads) else 0.0
+    share = large if counted.share is None else counted.share
+    log.info("points proven to stay below %g of the damage limit are not counted", share)
+    screening = None if share == 0.0 else screening_of(share, counted.proves_worst, loads, scratch, threads)
+    return Work(groups, loads, plan, screening, kept_from=large)
+
+
+def screening_of(
+    share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path, threads: int | None
+) -> Screening:
+    """Prepare what settles points without counting, on some threads; see `Counted` and `open_work`."""
+    return Screening(
+        share=share,
+        proves_worst=proves_worst,
+        extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue, load.known), loads, threads)),
+        records=tuple(
+            in_order(lambda load: load.single or fast_record(load.counted.q, scratch, load.known), loads, threads)
+        ),
+    )
+
+
+def input_paths(case: Case) -> list[Path]:
+    """List every input file of a case, the case file included."""
+    files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
+    return sorted(files)
+
+
+def inputs_of(case: Case) -> list[dict[str, str]]:
+    """List every input file of a case with its hash."""
+    return input_register(input_paths(case), case.path.parent)
+
+
+def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:
+    """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
+    cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP, PORTION)
+    return state_key(
+        {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(counted)}
+    )

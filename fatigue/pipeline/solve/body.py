@@ -1,0 +1,130 @@
+"""The body of a case as its small files describe it: modes, welds, lines, curves, mesh; forces are read later."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fatigue.case import Case, check_files
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
+from fatigue.readers.convert.folder import RECORD, read_record
+from fatigue.readers.neutral.body import Mesh, Modes, Weld, checked_lines, read_lines, read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.line_file import LineFile, line_file
+from fatigue.readers.neutral.register.conversion import convert_record
+from fatigue.readers.neutral.register.registered import Registered, registered, unregistered
+from fatigue.readers.neutral.register.registered_lines import Joints, registered_lines, unconfirmed_thickness
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, open_register
+from fatigue.readers.neutral.spare_memory import give_back
+from fatigue.weld.line_units import unit_problems, unit_warnings
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """One body under one case.
+
+    ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
+    ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
+    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
+    the balance check and pictures; ``conversion`` is what `fatigue convert` recorded, its audit included; ``warnings``
+    are the doubts about these files.
+    """
+
+    case: Case
+    modes: Modes
+    welds: tuple[Weld, ...]
+    in_tables: tuple[Weld, ...]
+    register: Registered
+    joints: Joints
+    lines: LineFile
+    curves: Mapping[str, RatedCurve]
+    mesh: Mesh | None
+    conversion: Mapping[str, Any] | None
+    strict: bool
+    warnings: tuple[Problem, ...]
+
+    @property
+    def excluded(self) -> tuple[RegisterRow, ...]:
+        """Rows of the register that are not assessed."""
+        return self.register.left_out
+
+    def curve_of(self, weld: Weld) -> str:
+        """Key of the curve of a weld: its own, else that of the case."""
+        return weld.curve or self.case.curve.name
+
+
+def read_body(case: Case, *, strict: bool) -> Body:
+    """Read and check the small files of a case.
+
+    Raises
+    ------
+    CaseError, DataError : with every mistake found in the file at fault
+    """
+    check_files(case)
+    files = case.body
+    known_curves = curves_of_case(case)
+    modes, warnings = read_modes(case.resolve(files.modes), files.ignore_modes, strict=strict)
+    register = register_file(case)
+    in_tables, doubts = read_welds(case.resolve(files.welds), None if register else known_curves, strict=strict)
+    warnings += doubts
+    plan = unregistered(in_tables)
+    if register:
+        conversion = convert_record(conversion_file(case))
+        plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
+    warnings += plan.warnings
+    curves = rated_curves(case, known_curves, plan.welds)
+    welds, lines, joints, doubts = _lines_on_disk(case, in_tables, plan, strict=strict)
+    warnings += doubts
+    give_back()
+    mesh: Mesh | None = None
+    if files.nodes:
+        elements = case.resolve(files.elements) if files.elements else None
+        mesh, doubts = read_mesh(case.resolve(files.nodes), elements, strict=strict)
+        warnings += doubts
+    record = conversion_file(case)
+    return Body(
+        case=case,
+        modes=modes,
+        welds=welds,
+        in_tables=in_tables,
+        register=plan,
+        joints=joints,
+        lines=lines,
+        curves=curves,
+        mesh=mesh,
+        conversion=read_record(record) if record else None,
+        strict=strict,
+        warnings=tuple(warnings),
+    )
+
+
+def _lines_on_disk(
+    case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
+) -> tuple[tuple[Weld, ...], LineFile, Joints, list[Problem]]:
+    """Read and check the lines of all welds to assess; in memory they are together only here."""
+    path = case.resolve(case.body.weld_nodes)
+    lines, doubts = read_lines(path, in_tables, plan.names, strict=strict)
+    welds: tuple[Weld, ...] = plan.welds
+    joints: Joints = {}
+    if plan.file:
+        doubts += unconfirmed_thickness(lines, plan)
+        welds, lines, joints = registered_lines(lines, plan, summed=case.body.nodal_forces is not None)
+    doubts += checked_lines(lines, path.name)
+    refuse(DataError, unit_problems(lines, case.body.weld_nodes))
+    return welds, line_file(lines), joints, doubts + unit_warnings(lines, case.body.weld_nodes)
+
+
+def register_file(case: Case) -> Path | None:
+    """Find the weld register: the one the case names, else that beside the welds; None where there is none."""
+    named = case.body.weld_register
+    return _beside_the_welds(case, REGISTER) if named is None else case.resolve(named)
+
+
+def conversion_file(case: Case) -> Path | None:
+    """Find the record of `fatigue convert` beside the welds, with its audit; None where there is none."""
+    return _beside_the_welds(case, RECORD)
+
+
+def _beside_the_welds(case: Case, name: str) -> Path | None:
+    path = case.resolve(case.body.welds).parent / name
+    return path if path.exists() else None

@@ -1,0 +1,90 @@
+"""The S-N curves a case asks for, at its survival level and with its extension."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from fatigue.case import Case, CustomCurve
+from fatigue.errors import CaseError, Problem, refuse
+from fatigue.life.curves import DamageLaw, SNCurve, catalogue, damage_law, survival_level, user_curve
+from fatigue.readers.neutral.body import Weld
+
+
+@dataclass(frozen=True, slots=True)
+class RatedCurve:
+    """A curve as this assessment uses it."""
+
+    curve: SNCurve
+    survival: str
+    law: DamageLaw
+
+
+def curves_of_case(case: Case) -> dict[str, SNCurve]:
+    """Collect the catalogue and the curves of the case, which may not redefine a key of the catalogue."""
+    shipped = catalogue()
+    refuse(
+        CaseError,
+        (
+            Problem(
+                "duplicate_curve",
+                f"{case.path.name}: curves.{name}",
+                "is a curve of the catalogue",
+                "Choose another name",
+            )
+            for name in case.curves
+            if name in shipped
+        ),
+    )
+    return dict(shipped) | {name: _own_curve(name, given) for name, given in case.curves.items()}
+
+
+def _own_curve(name: str, given: CustomCurve) -> SNCurve:
+    return user_curve(
+        name=name,
+        slopes=given.slopes,
+        knees_cycles=given.knees_cycles,
+        range_at_2e6=given.range_at_2e6_MPa,
+        applies=given.applies,
+        source=given.source,
+        log10_scatter=given.log10_scatter,
+        thickness_reference=given.thickness_reference_mm,
+        thickness_exponent=given.thickness_exponent or 0.0,
+    )
+
+
+def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld]) -> dict[str, RatedCurve]:
+    """Rate every curve a weld asks for; all that is wrong with them is refused at once."""
+    asked = {case.curve.name: f"{case.path.name}: curve.name"}
+    asked |= {weld.curve: f"{case.body.welds}: weld {weld.name}: curve" for weld in welds if weld.curve}
+    rated: dict[str, RatedCurve] = {}
+    problems: list[Problem] = []
+    for name, where in asked.items():
+        if name not in curves:
+            known = ", ".join(sorted(curves))
+            problems.append(
+                Problem(
+                    "unknown_curve",
+                    where,
+                    f"there is no curve '{name}'",
+                    f"Choose one of {known}, or add [curves.{name}]",
+                )
+            )
+            continue
+        curve = curves[name]
+        if case.curve.mean_stress == "asme" and curve.applies != "dS":
+            problems.append(
+                Problem(
+                    "mean_stress",
+                    where,
+                    f"mean_stress = 'asme' belongs to the master curve and does not apply to curve '{name}'",
+                    'Set mean_stress = "none", or use a curve in dS',
+                )
+            )
+            continue
+        try:
+            law = damage_law(curve, case.curve.survival, case.curve.extension, case.curve.knee_cycles)
+        except CaseError as error:
+            problems += [replace(p, where=f"{case.path.name}: {p.where}") for p in error.problems]
+            continue
+        rated[name] = RatedCurve(curve, survival_level(curve, case.curve.survival), law)
+    refuse(CaseError, problems)
+    return rated

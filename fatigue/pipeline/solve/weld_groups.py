@@ -1,0 +1,221 @@
+"""The welds of a body in groups and portions, and the forces of each portion: so memory does not grow with the body."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem
+from fatigue.pipeline.side_by_side import in_order
+from fatigue.pipeline.solve.body import Body
+from fatigue.readers.neutral.body import Mesh, Modes
+from fatigue.readers.neutral.forces.check import NotRegular
+from fatigue.readers.neutral.forces.pieces import ForcePieces
+from fatigue.readers.neutral.forces.tables import (
+    check_nodal_forces,
+    read_element_forces,
+    read_nodal_forces,
+    read_weld_elements,
+)
+from fatigue.readers.neutral.register.registered_lines import registered_sides
+from fatigue.readers.neutral.spare_memory import give_back
+from fatigue.weld.element_forces import BALANCE_RED, ElementForces, balance, side_forces
+from fatigue.weld.line import LineStack, WeldLine, stacked
+from fatigue.weld.line_geometry import split_at_kinks
+
+GROUPS = 16  # that a body is cut into, so that threads have something to share,
+SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
+PORTION = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
+IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SideForces:
+    """Element forces of the assessed sides of all welds, in memory as a whole: some 60 bytes for each row of the file.
+
+    ``elements`` are those of each weld's side; ``warnings`` the doubts about both files.
+    """
+
+    file: str
+    forces: ElementForces
+    elements: Mapping[str, NDArray[np.int64]]
+    warnings: tuple[Problem, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WeldGroups:
+    """The welds of a body in groups that are assessed one at a time, so that memory does not grow with the body.
+
+    ``portions`` of a group, slices of welds like ``groups``, are read and solved one at a time; ``portions_of`` are
+    those of each group. ``forces`` are the nodal forces portion by portion, or the element forces, which do grow with
+    the body.
+    """
+
+    body: Body
+    groups: tuple[slice, ...]
+    portions: tuple[slice, ...]
+    portions_of: tuple[range, ...]
+    forces: ForcePieces | SideForces
+
+    def __len__(self) -> int:
+        """Count the groups."""
+        return len(self.groups)
+
+
+def weld_groups(body: Body, scratch: Path) -> WeldGroups:
+    """Cut the welds into groups by their stations alone, and open their forces; no weld is ever divided.
+
+    ``scratch`` is a folder for a sorted copy of the forces, should they need one.
+
+    Raises
+    ------
+    DataError : a file of forces cannot be read, or element forces are out of balance
+    """
+    last = body.lines.begin[1:] - 1
+    group, place = np.divmod(last, min(LARGEST_GROUP, max(SMALLEST_GROUP, (int(last[-1]) + 1) // GROUPS)))
+    return _open_groups(body, group, place // PORTION, scratch)
+
+
+def one_group(body: Body, scratch: Path) -> WeldGroups:
+    """Open the forces of all welds as one group of one portion, for small bodies; otherwise like ``weld_groups``."""
+    together = np.zeros(len(body.welds))
+    return _open_groups(body, together, together, scratch)
+
+
+def check_forces(groups: WeldGroups, threads: int | None) -> None:
+    """Read the forces of all welds once, so that a mistake in them is refused before anything is counted.
+
+    ``threads``: by default one per processor core.
+
+    Raises
+    ------
+    DataError : the mistakes of the first portion of a group that has any
+    """
+    if not _are_regular(groups, threads):
+        in_order(partial(_check_portion, groups), range(len(groups.portions)), threads)
+    give_back()
+
+
+def forces_of_portion(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
+    """Read the forces of a portion of a group: its line parts, the (n, m, 6) forces, and the doubts about them.
+
+    Raises
+    ------
+    DataError : forces are missing, given twice or not finite
+    """
+    body, files = groups.body, groups.body.case.body
+    lines = body.lines.lines(groups.portions[number])
+    if isinstance(groups.forces, SideForces):
+        parts, summed = _sums_of_sides(groups.forces, lines, body.modes)
+        return parts, summed, list(groups.forces.warnings) if number == 0 else []
+    table = groups.forces.table(number)
+    forces, warnings = read_nodal_forces(
+        table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
+    )
+    of_file = {"unknown_column"} if number else set()  # told with the first portion
+    return lines, forces, [warning for warning in warnings if warning.code not in of_file]
+
+
+def _are_regular(groups: WeldGroups, threads: int | None) -> bool:
+    """Whether one pass over nodal forces in their own order shows that there is nothing wrong with them."""
+    if isinstance(groups.forces, SideForces):
+        return False
+    body = groups.body
+    check = groups.forces.regular_check(body.lines, body.modes, body.case.body.ignore_modes, strict=body.strict)
+    if check is None:
+        return False
+    try:
+        return check.covers(in_order(check.runs, range(len(check.rows)), threads))
+    except NotRegular:
+        return False
+
+
+def _check_portion(groups: WeldGroups, number: int) -> None:
+    """Check the forces of a portion of a group; of element forces only the sums are left to be checked."""
+    body, lines = groups.body, groups.body.lines.lines(groups.portions[number])
+    if isinstance(groups.forces, SideForces):
+        _sums_of_sides(groups.forces, lines, body.modes)
+    else:
+        ignored = body.case.body.ignore_modes
+        check_nodal_forces(groups.forces.table(number), lines, body.modes, ignored, strict=body.strict)
+
+
+def _open_groups(body: Body, group: NDArray[np.number], portion: NDArray[np.number], scratch: Path) -> WeldGroups:
+    """Open the forces of a body whose welds have these numbers of group and portion of the group, ascending."""
+    of_portions = _runs((np.diff(group) != 0) | (np.diff(portion) != 0))
+    of_groups = _runs(np.diff(group) != 0)
+    first = np.searchsorted([run.start for run in of_portions], [*(run.start for run in of_groups), len(body.welds)])
+    portions_of = tuple(range(a, b) for a, b in pairwise(first.tolist()))
+    path = body.case.body.nodal_forces
+    if path is None:
+        return WeldGroups(body, of_groups, of_portions, portions_of, _side_forces(body))
+    names = [body.lines.weld[run] for run in of_portions]
+    in_file = {weld.name: source for weld, (source,) in zip(body.welds, body.register.sources, strict=True)}
+    skipped = {weld.name for weld in body.in_tables} - set(in_file.values())
+    forces = ForcePieces(body.case.resolve(path), names, scratch, in_file, skipped)
+    return WeldGroups(body, of_groups, of_portions, portions_of, forces)
+
+
+def _runs(changes: NDArray[np.bool_]) -> tuple[slice, ...]:
+    """Cut a sequence where it changes from one element to the next."""
+    return tuple(slice(a, b) for a, b in pairwise([0, *(np.flatnonzero(changes) + 1).tolist(), changes.size + 1]))
+
+
+def _side_forces(body: Body) -> SideForces:
+    """Read the element forces once for all groups and check their balance; only those of assessed sides are kept."""
+    case, files = body.case, body.case.body
+    assert files.element_forces is not None
+    assert files.weld_elements is not None
+    path = case.resolve(files.element_forces)
+    forces, warnings = read_element_forces(
+        path, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
+    )
+    weld_elements, needed = case.resolve(files.weld_elements), body.register.names
+    of_tables, doubts = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
+    sides = registered_sides(of_tables, forces, body.register, body.joints)
+    warnings += doubts + _checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh)
+    return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
+
+
+def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[LineStack, NDArray[np.floating]]:
+    """Split lines at their kinks and sum the element forces of the assessed side per part, (n, m, 6)."""
+    parts: list[WeldLine] = []
+    summed: list[NDArray[np.float64]] = []
+    for line in lines:
+        split = split_at_kinks(line)
+        parts += split
+        where = f"{sides.file}: weld {line.weld}"
+        summed += side_forces(split, sides.elements[line.weld], sides.forces, modes.mode, where)
+    return stacked(parts), np.concatenate(summed)
+
+
+def _of_elastic_modes(forces: ElementForces, modes: Modes) -> ElementForces:
+    """Leave out rigid modes, whose forces are round-off, unless there are no others."""
+    is_rigid = np.array([kind == "rigid" for kind in modes.kind])
+    if not is_rigid.any() or is_rigid.all():
+        return forces
+    return forces.rows(~np.isin(forces.mode, modes.mode[is_rigid]))
+
+
+def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> list[Problem]:
+    """Refuse element forces out of equilibrium; mention those further off than single precision explains."""
+    xyz = None if mesh is None else dict(zip(mesh.node.tolist(), mesh.xyz, strict=True))
+    found = balance(forces, xyz)
+    moment = found.force_residual if found.moment_residual is None else found.moment_residual
+    residual = np.maximum(found.force_residual, moment)
+    worst = int(residual.argmax())
+    if residual[worst] <= IMBALANCE["warning"]:
+        return []
+    problem = Problem(
+        "imbalance",
+        f"{path.name}: element {found.element[worst]}, mode {found.mode[worst]}",
+        f"forces and moments are out of balance by {residual[worst]:.2g} of the largest",
+        "Export static element forces only (no inertia), of all corners, in global axes",
+    )
+    if residual[worst] > IMBALANCE["error"]:
+        raise DataError(problem)
+    return [problem]

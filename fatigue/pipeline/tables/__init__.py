@@ -1,0 +1,1 @@
+"""What is written: rows, the register, cycles, provenance and warnings."""

@@ -1,0 +1,139 @@
+"""Every cycle of the points that govern: the table behind a weld's life, with the instants of each cycle."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.case import Curve
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor, size_factor
+from fatigue.life.records.history import stress_history
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.tables.register import WorstPoint
+from fatigue.pipeline.tables.rows import FACES
+from fatigue.results import TableWriter, coded
+
+POINTS_AT_ONCE = 16  # a record is read once for so many, whatever groups of welds they are from
+_SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeptPoint:
+    """A point whose cycles are kept, without the model it is from.
+
+    ``membrane`` and ``bending`` (m,) are its stress shapes, of the top face [MPa per unit modal coordinate];
+    ``thickness`` [mm] that of its plate.
+    """
+
+    weld: str
+    part: int
+    node: int
+    order: int
+    face: int
+    thickness: float
+    membrane: NDArray[np.float64]
+    bending: NDArray[np.float64]
+    rated: RatedCurve
+
+
+class CycleWriter:
+    """Writes the cycles of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
+
+    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], curve: Curve) -> None:
+        self._table, self._loads, self._curve = table, loads, curve
+        self._waiting: list[KeptPoint] = []
+
+    def add(self, points: Sequence[KeptPoint]) -> None:
+        """Have the cycles of some more points written, sooner or later."""
+        self._waiting += points
+        while len(self._waiting) >= POINTS_AT_ONCE:
+            self._write(self._waiting[:POINTS_AT_ONCE])
+            self._waiting = self._waiting[POINTS_AT_ONCE:]
+
+    def flush(self) -> None:
+        """Write what is waiting."""
+        self._write(self._waiting)
+        self._waiting = []
+
+    def _write(self, points: Sequence[KeptPoint]) -> None:
+        for load in self._loads:
+            for rows in point_cycles(points, load, self._curve):
+                self._table.write(rows)
+
+
+def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
+    """Take what the cycles of a point need from the model of its group of welds."""
+    stations, treated, at, weld = model.stations, model.stations.treated, point.station, model.welds[point.weld]
+    return KeptPoint(
+        weld=weld.name,
+        part=int(stations.part[at]),
+        node=int(stations.node[at]),
+        order=int(stations.order[at]),
+        face=point.face,
+        thickness=float(stations.thickness[at]),
+        membrane=treated.membrane[at].copy(),
+        bending=treated.bending[at].copy(),
+        rated=model.curves[model.body.curve_of(weld)],
+    )
+
+
+def point_cycles(points: Sequence[KeptPoint], load: EventLoad, curve: Curve) -> Iterator[dict[str, Any]]:
+    """Count one event at some points and keep every cycle, with the stress ranges between its own two instants.
+
+    Gives the rows of ``cycles.parquet`` of one point after the other, in their order.
+    """
+    at_once = max(1, _SAMPLES_AT_ONCE // (2 * load.counted.q.shape[1]))
+    for first in range(0, len(points), at_once):
+        some = points[first : first + at_once]
+        shapes = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
+        membrane, bending = np.split(stress_history(shapes, load.counted.q), 2)
+        for i, point in enumerate(some):
+            yield _cycle_rows(point, load, curve, membrane[i], bending[i])
+
+
+def _cycle_rows(
+    point: KeptPoint,
+    load: EventLoad,
+    curve: Curve,
+    membrane: NDArray[np.float64],
+    bending: NDArray[np.float64],
+) -> dict[str, Any]:
+    """Count at one point with these stress histories (t,) [MPa]."""
+    rated = point.rated
+    stress = membrane + bending if point.face == 0 else membrane - bending
+
+    cycles = rainflow(stress, load.residue)
+    dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
+    r = bending_ratio(dm, db)
+    size = size_factor(np.array([point.thickness]), rated.curve, curve.thickness_rule)
+    dS = cycles.range * size / (ratio_factor(r) if rated.curve.applies == "dS" else 1.0)
+    if curve.mean_stress == "asme" and curve.yield_MPa is not None:
+        low = np.minimum(stress[cycles.start], stress[cycles.end])
+        dS = dS / mean_stress_factor(low, low + cycles.range, curve.yield_MPa)
+
+    n = len(cycles.range)
+    step, start = load.counted.step, load.counted.start
+    same = np.zeros(n, dtype=np.int32)
+    return {
+        "weld": coded(same, [point.weld]),
+        "part": np.full(n, point.part),
+        "node": np.full(n, point.node),
+        "order": np.full(n, point.order),
+        "surface": coded(same, [FACES[point.face]]),
+        "event": coded(same, [load.counted.event]),
+        "start_s": start + step * cycles.start,
+        "end_s": start + step * cycles.end,
+        "range_MPa": cycles.range,
+        "mean_MPa": cycles.mean,
+        "count": cycles.count,
+        "membrane_range_MPa": dm,
+        "bending_range_MPa": db,
+        "bending_ratio": r,
+        "equivalent_range_dS": dS,
+        "damage": cycles.count * cycle_damage(dS, rated.law),
+    }

@@ -1,0 +1,120 @@
+"""Where every number of a result comes from: inputs, versions, curves, rules and doubts, as one record."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from fatigue.errors import Problem
+from fatigue.pipeline.run.work import Work
+from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.results import software_versions, way_to_case
+from fatigue.results.folder import OUTPUTS
+
+RESIDUE_RULES = {
+    "repeat": "the record recurs: every cycle closes (ASTM E1049-85 5.4.5, ISO 12110-2)",
+    "half": "a single pass: what does not close counts as half cycles (ASTM E1049-85 5.4.4)",
+}
+
+
+def provenance_record(
+    body: Body,
+    work: Work,
+    stations: Mapping[str, int],
+    folder: Path,
+    inputs: Sequence[dict[str, Any]],
+    warnings: Sequence[Problem],
+) -> dict[str, Any]:
+    """Collect what an assessor needs to trace or repeat a result; the same inputs give the same record.
+
+    ``stations`` are numbers of stations by the tier of screening that settled them. ``case_path`` leads from the result
+    folder to the case file, so that both can be moved together.
+    """
+    case, plan = body.case, work.plan
+    return {
+        "program": "fatigue",
+        "software": software_versions(),
+        "title": case.title,
+        "case_file": case.path.name,
+        "case_path": way_to_case(case.path, folder),
+        "case_text": case.text,
+        "inputs": list(inputs),
+        "modes": {
+            "used": body.modes.mode.tolist(),
+            "ignored": list(case.body.ignore_modes),
+            "frequency_hz": body.modes.frequency.tolist(),
+            "kind": list(body.modes.kind),
+        },
+        "force_convention": case.body.force_convention,
+        "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
+        "rules": {
+            "structural_stress": "Dong: consistent line forces from nodal forces, membrane + bending",
+            "thickness_rule": case.curve.thickness_rule,
+            "survival": {name: rated.survival for name, rated in body.curves.items()},
+            "extension": case.curve.extension,
+            "knee_cycles": case.curve.knee_cycles,
+            "mean_stress": case.curve.mean_stress,
+            "yield_MPa": case.curve.yield_MPa,
+            "bending_ratio": "of each cycle, from its own two instants; one rms ratio per event for the comparison",
+            "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
+            "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
+            "upsample": case.counting.upsample,
+            "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
+            "screening": _screening_record(work, stations),
+            "cycles_kept_from_utilisation": work.kept_from,
+            "spectrum": {
+                "segment_s": case.spectrum.segment_s,
+                "upper_hz": case.spectrum.upper_hz,
+                "window": "periodic Hann, 50 % overlap, constant detrend",
+            },
+        },
+        "mission": {
+            "target_km": plan.target_km,
+            "km_per_year": plan.km_per_year,
+            "damage_limit": plan.damage_limit,
+            "events": [
+                asdict(p)
+                | {"passes_per_km": p.passes_per_km, "stress_factor": event.stress_factor, "start_s": event.start_s}
+                for p, event in zip(plan.passes, case.mission.event, strict=True)
+            ],
+        },
+        "conversion": body.conversion,
+        "warnings": [asdict(problem) for problem in warnings],
+        "outputs": list(OUTPUTS),
+    }
+
+
+def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]:
+    """Say which points a bound has settled, and why that is safe."""
+    if work.screening is None:
+        return {"rule": "none: every point is counted", "share_of_limit": 0.0, "stations": dict(stations)}
+    worst = "" if work.screening.proves_worst else "; not so in welds that are below the share everywhere"
+    return {
+        "rule": "a point is not counted if a proven upper bound of its damage stays below this share of the limit and "
+        f"below the counted damage of the worst point of its weld{worst}; damage without end treatment is not counted "
+        "if such a bound stays below this share",
+        "share_of_limit": work.screening.share,
+        "stations": dict(stations),
+    }
+
+
+def _curve_record(rated: RatedCurve) -> dict[str, Any]:
+    curve = rated.curve
+    return {
+        "applies": curve.applies,
+        "slopes": list(curve.slopes),
+        "knees_cycles": list(curve.knees_cycles),
+        "reference_cycles": curve.reference_cycles,
+        "reference_range": dict(curve.reference_range),
+        "thickness_reference_mm": curve.thickness_reference,
+        "thickness_exponent": curve.thickness_exponent,
+        "source": curve.source,
+        "used": {
+            "survival": rated.survival,
+            "slopes": rated.law.slopes,
+            "log_constants": rated.law.log_constants,
+            "knees": rated.law.knees,
+            "cutoff": rated.law.cutoff,
+        },
+    }

@@ -1,0 +1,74 @@
+"""Which force rows belong to the shells of a mesh, and what a solver's drilling springs leave in them.
+
+A flat shell has no stiffness about its own normal; solvers add a spring there (PARAM,K6ROT). Where the spring ties the
+rotation to the ground instead of to the shell's own plane, as MYSTRAN's does, the shells are out of balance by just
+these moments. Structural stress uses none of them.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.readers.foreign.fe.model import FeModel
+from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.weld.mesh import NONE, normals
+
+_ROUND_OFF = 1e-9
+"""Of the largest force in any mode: rigid modes carry no more."""
+
+_CORNERS = {"HEXA": 8, "PENTA": 6, "PYRAM": 5, "TETRA": 4, "SHEAR": 4}
+"""Corners of elements that are no lines; a set of grids may hold a part of them."""
+
+
+def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
+    """Rows of shells of the mesh that have all their nodes in the file, (r,)."""
+    mesh = model.mesh
+    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
+    at, is_own = own_rows(results, model)
+    rows = np.bincount(at[is_own], minlength=mesh.element.size)
+    return np.asarray(is_own & (rows == (around != NONE).sum(axis=1))[at])
+
+
+def whole_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
+    """Rows of elements that have forces at all their nodes, (r,): shells, and others as far as their kind tells.
+
+    Rigid elements, of any number of nodes, do no work and are left out.
+    """
+    of_element = results.of_element
+    _, element, count = np.unique(results.element[of_element], return_inverse=True, return_counts=True)
+    kinds, kind = np.unique(results.kind[of_element], return_inverse=True)
+    least = np.array([np.inf if k.startswith("RB") else _CORNERS.get(k, 2) for k in kinds.tolist()])
+    others = of_element & ~np.isin(results.element, model.mesh.element)
+    others[of_element] &= count[element.ravel()] >= least[kind.ravel()]
+    return shell_rows(results, model) | others
+
+
+def elastic_modes(results: FeResults) -> NDArray[np.bool_]:
+    """Modes that have more than the round-off of a rigid one, (m,); all of them if none has."""
+    rows = np.flatnonzero(results.of_element)
+    size = np.array([np.abs(force[rows]).max(initial=0.0) for force in results.force])
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    floor = _ROUND_OFF * size[~is_static].max(initial=0.0)
+    found = np.asarray(is_static | (~(results.frequency <= LOWEST_HZ) & (size > floor)))
+    return found if found.any() else np.ones(size.size, bool)
+
+
+def own_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Position in the mesh of each row's element, and whether the row is that of a shell at one of its nodes."""
+    mesh = model.mesh
+    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
+    at = np.minimum(np.searchsorted(mesh.element, results.element), mesh.element.size - 1)
+    node = np.where(around[at] == NONE, 0, mesh.node[around[at]])
+    at_own_node = (node == results.node[:, None]).any(axis=1)
+    return at, np.asarray(results.of_element & (mesh.element[at] == results.element) & at_own_node)
+
+
+def without_drilling(force: NDArray[np.floating], results: FeResults, model: FeModel) -> NDArray[np.floating]:
+    """Take the moments of shells about their own normals out of forces (m, r, 6) in basic axes."""
+    at, is_own = own_rows(results, model)
+    rows = np.flatnonzero(is_own)
+    normal = normals(model.mesh)[at[rows]].astype(force.dtype)
+    changed = force.copy()
+    drilling = np.einsum("mri,ri->mr", force[:, rows, 3:], normal)
+    changed[:, rows, 3:] -= drilling[:, :, None] * normal
+    return changed

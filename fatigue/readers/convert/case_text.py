@@ -1,0 +1,96 @@
+"""The first ``case.toml`` of a converted folder: every line that may be left out is there to be edited."""
+
+import json
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+
+from fatigue.readers.neutral.register.weld_register import REGISTER
+
+_HEAD = """\
+# Written by fatigue convert. Check the lines marked EDIT: the files could not tell them.
+title = {title}
+
+[body]
+modes = "modes.csv"
+welds = "welds.csv"
+weld_nodes = "weld_nodes.csv"
+element_forces = "element_forces.parquet"
+weld_elements = "weld_elements.csv"
+nodes = "nodes.parquet"
+elements = "elements.parquet"
+register = "welds_register.csv"   # EDIT: which lines are assessed, their names, faces, thickness, curves
+force_convention = "{convention}"
+ignore_modes = {ignore}
+
+[curve]
+name = "{curve}"               # EDIT
+survival = "mean-2sigma"
+thickness_rule = "actual"
+extension = "none"
+mean_stress = "none"
+
+[counting]
+residue = "repeat"
+upsample = 1
+
+[mission]
+target_km = {target!r}         # EDIT
+km_per_year = {per_year!r}     # EDIT
+damage_limit = 1.0
+"""
+
+_EVENT = """
+[[mission.event]]
+name = {name}
+history = {history}
+speed_km_h = {speed!r}         # EDIT
+share = {share!r}              # EDIT: share of the mileage; all shares add up to 1
+start_s = 0.0                  # EDIT: cut the start-up
+"""
+
+_NO_EVENT = """
+# No modal coordinates were converted: add an event before you assess.
+# [[mission.event]]
+# name = "straight track"
+# history = "q.parquet"        # time_s and one column q_<mode> for every mode
+# speed_km_h = 100.0
+# share = 1.0
+"""
+
+
+def case_text(
+    title: str,
+    convention: str,
+    ignore_modes: Sequence[int],
+    curve: str,
+    events: Sequence[tuple[str, str]],
+    speed_km_h: float,
+    target_km: float,
+) -> str:
+    """Text of a case with one event for each (name, file), all with the same share and speed."""
+    head = _HEAD.format(
+        title=json.dumps(title),
+        convention=convention,
+        ignore=list(ignore_modes),
+        curve=curve,
+        target=float(target_km),
+        per_year=float(target_km) / 30,
+    )
+    if not events:
+        return head + _NO_EVENT
+    shares = [1.0 / len(events)] * len(events)
+    parts = [
+        _EVENT.format(name=json.dumps(name), history=json.dumps(file), speed=float(speed_km_h), share=share)
+        for (name, file), share in zip(events, shares, strict=True)
+    ]
+    return head + "".join(parts)
+
+
+def register_named(case_file: Path) -> str:
+    """Name the register that a case is assessed by; a case that was kept may name another than a new one does."""
+    try:
+        body = tomllib.loads(case_file.read_text(encoding="utf-8-sig")).get("body", {})
+        return str(body.get("register", REGISTER))
+    except (OSError, ValueError, AttributeError):  # kept, and not to be read: its check will say so
+        return REGISTER

@@ -1,0 +1,131 @@
+"""An elastic displacement of the simulation against mode shapes times modal coordinates: one row of the audit.
+
+One node, one direction and one record prove which coordinate belongs to which mode, the signs of the modes, their scale
+and the units, in one stroke: u(t) = sum_k phi_k q_k(t). Sign flips of modes between FE runs show nowhere else.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import CaseError, DataError, Problem
+from fatigue.readers.convert.audit.audit import AuditRow
+from fatigue.readers.convert.displacement.nodes import with_other_node
+from fatigue.readers.convert.displacement.record import Displacement, DisplacementRecord
+from fatigue.readers.convert.displacement.side_by_side import causes_of, compared
+from fatigue.readers.convert.displacement.verdict import CHECK, judged
+from fatigue.readers.convert.weld_forces import coordinate_units
+from fatigue.readers.foreign.fe.model import FeModel, to_basic
+from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.units.systems import Normalisation, UnitSystem
+
+Floats = NDArray[np.float64]
+
+_NOISE = 0.01  # misfit below which no cause is looked for
+
+
+def displacement_row(
+    asked: Displacement,
+    record: DisplacementRecord,
+    results: FeResults,
+    model: FeModel,
+    histories: Sequence[ForeignHistory],
+    scale: Floats,
+    units: UnitSystem,
+    history_units: UnitSystem,
+    normalisation: Normalisation,
+) -> AuditRow:
+    """Compare a displacement with the sum of the modes at its node; of several events the one that it fits best.
+
+    Parameters
+    ----------
+    results, model : as read, in the file's own units and displacement frames
+    histories : modal coordinates of the events on uniform times, their modes those of ``results``
+    scale : (m,) factor on the coordinates of each mode of the FE run, where the simulation normalises differently
+    units, history_units, normalisation : of the force file, of the coordinates, and of the modes
+
+    Raises
+    ------
+    CaseError : no modal coordinates to compare with; DataError : the node has no mode shape
+    """
+    name = f"{asked.file.name}, node {asked.node} {asked.direction}"
+    if not histories:
+        raise CaseError(
+            Problem("no_coordinates", name, "a displacement is compared with modal coordinates", "Give --coordinates")
+        )
+    if not results.shape_node.size:
+        return AuditRow(
+            CHECK,
+            "amber",
+            None,
+            f"{name}: the force file holds no mode shapes to compare it with",
+            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for all modes in the same run",
+        )
+    given = {int(mode) for history in histories for mode in history.mode}
+    bare = [m for m, u in zip(results.mode.tolist(), results.shape, strict=True) if m in given and not u.any()]
+    if bare:
+        return AuditRow(
+            CHECK,
+            "amber",
+            None,
+            f"{name}: {len(bare)} modes with coordinates have no displacements in the force file, mode {bare[0]} the "
+            "first, so that the sum of the modes lacks them",
+            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for the unit loads, too",
+        )
+    coordinate = coordinate_units(results, units, normalisation)
+    factor = coordinate_units(results, history_units, normalisation)
+    shape = _shape(asked, name, results, model) * units.length * (scale / coordinate)[:, None]
+    direction = "xyz".index(asked.direction)
+    found = [compared(record, direction, results.mode, shape, factor, history) for history in histories]
+    lacking = [
+        int(mode)
+        for mode, hertz in zip(results.mode, results.frequency, strict=True)
+        if int(mode) not in given and not hertz <= LOWEST_HZ
+    ]
+    best = min(found, key=lambda event: event.misfit)
+    if not np.isfinite(best.misfit) or best.misfit > _NOISE:
+        explained = [(causes, event) for event in found if (causes := causes_of(event, record))]
+        if explained:
+            causes, best = min(explained, key=lambda pair: pair[0][0].misfit)
+        else:
+            causes = ()
+        if best.comparison is not None and np.isfinite(best.misfit):
+            grids = results.shape_node[np.isin(results.shape_node, model.mesh.node)]
+            millimetres = units.length * (scale / coordinate)[:, None, None]
+            causes = with_other_node(
+                causes, best.comparison, asked.node, grids, lambda at: _basic(grids[at], results, model) * millimetres
+            )
+        return judged(name, best, causes, lacking)
+    return judged(name, best, (), lacking)
+
+
+def _basic(grids: NDArray[np.int64], results: FeResults, model: FeModel) -> Floats:
+    """Give the translations of grids in every mode (m, n, 3), basic frame, in the file's own units."""
+    order = np.argsort(results.shape_node, kind="stable")
+    at = order[np.searchsorted(results.shape_node, grids, sorter=order)]
+    return np.asarray(to_basic(results.shape[:, at].astype(np.float64), grids, model)[:, :, :3], np.float64)
+
+
+def _shape(asked: Displacement, name: str, results: FeResults, model: FeModel) -> Floats:
+    """Give the translation of the node in every mode (m, 3), basic frame, in the file's own units."""
+    at = np.flatnonzero(results.shape_node == asked.node)
+    if not at.size:
+        grids = results.shape_node
+        where = "is in the mesh but has no mode shape" if asked.node in model.mesh.node else "does not exist"
+        raise DataError(
+            Problem(
+                "no_node",
+                name,
+                f"the node {where}; {grids.size} grids from {grids.min()} to {grids.max()} have mode shapes",
+                "Name one of them, or request DISPLACEMENT for the node",
+            )
+        )
+    shape = to_basic(results.shape[:, at].astype(np.float64), np.array([asked.node]), model)[:, 0, :3]
+    if not np.isfinite(shape).all():
+        raise DataError(
+            Problem("not_a_number", name, "a mode shape holds a value that is no number", "Copy the force file again")
+        )
+    return np.asarray(shape, np.float64)

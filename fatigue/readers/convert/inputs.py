@@ -1,0 +1,175 @@
+"""The foreign files of a conversion, read and put together: forces, mesh and the coordinates of all events."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.readers.convert.audit.audit import Audit, AuditRow, audit
+from fatigue.readers.convert.displacement.check import displacement_row
+from fatigue.readers.convert.displacement.record import read_displacement
+from fatigue.readers.convert.modal_basis import (
+    SimulationModes,
+    assumed_masses,
+    column_map,
+    mode_scale,
+    numbered,
+    simulated_frequencies,
+    simulation_modes,
+    with_declared_units,
+    with_known_frequencies,
+    without_modes,
+)
+from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.convert.unit_loads import with_unit_loads
+from fatigue.readers.foreign.fe.model import FeModel
+from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform, with_own_frequencies
+from fatigue.readers.units.systems import unit_system
+from fatigue.stages import stage
+
+FREQUENCIES = "frequency match"  # the check of the audit
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ForeignRun:
+    """FE run and simulation as their files tell them, in the files' own units.
+
+    Attributes
+    ----------
+    results : forces and shapes of the modes and unit loads that are used
+    interface_modes : modes named as such, and unit loads of files of their own
+    histories : modal coordinates of every event, their modes those of ``results``
+    simulated : frequency [Hz] and modal mass of the simulation's modes, by mode of the FE run
+    remarks : doubts about the simulation's modes and coordinates
+    """
+
+    results: FeResults
+    model: FeModel
+    interface_modes: tuple[int, ...]
+    histories: tuple[ForeignHistory, ...]
+    simulated: SimulationModes
+    remarks: tuple[Problem, ...]
+
+    def inputs(self, options: ConvertOptions) -> tuple[Path, ...]:
+        """Files that were read."""
+        displacements = (asked.file for asked in options.displacements)
+        fe = (options.forces, options.mesh, *self.model.included, *options.unit_loads)
+        return (*fe, *options.coordinates, *displacements)
+
+
+def read_run(options: ConvertOptions) -> ForeignRun:
+    """Read forces, mesh and coordinates.
+
+    Raises
+    ------
+    CaseError, DataError : any refusal of the readers; coordinates whose frequencies fit other modes
+    """
+    stage("reading forces and mesh")
+    of_files = [read_forces(path, None) for path in options.unit_loads]
+    beside = {mode for loads in of_files for mode in loads.mode.tolist()}
+    named = [mode for mode in options.interface_modes if mode not in beside]
+    results, model = read_forces(options.forces, options.subcase, named), read_model(options.mesh)
+    for loads in of_files:
+        results = with_unit_loads(results, loads)
+    interface_modes = (*named, *sorted(beside))
+    numbers = set(results.mode.tolist())
+    results = without_modes(results, options.ignore_modes)
+    table, remarks = simulation_modes(options.simulation_modes)
+    stage("reading modes and coordinates (%d files)", len(options.coordinates))
+    read = [_history(path, options, results, table) for path in options.coordinates]
+    simulated = {fe: table[mode] for _, own in read for fe, mode in own.items() if mode in table} if read else table
+    numbers |= {fe for _, own in read for fe in own}
+    remarks += assumed_masses(results, simulated) + _ignored_nowhere(options, numbers)
+    histories = tuple(history for history, _ in read)
+    of_histories = [remark for history in histories for remark in history.remarks]
+    return ForeignRun(results, model, interface_modes, histories, simulated, (*remarks, *of_histories))
+
+
+def audited(run: ForeignRun, options: ConvertOptions) -> Audit:
+    """Judge what was read.
+
+    Raises
+    ------
+    DataError : a red light that is not accepted, coordinates whose frequencies fit other modes
+    """
+    stage("auditing")
+    frequencies = simulated_frequencies(run.histories, run.simulated)
+    judged = audit(run.results, run.model, options.convention, run.interface_modes, frequencies)
+    judged = replace(judged, rows=(*judged.rows, *_displacement_rows(run, options)))
+    refuse(
+        DataError,
+        [
+            Problem("audit", f"{options.forces}, {row.check}", row.finding, row.remedy or "Correct the input")
+            for row in judged.rows
+            if row.light == "red" and row.check not in options.accept
+        ],
+    )
+    if FREQUENCIES not in options.accept:
+        for history in run.histories:
+            with_own_frequencies(history, run.results.mode, run.results.frequency)
+    return judged
+
+
+def unknown_checks(judged: Audit, options: ConvertOptions) -> list[Problem]:
+    """Tell which checks to accept the audit does not have: their names are misspelt, or there is nothing to accept."""
+    known = sorted({row.check for row in judged.rows})
+    return [
+        Problem("unknown_check", f"--accept {name!r}", "the audit has no such check", f"Choose of {', '.join(known)}")
+        for name in options.accept
+        if name not in (*known, FREQUENCIES)
+    ]
+
+
+def _displacement_rows(run: ForeignRun, options: ConvertOptions) -> Iterator[AuditRow]:
+    """Compare the displacements given with mode shapes times coordinates."""
+    units = unit_system(options.force_units, "force units")
+    own, scale = unit_system(options.coordinate_units, "coordinate units"), mode_scale(run.results, run.simulated)
+    records = [read_displacement(asked.file, own.length) for asked in options.displacements]
+    for asked, record in zip(options.displacements, records, strict=True):
+        yield displacement_row(
+            asked, record, run.results, run.model, run.histories, scale, units, own, options.normalisation
+        )
+
+
+def _ignored_nowhere(options: ConvertOptions, numbers: set[int]) -> list[Problem]:
+    """Name modes to ignore that neither side has, as a slip of the pen is."""
+    nowhere = sorted(set(options.ignore_modes) - numbers)
+    if not nowhere:
+        return []
+    what = f"neither the forces nor the coordinates have the modes {', '.join(map(str, nowhere[:10]))}"
+    return [Problem("ignored_nowhere", "--ignore-modes", what, "Correct the list, unless it is meant for other files")]
+
+
+def _history(
+    path: Path, options: ConvertOptions, results: FeResults, table: SimulationModes
+) -> tuple[ForeignHistory, dict[int, int]]:
+    """Read one event and match its columns with the modes of the forces; the simulation's number of every FE mode."""
+    columns, doubts = (None, []) if options.columns is None else column_map(options.columns)
+    stated = read_coordinates(path, columns, options.time_column)
+    if options.match == "order":
+        stated = numbered(stated, table, options.simulation_modes or path)
+    history = with_known_frequencies(stated, table, options.simulation_modes or path)
+    if options.match == "frequency" or FREQUENCIES in options.accept:
+        history = matched(history, results.mode, results.frequency, options.match)
+    else:  # what the file itself states is compared here, the table of the simulation's modes after the audit
+        joined = matched(stated, results.mode, results.frequency, options.match)
+        with_own_frequencies(joined, results.mode, results.frequency)
+        history = replace(history, mode=joined.mode)
+    own = dict(zip(history.mode.tolist(), stated.mode.tolist(), strict=True))
+    history = replace(history, remarks=(*doubts, *history.remarks))
+    history = with_declared_units(history, options.coordinate_units, options.normalisation, results.analysis)
+    keep = ~np.isin(history.mode, np.array(options.ignore_modes, np.int64))
+    history = replace(
+        history,
+        mode=history.mode[keep],
+        frequency=history.frequency[keep],
+        name=tuple(n for n, k in zip(history.name, keep, strict=True) if k),
+        unit=tuple(u for u, k in zip(history.unit, keep, strict=True) if k) if history.unit else (),
+        resolution=None if history.resolution is None else history.resolution[keep],
+        q=history.q[keep],
+    )
+    return uniform(history, options.resample_s), own

@@ -1,0 +1,103 @@
+"""Forces for the weld lines: which lines have them, and their way to global axes, neutral units and the mid-surface."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.readers.convert.weld_lines import FoundWelds
+from fatigue.readers.foreign.fe.model import FeModel, to_basic
+from fatigue.readers.foreign.fe.results import SHELL_KINDS, FeResults
+from fatigue.readers.units.systems import Normalisation, UnitSystem
+from fatigue.weld.cuts import WeldCut
+from fatigue.weld.mesh import normals
+
+_CONNECTORS = frozenset(
+    {
+        *(
+            "BAR",
+            "BEAM",
+            "BEAM3",
+            "BEND",
+            "ROD",
+            "CONROD",
+            "TUBE",
+            "BUSH",
+            "BUSH1D",
+            "FAST",
+            "WELD",
+            "SEAM",
+            "GAP",
+            "VISC",
+        ),
+        *(f"{kind}{k}" for kind in ("ELAS", "DAMP", "MASS") for k in range(1, 5)),
+        *("CONM1", "CONM2", "RBE2", "RBE3", "RBAR", "RROD"),
+    }
+)
+"""Elements that may touch a weld line without being part of a plate."""
+
+
+def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
+    """Exclude welds whose side lacks forces, or which an element of unknown kind touches."""
+    present: dict[int, set[int]] = {}
+    for element, node in zip(results.element[results.of_element], results.node[results.of_element], strict=True):
+        present.setdefault(int(element), set()).add(int(node))
+    strange = results.of_element & ~np.isin(results.kind, sorted(SHELL_KINDS | _CONNECTORS))
+    strange_at = dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))
+    gaps = {row.weld: _force_gap(cut, present, strange_at) for row, cut in found.assessed()}
+    rows = (
+        replace(row, status="excluded", reason=gaps[row.weld]) if row.status == "assess" and gaps[row.weld] else row
+        for row in found.rows
+    )
+    return replace(found, rows=tuple(rows))
+
+
+def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int, str]) -> str:
+    """Every reason why a cut cannot be assessed with the forces at hand; empty if it can."""
+    silent = [int(e) for e in cut.elements if int(e) not in present]
+    found = []
+    if silent:
+        many = f"{len(silent)} of {cut.elements.size} elements"
+        found.append(f"{many} have no grid point forces, element {silent[0]} the first")
+    covered = set().union(*(present.get(int(e), ()) for e in cut.elements))
+    bare = [int(n) for n in cut.line.node if int(n) not in covered]
+    if bare and not silent:
+        found.append(f"node {bare[0]} has no grid point forces")
+    touching: dict[str, int] = {}
+    for node in cut.line.node.tolist():
+        if node in strange_at:
+            touching.setdefault(strange_at[node], node)
+    found += [f"an element of kind {kind} touches the line at node {node}" for kind, node in touching.items()]
+    return "; ".join(found)
+
+
+def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
+    """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
+
+
+def neutral_forces(
+    results: FeResults, model: FeModel, units: UnitSystem, normalisation: Normalisation
+) -> NDArray[np.floating]:
+    """Turn the forces of all rows into basic axes and N, N mm per unit modal coordinate of the mm, t, s system."""
+    coordinate = coordinate_units(results, units, normalisation)
+    factor = units.force / coordinate[:, None, None] * np.array([1.0] * 3 + [units.length] * 3)
+    force = to_basic(results.force, results.node, model)
+    return force if np.all(factor == 1) else (force * factor).astype(force.dtype)
+
+
+def to_mid_surface(
+    force: NDArray[np.floating], results: FeResults, model: FeModel, rows: NDArray[np.int64]
+) -> NDArray[np.floating]:
+    """Move moments from the grids to the mid-surface: the grid lies at -offset along the element normal."""
+    mesh = model.mesh
+    at = np.searchsorted(mesh.element, results.element[rows])
+    offset = mesh.offset[at]
+    shifted = rows[offset != 0]
+    if not shifted.size:
+        return force
+    arm = -(offset[:, None] * normals(mesh)[at])[offset != 0]
+    moved = force.copy()
+    moved[:, shifted, 3:] += np.cross(arm, force[:, shifted, :3])
+    return moved

@@ -1,0 +1,1 @@
+"""Modal coordinates as a simulation exports them: text of any layout, Parquet, ``.mcf``."""

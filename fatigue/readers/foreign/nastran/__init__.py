@@ -1,0 +1,1 @@
+"""NASTRAN and OptiStruct: decks and results."""

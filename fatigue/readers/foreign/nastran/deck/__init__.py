@@ -1,0 +1,1 @@
+"""A NASTRAN deck: lines, cards, shells, sets."""

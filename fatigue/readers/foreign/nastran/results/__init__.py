@@ -1,0 +1,1 @@
+"""NASTRAN results: OP2, HDF5, punch."""

@@ -1,0 +1,169 @@
+"""Histories of modal coordinates in the neutral format: ``time_s`` and one column ``q_<mode>`` for every mode.
+
+One column of a Parquet file is in memory at a time, besides what has been read if that is wanted as an array.
+"""
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.errors import DataError, Problem
+from fatigue.life.records.history import ModalHistory
+from fatigue.life.records.spool import Samples, create_spool
+from fatigue.readers.neutral.table_units import stated_unit_doubt
+from fatigue.readers.neutral.tables import Table, open_table
+from fatigue.readers.units.channel_names import channel
+
+STEP_TOLERANCE = 1e-3  # of a step
+
+
+@dataclass(frozen=True, slots=True)
+class TimeGrid:
+    """Times of a record: number of samples, time step [s], file time of the first sample [s]."""
+
+    samples: int
+    step: float
+    start: float
+
+
+def read_history(
+    path: Path,
+    event: str,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    *,
+    strict: bool,
+    scratch: Path | None = None,
+) -> tuple[ModalHistory, list[Problem]]:
+    """Read the whole record of one event, (m, t) in the order of ``modes``; float32 where the file has float32.
+
+    The step is (last time - first time) / (samples - 1). The samples go to the file ``scratch``, if one is given.
+
+    Raises
+    ------
+    DataError
+        a mode of the body without column or the reverse, unless it is ignored; fewer than 2 samples; steps that differ
+        by more than 1e-3; a value that is no finite number; no room for ``scratch``
+    """
+    table, names, grid = _open(path, modes, ignore_modes, strict)
+    kind: np.dtype[np.floating] = np.dtype(np.float32) if table.single_precision(names) else np.dtype(np.float64)
+    shape = (modes.size, grid.samples)
+    q: Samples = np.empty(shape, dtype=kind) if scratch is None else create_spool(scratch, shape, kind)
+    for i, name in enumerate(names):
+        q[i : i + 1, :] = table.numbers(name)[None]
+    table.refuse()
+    return ModalHistory(event=event, mode=modes, q=q, step=grid.step, start=grid.start), table.warnings
+
+
+def check_history(
+    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], *, strict: bool
+) -> tuple[TimeGrid, list[Problem]]:
+    """Read a record and keep nothing but its times; raises what `read_history` raises."""
+    table, names, grid = _open(path, modes, ignore_modes, strict)
+    for name in names:
+        table.numbers(name)
+    table.refuse()
+    return grid, table.warnings
+
+
+def _open(
+    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool
+) -> tuple[Table, list[str], TimeGrid]:
+    """Open a table, match its columns with the modes, and check its times."""
+    table = open_table(path)
+    _check_statements(table)
+    names = _mode_columns(table, modes, ignore_modes)
+    ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
+    table.expect(("time_s", *names), ignored, strict=strict)
+    table.refuse()
+    time = table.numbers("time_s").astype(np.float64)
+    table.refuse()
+    return table, names, TimeGrid(table.rows, _step(table, time), float(time[0]))
+
+
+def _check_statements(table: Table) -> None:
+    """Note what the names and the metadata of columns state against the neutral format: time in s, q in N, mm, t, s."""
+    for name, unit in zip(table.columns.names, table.columns.units or (), strict=False):
+        problem = stated_unit_doubt(table.where(name.strip()), name, unit) if unit else None
+        if problem is not None and problem.code == "unit":
+            table.problems.append(problem)
+    for name in table.position:
+        own = channel(name)
+        if own.is_time and name != "time_s" and "time_s" not in table.position:
+            what = f"this seems to be time, {f'in {own.unit}' if own.unit else 'in a unit that is not stated'}"
+            remedy = "Give seconds in a column time_s, or bring the file in by `fatigue convert`"
+            table.problems.append(Problem("time_unit", table.where(name), what, remedy))
+        elif own.unit and not own.is_time and re.match(r"q_?-?\d+\W", name):
+            what = f"the name states the unit {own.unit}; neutral coordinates are in N, mm, t, s"
+            remedy = f"Convert them and name the column q_{own.mode}, or bring the file in by `fatigue convert`"
+            table.problems.append(Problem("unit", table.where(name), what, remedy))
+
+
+def _mode_of(column: str) -> int | None:
+    """Mode id of a column ``q_<mode>``; None for any other column."""
+    return int(column[2:]) if re.fullmatch(r"q_-?\d+", column) else None
+
+
+def _mode_columns(table: Table, modes: NDArray[np.int64], ignore_modes: Collection[int]) -> list[str]:
+    """Names of the columns of the modes; modes and columns have to match."""
+    columns: dict[int, str] = {}
+    for name in table.position:
+        if (mode := _mode_of(name)) is None:
+            continue
+        if mode in columns:
+            table.problems.append(
+                Problem(
+                    "duplicate_column",
+                    table.where(name),
+                    f"mode {mode} has the column {columns[mode]} already",
+                    "Remove one of them",
+                )
+            )
+        columns[mode] = name
+    wanted = set(modes.tolist())
+    extra, absent = sorted(columns.keys() - wanted - set(ignore_modes)), sorted(wanted - columns.keys())
+    if extra:
+        table.problems.append(
+            Problem(
+                "unknown_id",
+                table.path.name,
+                f"modes {', '.join(map(str, extra))} are in the history and not in the table of modes",
+                "Add them there, or list them under ignore_modes",
+            )
+        )
+    if absent:
+        table.problems.append(
+            Problem(
+                "missing_mode",
+                table.path.name,
+                f"modes {', '.join(map(str, absent))} are in the table of modes and not in the history",
+                f"Add the columns {', '.join(f'q_{mode}' for mode in absent)}, or list the modes under ignore_modes",
+            )
+        )
+    return [columns[mode] for mode in modes.tolist() if mode in columns]
+
+
+def _step(table: Table, time: NDArray[np.float64]) -> float:
+    """Uniform time step [s]."""
+    if time.size < 2:
+        raise DataError(Problem("few_samples", table.path.name, "the history has one sample", "Give at least 2"))
+    step = float((time[-1] - time[0]) / (time.size - 1))
+    steps = np.diff(time)
+    uneven = (steps <= 0) | (np.abs(steps - step) > STEP_TOLERANCE * step)
+    if uneven.any():
+        row = int(uneven.argmax()) + 1
+        single = " and store time_s in double precision" if table.single_precision(["time_s"]) else ""
+        raise DataError(
+            Problem(
+                "uneven_step",
+                table.where("time_s", row),
+                f"the time goes from {time[row - 1]:.9g} to {time[row]:.9g} s, a step of {steps[row - 1]:.6g} s where "
+                f"the mean is {step:.6g} s ({np.count_nonzero(uneven)} of {steps.size} steps differ by more than 1e-3)",
+                f"Write the history at a constant step{single}",
+            )
+        )
+    return step

@@ -1,0 +1,1 @@
+"""Text tables of any program: encoding, layout, numbers, rows."""

@@ -1,0 +1,1 @@
+"""What names and headers state: unit systems, units of coordinates, channels."""

@@ -1,0 +1,1 @@
+"""What a result is taken away as: ParaView's lines, a print of the page, a workbook and CSV."""

@@ -1,0 +1,174 @@
+"""One weld on the page: its figures along the line, its worst point in detail, its life under other assumptions."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+import pandas as pd
+
+from fatigue.life.curves import Survival, damage_law
+from fatigue.report import figures, wording
+from fatigue.report.result import Result
+from fatigue.report.sections import weld_tables
+from fatigue.report.sections.details import Detail
+from fatigue.report.sections.embed import Figures, Shown
+from fatigue.report.sections.tables import Table
+from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
+from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
+
+SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED, EVENTS_LISTED = 6, 8, 4, 20
+
+
+@dataclass(frozen=True, slots=True)
+class WeldPage:
+    """One weld in detail; what only a diagnosis knows is empty without one.
+
+    ``bounded`` points of it have a lower bound of life in place of a counted one.
+    """
+
+    id: str
+    name: str
+    row: Mapping[str, Any]
+    facts: list[tuple[str, str]]
+    along: Shown
+    point: list[Shown]
+    variants: Table
+    events: Table
+    events_left_out: int
+    levers: Table | None
+    reasons: list[tuple[str, str, str]]
+    exponents: Mapping[str, float]
+    bounded: int
+
+
+def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
+    """Gather all that is shown of one weld; ``detail`` is None where the records were not found."""
+    row = result.assessed.set_index("weld", drop=False).loc[weld]
+    point = result.worst(weld)
+    cycles = result.cycles(weld)
+    used = assumptions_of(result.record, row["curve"])
+    event = None if pd.isna(row["governing_event"]) else str(row["governing_event"])
+    why = None if why is None else why.of_weld(weld)
+
+    points = result.nodes[result.nodes["weld"] == weld]
+    stress = detail.deviation if detail is not None and detail.deviation else None
+    line = figures.along_weld(points, result.target_km, stress, wording.in_figure(event or ""))
+    along = figs.add(f"{id_}-along", line, f"{wording.short(weld)}: life, load factor and stress along the weld")
+    shown: list[Shown] = []
+    if len(cycles) and cycles["range_MPa"].max() > 0.0:
+        shown += _cycle_figures(result, weld, cycles, used, figs, id_)
+    if detail is not None:
+        shown += _record_figures(result, detail, event, figs, id_, modes_too=why is None)
+    if why is not None and event is not None:
+        shown += _why_figures(result, why, event, figs, id_)
+    return WeldPage(
+        id=id_,
+        name=weld,
+        row=row.to_dict(),
+        facts=weld_tables.facts(point, row),
+        along=along,
+        point=shown,
+        variants=weld_tables.variant_table(
+            f"{id_}-variants",
+            variants(point, cycles, result.passes_per_km, used),
+            float(point["life_km"]),
+            float(result.record["mission"]["km_per_year"]),
+        ),
+        events=weld_tables.event_table(
+            f"{id_}-events", result.damage[result.damage["weld"] == weld], result.passes_per_km, EVENTS_LISTED
+        ),
+        events_left_out=max(0, len(result.events) - EVENTS_LISTED),
+        levers=None if why is None or why.levers.empty else weld_tables.lever_table(f"{id_}-levers", why.levers),
+        reasons=[] if why is None else why.reasons(),
+        exponents={} if why is None else exponents(why),
+        bounded=int((points["screened"] != "").sum()),
+    )
+
+
+def _cycle_figures(
+    result: Result, weld: str, cycles: pd.DataFrame, used: Assumptions, figs: Figures, id_: str
+) -> list[Shown]:
+    per_km = how_often(cycles, result.passes_per_km)
+    laws = {
+        level: damage_law(
+            used.curve,
+            cast(Survival, level) if used.curve.has_scatter else None,
+            used.extension,
+            used.knee_cycles,
+        )
+        for level in used.curve.reference_range
+    }
+    unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
+    spectrum = figures.sn_with_spectrum(cycles, per_km * result.target_km, laws, used.survival, unit)
+    name = wording.short(weld)
+    of_target = f"{name}: S-N curve and the cycles of {wording.km(result.target_km)}"
+    return [
+        figs.add(
+            f"{id_}-matrix",
+            figures.rainflow_matrices(cycles, per_km),
+            f"{name}: rainflow matrix and damage matrix",
+            wide=True,
+        ),
+        figs.add(
+            f"{id_}-exceedance", figures.exceedance(cycles, result.passes_per_km), f"{name}: stress ranges in 1e6 km"
+        ),
+        figs.add(f"{id_}-sn", spectrum, of_target),
+    ]
+
+
+def _record_figures(
+    result: Result, detail: Detail, event: str | None, figs: Figures, id_: str, *, modes_too: bool
+) -> list[Shown]:
+    """Draw the records, none where nothing damages; with the modes' shares of the variance if asked."""
+    if event is None or detail.envelope is None or detail.variance_share is None:
+        return []
+    colours = figures.event_colours([e["event"] for e in result.events])
+    names, natural = _mode_names(result.record["modes"])
+    history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
+    close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
+    caption = f"Stress in event {wording.short(event)}{close_by}"
+    shown = [figs.add(f"{id_}-history", history, caption, wide=True)]
+    leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
+    parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}
+    if modes_too:
+        title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
+        bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
+        shown.append(figs.add(f"{id_}-modes", bars, "Modes in the stress of the worst point"))
+    if detail.spectra:
+        drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
+        marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
+        spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:MODES_MARKED]), event)
+        caption = "Stress spectrum, the leading normal modes, and where the variance lies"
+        shown.append(figs.add(f"{id_}-psd", spectrum, caption))
+    return shown
+
+
+def _why_figures(result: Result, why: Why, event: str, figs: Figures, id_: str) -> list[Shown]:
+    """Draw the modes, frequency bands and places that make the damage of a weld's worst point."""
+    names, natural = _mode_names(result.record["modes"])
+    shown = []
+    modes = mode_shares(why).head(MODES_DRAWN)
+    title = "share of the damage, all events [%]"
+    bars = figures.shares([names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), title)
+    shown.append(figs.add(f"{id_}-damage-modes", bars, "Damage by mode; a negative share relieves"))
+    bands = band_shares(why)
+    if len(bands) > 1:
+        marked = [natural[mode] for mode in modes["mode"][:MODES_MARKED] if mode in natural]
+        caption = "Damage by frequency band; dotted: the leading normal modes"
+        shown.append(figs.add(f"{id_}-damage-bands", figures.damage_by_band(bands, marked), caption))
+    track = why.track[why.track["event"] == event]
+    if len(track) > 1:
+        caption = f"Where in event {wording.short(event)} the damage is made"
+        shown.append(figs.add(f"{id_}-track", figures.damage_on_track(track), caption))
+    return shown
+
+
+def _mode_names(modes: Mapping[str, Any]) -> tuple[dict[int, str], dict[int, float]]:
+    """Name of every mode, and the natural frequencies [Hz] of the normal ones."""
+    names, natural = {}, {}
+    for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True):
+        names[mode] = f"mode {mode}, {frequency:.4g} Hz" + ("" if kind == "normal" else f", {kind}")
+        if kind == "normal" and frequency > 0.0:
+            natural[mode] = frequency
+    return names, natural

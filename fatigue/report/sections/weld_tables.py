@@ -1,0 +1,128 @@
+"""The tables of one weld's worst point: its facts, its events, its life under other assumptions, its levers."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from fatigue.report.sections.tables import Cell, Heading, Table, integer, num, percent
+from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
+
+
+def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
+    """Say where the worst point is and what it endures; ``point`` of the table of nodes, ``row`` of the register."""
+    flags = [words for words, flag in (("weld end", point["at_end"]), ("corner", point["at_corner"])) if flag]
+    event = NOT_AVAILABLE if pd.isna(point["governing_event"]) else str(point["governing_event"])
+    place = f"{number(point['arc_length_mm'])} mm along part {point['part']}"
+    return [
+        ("Point", f"node {point['node']}, {point['surface']} face, {place}"),
+        ("Position x, y, z", ", ".join(number(point[c]) for c in ("x_mm", "y_mm", "z_mm")) + " mm"),
+        ("Place", listed(flags) or "along the line"),
+        ("Plate", f"{number(point['thickness_mm'])} mm"),
+        ("Curve", f"{row['curve']}, {row['survival']}"),
+        ("Life", f"{km(point['life_km'])} ({years(point['life_years'])})"),
+        ("Utilisation, damage", number(point["utilisation"])),
+        ("Utilisation, load", number(1.0 / point["load_factor"])),
+        ("Load factor to the target", number(point["load_factor"])),
+        ("Governing event", event),
+        ("Largest range", f"{number(point['max_range_MPa'])} MPa"),
+        ("Equivalent range at 2e6", f"{number(point['equivalent_range_2e6_MPa'])} MPa"),
+        ("Bending ratio", number(point["bending_ratio"])),
+        ("R of the largest cycle", number(point["R_largest_cycle"])),
+        ("Mean stress", f"{number(point['mean_stress_MPa'])} MPa"),
+        ("Shear / normal stress, rms", number(point["shear_ratio"])),
+        ("Life by Dirlik", km(point["life_km_dirlik"])),
+        ("Dirlik / rainflow damage", number(point["dirlik_ratio"])),
+        ("Trust in Dirlik", str(point["dirlik_verdict"]).replace("_", " ")),
+        ("Life, end not treated", _raw_life(point["life_km_raw_end"])),
+    ]
+
+
+def _raw_life(life_km: float) -> str:
+    """Life without the end treatment, which screening leaves out where it is proven to be long."""
+    return "not counted, proven to be long enough" if np.isnan(life_km) else km(life_km)
+
+
+def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year: float) -> Table:
+    """Life with one assumption changed at a time; ``variants`` as `fatigue.report.variants.variants` makes them."""
+    rows = []
+    for assumption, choice, used, factor in variants.itertuples(index=False):
+        life = np.inf if factor == 0.0 else life_km / factor
+        marked = Cell(f"{choice} (used)", mark="used") if used else Cell(choice)
+        rows.append((Cell(assumption), marked, num(life), num(life / km_per_year), num(factor)))
+    headings = (
+        Heading("assumption", numeric=False),
+        Heading("choice", numeric=False),
+        Heading("life", "km"),
+        Heading("life", "years"),
+        Heading("damage factor", "-"),
+    )
+    return Table(id_, headings, tuple(rows))
+
+
+def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, float], most: int) -> Table:
+    """List the events at one point, of many those that damage most; ``damage`` are rows of the table of damage."""
+    weighted = damage["damage_per_pass"] * damage["event"].map(passes_per_km)
+    total = weighted.sum()
+    if len(damage) > most:
+        weighted = weighted.sort_values(ascending=False, kind="stable").head(most)
+        damage = damage.loc[weighted.index]
+    ratio = damage["damage_dirlik_per_pass"] / damage["damage_same_ratio_per_pass"].replace(0.0, np.nan)
+    rows = tuple(
+        (
+            Cell(row.event),
+            percent(part / total if total > 0.0 else np.nan),
+            num(row.damage_per_pass),
+            num(row.max_range_MPa),
+            num(row.cycles_per_pass),
+            num(row.bending_ratio),
+            num(quotient),
+            num(row.kurtosis),
+            num(row.irregularity),
+            num(row.peaks_per_s),
+            num(row.samples_per_peak),
+        )
+        for row, part, quotient in zip(damage.itertuples(), weighted, ratio, strict=True)
+    )
+    headings = (
+        Heading("event", numeric=False),
+        Heading("share of damage", "%"),
+        Heading("damage of a pass", "-"),
+        Heading("largest range", "MPa"),
+        Heading("cycles of a pass", "-"),
+        Heading("bending ratio", "-"),
+        Heading("Dirlik / rainflow", "-"),
+        Heading("kurtosis", "-"),
+        Heading("irregularity", "-"),
+        Heading("peaks", "1/s"),
+        Heading("samples per peak", "-"),
+    )
+    return Table(id_, headings, rows)
+
+
+def lever_table(id_: str, levers: pd.DataFrame) -> Table:
+    """Say which mode, if 10 % smaller, buys most kilometres; ``levers`` has the columns of that table."""
+    rows = tuple(
+        (
+            integer(row.mode),
+            num(row.frequency_hz),
+            Cell(row.kind),
+            percent(row.share),
+            num(row.life_exponent),
+            num(row.life_km_estimated),
+            num(row.life_km_counted),
+            num(row.gain_km),
+        )
+        for row in levers.sort_values("rank").itertuples()
+    )
+    headings = (
+        Heading("mode"),
+        Heading("frequency", "Hz"),
+        Heading("kind", numeric=False),
+        Heading("share of damage", "%"),
+        Heading("d ln life / d ln amplitude", "-"),
+        Heading("life, estimated", "km"),
+        Heading("life, counted again", "km"),
+        Heading("gain", "km"),
+    )
+    return Table(id_, headings, rows)

@@ -1,0 +1,1 @@
+"""The second computation: lines, stresses, cycles, curves and spectra, by other code."""

@@ -1,0 +1,144 @@
+"""The record of an event once more: what is kept, what is counted, how often it happens, and Welch's spectrum."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.verify.recount.inputs.case import Inputs, Modes
+from fatigue.verify.recount.inputs.tables import read_frame
+
+Floats = NDArray[np.float64]
+
+SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """One event.
+
+    Attributes
+    ----------
+    name : of the event
+    kept : (m, t) modal coordinates after the start-up
+    step, start : time step and file time of the first kept sample [s]
+    counted : (m, u) the kept record on the grid on which cycles are counted, ``fine_step`` apart [s]
+    recurs : whether the record is a block that repeats
+    factor : on all stresses
+    length_km : distance of one pass, None for an event counted by number
+    passes_per_km : of the mission
+    """
+
+    name: str
+    kept: Floats
+    step: float
+    start: float
+    counted: Floats
+    fine_step: float
+    recurs: bool
+    factor: float
+    length_km: float | None
+    passes_per_km: float
+
+    @property
+    def duration(self) -> float:
+        """Duration of one pass [s]."""
+        return float(self.kept.shape[1] * self.step)
+
+
+@dataclass(frozen=True, slots=True)
+class SpectrumRules:
+    """Length of a segment [s] and highest frequency [Hz]."""
+
+    segment_s: float
+    upper_hz: float
+
+
+def spectrum_rules(case: Mapping[str, Any], modes: Modes, step: float) -> SpectrumRules:
+    """Rules of the case for a record with this time step [s]."""
+    asked = case.get("spectrum", {})
+    upper = asked.get("upper_hz", min(0.4 / step, 1.5 * modes.highest_normal_hz))
+    return SpectrumRules(asked.get("segment_s", 4.0), upper)
+
+
+def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, fastest: float) -> Record:
+    """Read the history of an event and cut its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
+    frame = read_frame(inputs.folder / event["history"])
+    time = frame["time_s"].to_numpy(dtype=float)
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    keep = time - time[0] >= event.get("start_s", 0.0) - step / 2
+    columns = {int(name[2:]): name for name in frame.columns if name.startswith("q_")}
+    q = np.stack([frame[columns[mode]].to_numpy(dtype=float)[keep] for mode in modes.mode.tolist()])
+
+    by_number = "per_1000_km" in event
+    by_default = "half" if by_number else inputs.case.get("counting", {}).get("residue", "repeat")
+    recurs = event.get("residue", by_default) == "repeat"
+    upsample = _upsample(inputs.case.get("counting", {}).get("upsample", 1), step, fastest)
+    length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * q.shape[1] * step / 3600)
+    return Record(
+        name=event["name"],
+        kept=q,
+        step=step,
+        start=float(time[keep][0]),
+        counted=finer(q, upsample, recurs=recurs),
+        fine_step=step / upsample,
+        recurs=recurs,
+        factor=event.get("stress_factor", 1.0),
+        length_km=length,
+        passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
+    )
+
+
+def _upsample(asked: int | str, step: float, fastest: float) -> int:
+    """Upsampling factor as asked, or the power of 2 that gives the fastest point its samples per peak."""
+    if asked != "auto":
+        return int(asked)
+    factor = 1
+    while factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+        factor *= 2
+    return factor
+
+
+def finer(q: Floats, factor: int, *, recurs: bool) -> Floats:
+    """Fourier interpolation of each row; of a single pass that of its mirror extension."""
+    if factor == 1:
+        return q
+    if not recurs:
+        there_and_back = np.concatenate([q, q[:, -2:0:-1]], axis=1)
+        return finer(there_and_back, factor, recurs=True)[:, : (q.shape[1] - 1) * factor + 1]
+    n = q.shape[1]
+    lines = np.fft.fft(q, axis=1)
+    padded = np.zeros((len(q), n * factor), dtype=complex)
+    half = (n + 1) // 2
+    padded[:, :half] = lines[:, :half]
+    padded[:, padded.shape[1] - (n - half) :] = lines[:, half:]
+    if n % 2 == 0:  # half the Nyquist line belongs to the positive frequency
+        padded[:, -(n // 2)] /= 2
+        padded[:, n // 2] = padded[:, -(n // 2)]
+    return np.fft.ifft(padded, axis=1).real * factor
+
+
+def welch_moments(stress: Floats, step: float, rules: SpectrumRules) -> Floats | None:
+    """Spectral moments 0, 1, 2, 4 of a stress history by Welch's method; None for a record below one segment.
+
+    Segments overlap by half, lose their own mean and are tapered by a periodic Hann window; the trapezoid rule
+    integrates the one-sided density up to the upper frequency.
+    """
+    n = round(rules.segment_s / step)
+    if not 4 <= n <= len(stress):
+        return None
+    window = np.sin(np.pi * np.arange(n) / n) ** 2
+    density = np.zeros(n // 2 + 1)
+    starts = range(0, len(stress) - n + 1, n - n // 2)
+    for start in starts:
+        segment = stress[start : start + n]
+        density += np.abs(np.fft.rfft((segment - segment.mean()) * window)) ** 2
+    density *= 2 * step / (window @ window) / len(starts)
+    density[0] /= 2
+    if n % 2 == 0:
+        density[-1] /= 2
+    f = np.arange(n // 2 + 1) / (n * step)
+    used = f <= rules.upper_hz * (1 + 1e-9)
+    return np.array([np.trapezoid(f[used] ** p * density[used], f[used]) for p in (0, 1, 2, 4)])

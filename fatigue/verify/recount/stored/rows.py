@@ -1,0 +1,157 @@
+"""Rows of the result tables as they should be, beside the rows as they are."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fatigue.verify.recount.anew.curve import Curve
+from fatigue.verify.recount.anew.line import LineStress, edge_length, edges
+from fatigue.verify.recount.anew.point import Event, OnePass, Values
+from fatigue.verify.recount.layout import Key
+from fatigue.verify.recount.stored.compare import TOLERANCE, Row
+
+COMPONENTS = ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear")
+NEGLIGIBLE = 1e-9  # of the largest range: what differs between two orders of summation
+SMALL = 1e-2  # of the largest range: the ratio of two parts of a smaller one says little
+_NOT_COLUMNS = {"power_sum", "R_largest", "with_mean_stress", "with_shear", "shear_ratio"}  # of a pass
+_OF_STILL_STRESS = ("damage_per_", "damage_same_ratio_", "cycles_", "max_range_", "mean_stress_")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Weld:
+    """A weld of the case: its row in the weld table, its parts, its curve and the faces that carry a toe."""
+
+    given: Mapping[str, Any]
+    parts: tuple[LineStress, ...]
+    curve_name: str
+    curve: Curve
+    toes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Station:
+    """One node of a solved part of a weld."""
+
+    weld: Weld
+    solved: LineStress
+    at: int
+
+
+def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any], raw_life_enough: float) -> Row:
+    """One row of the table of points.
+
+    ``raw_life_enough`` [km] is a life without end treatment from which on the row need not give it.
+    """
+    if pd.isna(found["life_km_raw_end"]) and values["life_km_raw_end"] >= raw_life_enough:
+        values = {name: value for name, value in values.items() if name != "life_km_raw_end"}
+    solved, line, at = station.solved, station.solved.line, station.at
+    x, y, z = (float(v) for v in line.xyz[at])
+    size = float(np.abs(line.xyz).max() + np.ptp(line.xyz, axis=0).max())
+    geometry = {
+        "node": int(line.node[at]),
+        "toe": key[3] in station.weld.toes,
+        "arc_length_mm": float(solved.arc_length[at]),
+        "x_mm": x,
+        "y_mm": y,
+        "z_mm": z,
+        "thickness_mm": float(line.thickness[at]),
+        "at_end": bool(solved.at_end[at]),
+        "at_corner": bool(solved.at_corner[at]),
+    }
+    scale = dict.fromkeys(("bending_ratio", "shear_ratio"), 1.0)
+    scale["R_largest_cycle"] = max(1.0, values["R_largest_cycle"] ** 2)  # a ratio to a stress that may be close to 0
+    scale |= dict.fromkeys(("arc_length_mm", "x_mm", "y_mm", "z_mm"), size)
+    scale["mean_stress_MPa"] = values["max_range_MPa"]
+    return Row(place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
+
+
+def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
+    """One row of the table of points and events."""
+    values = {name: value for name, value in one.quantities.items() if name not in _NOT_COLUMNS}
+    per_km = np.nan if event.length_km is None else 1.0 / event.length_km
+    values |= {
+        name.replace("_per_pass", "_per_km"): value * per_km
+        for name, value in values.items()
+        if name.endswith("_per_pass")
+    }
+    largest, mean = one.quantities["max_range_MPa"], one.quantities["mean_stress_MPa"]
+    if largest <= NEGLIGIBLE * abs(mean):  # a stress that stands still has no bandwidth and no bending ratio
+        values = {name: value for name, value in values.items() if name.startswith(_OF_STILL_STRESS)}
+    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": largest}
+    return Row(f"{place(key)}, event '{event.name}'", found, values, scale, is_bound)
+
+
+def stress_rows(station: Station, modes: NDArray[np.int64], found: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
+    """Rows of the table of structural stress for one station, all modes."""
+    solved, line, at = station.solved, station.solved.line, station.at
+    for j, mode in enumerate(modes.tolist()):
+        expected: Values = {"node": int(line.node[at])}
+        for c, name in enumerate(COMPONENTS):
+            expected[f"{name}_MPa"] = float(solved.treated[at, j, c])
+            expected[f"{name}_raw_MPa"] = float(solved.raw[at, j, c])
+        size = float(max(np.abs(solved.treated[:, j]).max(), np.abs(solved.raw[:, j]).max()))
+        where = f"weld {line.weld}, part {line.part}, order {line.order[at]}, mode {mode}"
+        yield Row(where, found[j], expected, dict.fromkeys(expected, size))
+
+
+def cycle_row(key: Key, event: Event, one: OnePass, found: pd.DataFrame) -> Row:
+    """All cycles of one event at one point as one row: in each column, sorted, the value that differs most.
+
+    Cycles that only rounding makes are left out on both sides. Where the numbers of cycles differ, all columns do.
+    """
+    our_ranges, their_ranges = one.rows["range_MPa"], found["range_MPa"].to_numpy()
+    expected, stored, scale = {}, {}, {}
+    for name, column in one.rows.items():
+        least = our_ranges.max(initial=0.0) * (SMALL if name == "bending_ratio" else NEGLIGIBLE)
+        a, b = np.sort(column[our_ranges > least]), np.sort(found[name].to_numpy()[their_ranges > least])
+        if not len(a) and not len(b):
+            continue
+        if len(a) != len(b):
+            a, b = np.array([float(len(a))]), np.array([float(len(b))])
+        worst = int(np.abs(a - b).argmax())
+        expected[name], stored[name], scale[name] = float(a[worst]), float(b[worst]), float(np.abs(a).max())
+    return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale)
+
+
+def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, Any], *, all_counted: bool) -> Row:
+    """Row of a weld: the worst of its recounted toe points decides; proven to be it where all points were counted."""
+    parts = [solved.line for solved in weld.parts]
+    lives = {key: values for key, values in recounted.items() if key[3] in weld.toes}
+    stored: Key = (parts[0].weld, found["worst_part"], found["worst_order"], found["worst_surface"])
+    most = max(values["utilisation"] for values in lives.values())
+    if stored not in lives or lives[stored]["utilisation"] < most * (1 - TOLERANCE):
+        stored = next(key for key, values in lives.items() if values["utilisation"] == most)
+    worst = lives[stored]
+    solved = next(s for s in weld.parts if s.line.part == stored[1])
+    at = int(np.flatnonzero(solved.line.order == stored[2])[0])
+    thickness = np.concatenate([line.thickness for line in parts])
+    end_length = parts[0].end_length
+    expected: Values = {
+        "closed": bool(weld.given["closed"]),
+        "parts": len(parts),
+        "nodes": len({int(n) for line in parts for n in line.node}),
+        "length_mm": sum(edge_length(line.xyz[edge]) for line in parts for edge in edges(line)),
+        "thickness_min_mm": float(thickness.min()),
+        "thickness_max_mm": float(thickness.max()),
+        "surface": weld.given["surface"],
+        "curve": weld.curve_name,
+        "end_length_mm": np.nan if end_length is None else end_length,
+        **{name: worst[name] for name in ("life_km", "life_years", "utilisation", "fulfilled", "load_factor")},
+        **({"worst_is_proven": True} if all_counted else {}),
+        "worst_part": stored[1],
+        "worst_order": stored[2],
+        "worst_node": int(solved.line.node[at]),
+        "worst_surface": stored[3],
+        "worst_arc_length_mm": float(solved.arc_length[at]),
+        "governing_event": worst["governing_event"],
+    }
+    return Row(f"weld {stored[0]}", found, expected, {"worst_arc_length_mm": expected["length_mm"]})
+
+
+def place(key: Key) -> str:
+    """Say where a point is."""
+    return f"weld {key[0]}, part {key[1]}, order {key[2]}, {key[3]}"

@@ -1,0 +1,191 @@
+"""What follows in the tables of a result from other rows, checked for all of them: sums over events, copies, quotients.
+
+Nothing is counted here. A value that was spoiled, or rows that are not of the same run, show all the same.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from fatigue.results import TABLES, number_groups, read_rows
+from fatigue.verify.recount.anew.point import Event
+from fatigue.verify.recount.choice import worst_points
+from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
+from fatigue.verify.recount.stored.rows import place
+from fatigue.verify.recount.stored.tables import Stored, is_counted, toes_and_utilisation, worst_of_welds
+
+Floats = NDArray[np.float64]
+
+ALL_ROWS = ", all rows"
+PER_PASS = ("damage", "damage_dirlik", "damage_tb", "damage_same_ratio", "cycles")
+OF_GOVERNING = ("mean_stress_MPa", "bending_ratio")
+OF_WORST = ("life_km", "life_years", "utilisation", "load_factor", "fulfilled", "governing_event")
+_NODES = ("damage_per_km", "life_km", "life_years", "utilisation", "fulfilled", "life_km_dirlik", "life_km_tb",
+          "life_km_same_ratio", "dirlik_ratio", "max_range_MPa", "governing_event", *OF_GOVERNING)  # fmt: skip
+_DAMAGE = (*(f"{name}_{per}" for name in PER_PASS for per in ("per_pass", "per_km")), "max_range_MPa", *OF_GOVERNING)
+_ROWS_AT_ONCE = 1 << 18  # of the table of points and events
+
+
+class Sum(NamedTuple):
+    """Values of a column and what other columns say they are: numbers, (n,), of some keys, (n,)."""
+
+    table: str
+    column: str
+    found: NDArray[Any]
+    expected: NDArray[Any]
+    key: NDArray[np.int64]
+
+
+def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> list[ColumnCheck]:
+    """Check every row of the tables of a result against other rows.
+
+    Raises
+    ------
+    DataError : a table is damaged
+    """
+    checks = [_check(stored, events, one) for one in _sums(stored, case, events)]
+    return merged(checks)
+
+
+def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> Iterator[Sum]:
+    points = max(1, _ROWS_AT_ONCE // len(events))
+    for first in range(0, stored.body.points, points):
+        yield from _of_points(stored, case, events, np.arange(first, min(first + points, stored.body.points)))
+    yield from _of_cycles(stored, len(events))
+    yield from _of_welds(stored)
+
+
+def _of_points(
+    stored: Stored, case: Mapping[str, Any], events: Sequence[Event], points: NDArray[np.int64]
+) -> Iterator[Sum]:
+    """Take columns of points from those of their events, and per km from per pass."""
+    e = len(events)
+    keys = (points[:, None] * e + np.arange(e)).ravel()
+    node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), _NODES))
+    damage = {
+        name: column.reshape(-1, e)
+        for name, column in _columns(read_rows(stored.folder, "damage", stored.damage.of(keys), _DAMAGE)).items()
+    }
+    for name in PER_PASS:
+        length = np.array([np.nan if event.length_km is None else event.length_km for event in events])
+        per_km = damage[f"{name}_per_pass"] / length
+        yield Sum("damage", f"{name}_per_km", damage[f"{name}_per_km"].ravel(), per_km.ravel(), keys)
+
+    mission, weight = case["mission"], np.array([event.passes_per_km for event in events])
+    limit, target = mission.get("damage_limit", 1.0), mission["target_km"]
+    share = weight * damage["damage_per_pass"]
+    total, has_spectrum = share.sum(axis=1), ~np.isnan(damage["damage_dirlik_per_pass"])
+    spectral = {
+        name: np.where(
+            has_spectrum.any(axis=1),
+            np.where(has_spectrum, weight * damage[f"damage_{name}_per_pass"], 0.0).sum(axis=1),
+            np.nan,
+        )
+        for name in ("dirlik", "tb", "same_ratio")
+    }
+    with np.errstate(divide="ignore", invalid="ignore"):
+        expected = {
+            "damage_per_km": total,
+            "life_km": limit / total,
+            "life_years": limit / total / mission["km_per_year"],
+            "utilisation": total * target / limit,
+            "fulfilled": (node["utilisation"] <= 1.0).astype(float),
+            **{f"life_km_{name}": limit / of for name, of in spectral.items()},
+            "dirlik_ratio": np.where(spectral["same_ratio"] > 0.0, spectral["dirlik"] / spectral["same_ratio"], np.nan),
+            "max_range_MPa": damage["max_range_MPa"].max(axis=1),
+        }
+    for name, values in expected.items():
+        yield Sum("nodes", name, node[name].astype(float), values, points)
+
+    numbers = {event.name: i for i, event in enumerate(events)}
+    governing = np.array([numbers.get(name, -1) for name in node["governing_event"].tolist()])
+    named = np.flatnonzero(governing >= 0)  # a bound and a point at rest name none
+    at = governing[named]
+    yield Sum("nodes", "governing_event", share[named, at], share[named].max(axis=1, initial=0.0), points[named])
+    for name in OF_GOVERNING:
+        yield Sum("nodes", name, node[name][named], damage[name][named, at], points[named])
+
+
+def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
+    """Take the damage of a pass from that of its cycles."""
+    cycles = stored.cycles
+    of_run, row = np.zeros(len(cycles.point)), 0
+    for columns in number_groups(stored.folder, "cycles", ["damage"], {}):
+        values = columns["damage"]
+        run = np.searchsorted(cycles.first, row + np.arange(len(values)), side="right") - 1
+        low = run[0] if len(run) else 0
+        held = np.bincount(run - low, values)
+        of_run[low : low + len(held)] += held
+        row += len(values)
+    keys, which = np.unique(cycles.point * events + cycles.event, return_inverse=True)
+    if len(keys):
+        table = read_rows(stored.folder, "damage", stored.damage.of(keys), ["damage_per_pass"])
+        yield Sum("cycles", "damage", np.bincount(which, of_run), _columns(table)["damage_per_pass"], keys)
+
+
+def _of_welds(stored: Stored) -> Iterator[Sum]:
+    """Take the row of a weld from that of its worst point, which no counted point of a toe exceeds."""
+    welds = stored.welds.loc[list(stored.body.welds)]
+    number = np.arange(len(welds))
+    point = worst_of_welds(stored, number)
+    there = point >= 0
+    table = read_rows(stored.folder, "nodes", stored.nodes.of(point[there]), OF_WORST)
+    for name, values in _columns(table).items():
+        yield Sum("welds", name, welds[name].to_numpy()[there], values, number[there])
+    toe, utilisation = toes_and_utilisation(stored)
+    toe &= is_counted(stored)
+    worst = worst_points(stored.body, toe, utilisation)
+    number = number[toe[worst]]
+    yield Sum("welds", "utilisation", welds["utilisation"].to_numpy()[number], utilisation[worst][number], number)
+
+
+def _check(stored: Stored, events: Sequence[Event], one: Sum) -> ColumnCheck:
+    """Find the value of a column that differs most from what it should be."""
+    difference = _differences(one.found, one.expected)
+    worst = int(difference.argmax()) if len(difference) else 0
+    is_any = len(difference) > 0
+    return ColumnCheck(
+        table=one.table + ALL_ROWS,
+        column=one.column,
+        unit=next(column.unit for column in TABLES[one.table] if column.name == one.column),
+        compared=len(difference),
+        difference=float(difference[worst]) if is_any else 0.0,
+        tolerance=TOLERANCE,
+        where=_where(stored, events, one.table, int(one.key[worst])) if is_any else "",
+        found=_plain(one.found[worst]) if is_any else None,
+        expected=_plain(one.expected[worst]) if is_any else None,
+    )
+
+
+def _differences(found: NDArray[Any], expected: NDArray[Any]) -> Floats:
+    """Relative differences, 1 between texts that differ, infinite between a number and none."""
+    if object in (found.dtype, expected.dtype):
+        return np.array(
+            [float(a != b and not (pd.isna(a) and pd.isna(b))) for a, b in zip(found, expected, strict=True)]
+        )
+    found, expected = found.astype(np.float64), expected.astype(np.float64)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        relative = np.abs(found - expected) / np.abs(expected)
+    same = (found == expected) | (np.isnan(found) & np.isnan(expected))
+    return np.where(same, 0.0, np.where(np.isnan(relative), np.inf, relative))
+
+
+def _where(stored: Stored, events: Sequence[Event], table: str, key: int) -> str:
+    if table == "welds":
+        return f"weld {stored.body.welds[key]}"
+    if table == "nodes":
+        return place(stored.body.key(key))
+    return f"{place(stored.body.key(key // len(events)))}, event '{events[key % len(events)].name}'"
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _columns(table: pa.Table) -> dict[str, NDArray[Any]]:
+    """Columns as arrays: numbers with NaN for none, texts with None."""
+    return {name: table.column(name).to_numpy() for name in table.column_names}

@@ -1,0 +1,134 @@
+"""The tables of a result as the recount reads them: where every row is, and the rows of some points."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
+from fatigue.verify.recount.inputs.case import Inputs, Modes
+from fatigue.verify.recount.layout import FACES, Layout, station_finder
+from fatigue.verify.recount.stored.compare import ColumnCheck, compare_keys
+from fatigue.verify.recount.stored.cycles import StoredCycles, find_cycles
+from fatigue.verify.recount.stored.keys import Rows, find_rows
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stored:
+    """The tables of a result: where the rows of points, stations and cycles are, and the small table of welds.
+
+    ``welds`` are the rows of the welds that were assessed, ``left_out`` the others.
+    """
+
+    folder: Path
+    body: Layout
+    nodes: Rows
+    damage: Rows
+    stress: Rows
+    cycles: StoredCycles
+    welds: pd.DataFrame
+    left_out: pd.DataFrame
+
+    @property
+    def keys(self) -> list[ColumnCheck]:
+        """Checks that every table has the rows it should have."""
+        checks = [self.nodes.check, self.damage.check, self.stress.check]
+        checks.append(compare_keys("welds", self.welds.index, list(self.body.welds)))
+        return checks if self.cycles.strangers.passed else [*checks, self.cycles.strangers]
+
+
+def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes) -> Stored:
+    """Find the rows of all tables of a result.
+
+    Raises
+    ------
+    DataError : a table is missing or damaged
+    """
+    welds = read_table(folder, "welds", [column.name for column in TABLES["welds"]]).to_pandas().set_index("weld")
+    is_assessed = welds["status"] == "assessed"
+    return Stored(
+        folder=folder,
+        body=body,
+        nodes=find_rows(folder, "nodes", body, {"surface": FACES}),
+        damage=find_rows(folder, "damage", body, {"surface": FACES, "event": events}),
+        stress=find_rows(folder, "structural_stress", body, {"mode": modes.mode.tolist()}),
+        cycles=find_cycles(folder, body, events),
+        welds=welds[is_assessed],
+        left_out=welds[~is_assessed],
+    )
+
+
+def left_out_check(stored: Stored, inputs: Inputs) -> list[ColumnCheck]:
+    """Compare why welds are not assessed with what the register says; nothing where all are."""
+    expected, found = Counter(inputs.register.left_out), Counter(stored.left_out["reason"].fillna("").tolist())
+    if not expected and not found:
+        return []
+    astray = list(((expected - found) + (found - expected)).elements())
+    return [
+        ColumnCheck(
+            table="welds",
+            column="reason",
+            unit="rows",
+            compared=expected.total(),
+            difference=float(len(astray)),
+            tolerance=0.5,  # rows
+            where=f"first {astray[0]}" if astray else "",
+            found=found.total(),
+            expected=expected.total(),
+        )
+    ]
+
+
+def rows_of(stored: Stored, table: str, rows: NDArray[np.integer]) -> list[dict[str, Any]]:
+    """Read rows of a table by their numbers."""
+    found: list[dict[str, Any]] = read_rows(stored.folder, table, rows).to_pandas().to_dict("records")
+    return found
+
+
+def toes_and_utilisation(stored: Stored) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Read whether each point is at a toe, and its utilisation, (p,) each."""
+    table = read_table(stored.folder, "nodes", ["toe", "utilisation"])
+    return stored.nodes.in_order(table["toe"].to_numpy()), stored.nodes.in_order(table["utilisation"].to_numpy())
+
+
+def is_counted(stored: Stored) -> NDArray[np.bool_]:
+    """Read whether each point was counted and does not stand for a bound, (p,)."""
+    tier, names = read_codes(stored.folder, "nodes", "screened")
+    return stored.nodes.in_order(np.array([name == "" for name in [*names, ""]])[tier])
+
+
+def governing_points(stored: Stored) -> NDArray[np.int64]:
+    """Find the points whose cycles are in the table; of a weld without any, the worst point of its row."""
+    points = stored.cycles.points()
+    bare = np.setdiff1d(np.arange(len(stored.body.welds)), stored.body.weld[points // 2])
+    worst = worst_of_welds(stored, bare)
+    return np.union1d(points, worst[worst >= 0]).astype(np.int64)
+
+
+def worst_of_welds(stored: Stored, welds: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Find the points that the rows of some welds name as the worst; -1 where there is no such point."""
+    named = stored.welds.loc[[stored.body.welds[weld] for weld in welds]]
+    station = station_finder(stored.body)(welds, named["worst_part"].to_numpy(), named["worst_order"].to_numpy())
+    face = np.array([FACES.index(surface) if surface in FACES else -1 for surface in named["worst_surface"]], dtype=int)
+    return np.where((station >= 0) & (face >= 0), 2 * station + face, -1)
+
+
+def with_cycles(stored: Stored, governing: NDArray[np.int64], record: Mapping[str, Any]) -> frozenset[int]:
+    """Points of which the table has to have the cycles: those of welds from some utilisation on."""
+    utilisation = stored.welds["utilisation"].loc[list(stored.body.welds)].to_numpy()
+    of_point = utilisation[stored.body.weld[governing // 2]]
+    return frozenset(governing[of_point >= record["rules"]["cycles_kept_from_utilisation"]].tolist())
+
+
+def fastest_peaks(folder: Path, inputs: Inputs, events: Sequence[str]) -> list[float]:
+    """Highest peak rate of all points in every event [1/s]; 0 where nobody asks for it or there is none."""
+    highest = np.zeros(len(events))
+    if inputs.case.get("counting", {}).get("upsample") == "auto":
+        for columns in number_groups(folder, "damage", ["peaks_per_s"], {"event": events}):
+            np.maximum.at(highest, columns["event"], np.nan_to_num(columns["peaks_per_s"]))
+    return highest.tolist()

@@ -1,0 +1,401 @@
+"""The fast counter against the double precision one, the `rainflow` package and its own plain loops."""
+
+import importlib.util
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+import pytest
+import rainflow as oracle
+from numba import njit
+from numpy.typing import NDArray
+
+from fatigue.errors import CaseError, NumericalError
+from fatigue.life.counting.rainflow import BlockCount, count_block
+from fatigue.life.counting.single import count as counter
+from fatigue.life.counting.single import loops, run, state
+from fatigue.life.counting.single.count import count_block_fast, record_of
+from fatigue.life.counting.single.state import SIDE
+from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
+from fatigue.life.records.spool import create_spool
+
+Floats = NDArray[np.float64]
+
+STEEL = damage_law(catalogue()["master-steel"], "mean-2sigma", "none", 1e7)
+ALUMINIUM = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7)
+HAIBACH = damage_law(catalogue()["master-steel"], "mean-2sigma", "haibach", 1e7)
+PLAIN_CUBE = damage_law(user_curve("class", (3.0,), (), 90.0, "structural", "test"), None, "none", 1e7)
+STEEP = damage_law(user_curve("class", (15.0,), (), 90.0, "structural", "test"), None, "none", 1e7)
+
+RESIDUES = ("half", "repeat")
+vector_instructions = pytest.mark.skipif(
+    importlib.util.find_spec("fatigue.life.counting.single.simd") is None, reason="without vector instructions"
+)
+
+
+KINDS = (
+    *("ties", "held", "clipped", "growing", "decaying", "zigzag", "wrapping plateau", "constant", "spike", "tiny"),
+    *("huge", "far from zero", "flat extremes", "sine", "noise"),
+)
+
+
+def adversarial(rng: np.random.Generator, kind: str, t: int) -> Floats:
+    """Draw one history of a kind that counters fail on."""
+    integers = rng.integers(-4, 5, t).astype(float)
+    time = np.arange(t)
+    return {
+        "ties": integers,
+        "held": np.repeat(integers, rng.integers(1, 4, t))[:t],
+        "clipped": np.clip(np.cumsum(rng.integers(-2, 3, t)), -5, 5).astype(float),
+        "growing": rng.normal(size=t) * np.linspace(0, 1, t),
+        "decaying": np.cos(1.3 * time) * np.exp(-2.0 * time / t),
+        "zigzag": (time + 1.0) * (-1.0) ** time,
+        "wrapping plateau": np.where(time < t // 3, 5.0, np.where(time > t - t // 4, 5.0, integers)),
+        "constant": np.full(t, 3.7),
+        "spike": np.where(time == t // 2, 1e3, 1e-3 * rng.normal(size=t)),
+        "tiny": 1e-30 * rng.normal(size=t),
+        "huge": 1e12 * rng.normal(size=t),
+        "far from zero": 1e4 + np.round(rng.normal(size=t), 2),
+        "flat extremes": np.sin(0.01 * time) + 1e-9 * rng.normal(size=t),
+        "sine": 10.0 * np.sin(2 * np.pi * time / 40),
+        "noise": rng.normal(size=t),
+    }[kind]
+
+
+def block_of(rng: np.random.Generator, kind: str, points: int, t: int) -> tuple[Floats, Floats, Floats]:
+    """Shapes and modal coordinates of points each of which has a membrane and a bending history of its own."""
+    histories = [adversarial(rng, kind, t) for _ in range(2 * points)]
+    both = np.eye(2 * points)
+    return both[:points], both[points:], np.array(histories)
+
+
+def modal_block(seed: int, points: int = 40, modes: int = 12, t: int = 3000) -> tuple[Floats, Floats, Floats]:
+    """Shapes and smooth modal coordinates of resonances, some points with nearly cancelling faces."""
+    rng = np.random.default_rng(seed)
+    spectrum = rng.normal(size=(modes, t // 2 + 1)) + 1j * rng.normal(size=(modes, t // 2 + 1))
+    f = np.fft.rfftfreq(t)
+    q = np.fft.irfft(spectrum / (1 - (f / np.linspace(0.01, 0.18, modes)[:, None]) ** 2 + 0.06j) * (f < 0.25), t)
+    q = q / q.std(axis=1, keepdims=True) + rng.normal(size=(modes, 1))
+    S_m = rng.normal(size=(points, modes)) * np.exp(2 * rng.normal(size=(points, 1)))
+    S_b = rng.normal(size=(points, modes)) * np.exp(2 * rng.normal(size=(points, 1)))
+    S_b[:3] = -S_m[:3] * (1 + 1e-3 * rng.normal(size=(3, modes)))
+    S_b[3], S_m[4], S_b[5] = 0.0, 0.0, S_m[5]
+    S_m[6] = S_b[6] = 0.0
+    return S_m, S_b, q
+
+
+def both_counts(
+    S_m: Floats, S_b: Floats, q: NDArray[np.floating], law: DamageLaw = ALUMINIUM, **choices: object
+) -> tuple[BlockCount, BlockCount]:
+    """Count fast and in double precision."""
+    rules = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False} | choices
+    rng = np.random.default_rng(len(S_m))
+    size, ratio = rng.uniform(1, 2, len(S_m)), rng.uniform(0, 1, (len(S_m), 2))
+    fast = count_block_fast(S_m, S_b, record_of(q), size, ratio, law, **rules)
+    return fast, count_block(S_m @ q, S_b @ q, size, ratio, law, **rules)
+
+
+def assert_same(fast: BlockCount, exact: BlockCount, rtol: float = 1e-6) -> None:
+    """Every field agrees, and is NaN at the same places."""
+    for name in BlockCount.__slots__:
+        a, b = getattr(fast, name), getattr(exact, name)
+        scale = np.abs(exact.max_range) + np.abs(exact.mean) if name in ("mean", "max_range") else 0.0
+        limit = rtol * (np.abs(b) + scale)
+        bad = ~((np.abs(a - b) <= limit) | (np.isnan(a) & np.isnan(b)))
+        if name == "r_largest":  # the quotient of two stresses is only as good as the smaller one
+            bad &= np.abs(a - b) > rtol * (1.0 + np.abs(b)) ** 2
+        assert not bad.any(), (name, a[bad][:3], b[bad][:3])
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_adversarial_histories_count_as_in_double_precision(kind: str, residue: str) -> None:
+    """Every field, in histories of some hundred samples."""
+    rng = np.random.default_rng(KINDS.index(kind))
+    for t in (512, 515, 528, 900):
+        assert_same(*both_counts(*block_of(rng, kind, 40, t), residue=residue))
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_short_adversarial_histories(kind: str, residue: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same cycles in histories from 2 samples on; so few do not average rounding out."""
+    monkeypatch.setattr(counter, "SHORTEST", 2)
+    rng = np.random.default_rng(KINDS.index(kind))
+    for t in (2, 3, 4, 5, 7, 16, 17, 33, 64, 150):
+        fast, exact = both_counts(*block_of(rng, kind, 40, t), residue=residue)
+        np.testing.assert_array_equal(fast.cycles, exact.cycles)
+        np.testing.assert_allclose(fast.damage, exact.damage, rtol=2e-5, atol=1e-12 * exact.damage.max())
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("law", [STEEL, ALUMINIUM, PLAIN_CUBE])
+def test_modal_stress_counts_as_in_double_precision(law: DamageLaw, residue: str) -> None:
+    """Smooth stress of resonances, whose extremes single precision alone cannot always tell."""
+    for seed in range(5):
+        S_m, S_b, q = modal_block(seed)
+        choices = {"residue": residue, "uses_bending_ratio": law is not PLAIN_CUBE, "yield_MPa": 1e9}
+        assert_same(*both_counts(S_m, S_b, q.astype(np.float32), law, **choices))
+
+
+def test_a_thousand_points_of_one_event() -> None:
+    """Largest and median error of the damage, over points whose stresses differ by orders of magnitude."""
+    S_m, S_b, q = modal_block(11, points=1000, t=2048)
+    fast, exact = both_counts(S_m, S_b, q.astype(np.float32))
+    error = np.abs(fast.damage / np.maximum(exact.damage, 1e-300) - 1.0)[exact.damage > 0.0]
+    assert error.max() < 1e-6
+    assert np.median(error) < 1e-7
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("kind", ["ties", "held", "growing", "zigzag", "wrapping plateau", "constant", "noise"])
+def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Chunks of 32 samples, and no room for long residues, count what one chunk counts."""
+    monkeypatch.setattr(counter, "SHORTEST", 2)
+    monkeypatch.setattr(counter, "CHUNK", 32)
+    monkeypatch.setattr(counter, "RESIDUE", 80)
+    rng = np.random.default_rng(KINDS.index(kind))
+    for t in (2, 3, 8, 50, 400):
+        fast, exact = both_counts(*block_of(rng, kind, 20, t), residue=residue)
+        np.testing.assert_array_equal(fast.cycles, exact.cycles)
+        np.testing.assert_allclose(fast.damage, exact.damage, rtol=2e-5, atol=1e-12 * exact.damage.max())
+
+
+def test_the_number_of_points_does_not_matter() -> None:
+    """The bytes of a row are the same alone and among others, whatever was counted again."""
+    S_m, S_b, q = modal_block(3, points=300, t=600)
+    size, ratio = np.ones(300), np.full((300, 2), 0.3)
+    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
+    record = record_of(q.astype(np.float32))
+    whole = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    part = slice(128, 256)
+    alone = count_block_fast(S_m[part], S_b[part], record, size[part], ratio[part], ALUMINIUM, **choices)
+    assert alone.damage.tobytes() == whole.damage[part].tobytes()
+
+
+class Slices:
+    """Modal coordinates of which only some samples can be had at a time, as of a file."""
+
+    def __init__(self, q: NDArray[np.floating]) -> None:
+        self.q, self.shape, self.dtype = q, q.shape, q.dtype
+
+    def __getitem__(self, part: tuple[slice, slice]) -> NDArray[np.floating]:
+        """Give all modes at up to 10 000 samples."""
+        modes, samples = part
+        assert modes == slice(None)
+        assert samples.stop - samples.start <= 10_000
+        return np.ascontiguousarray(self.q[part])
+
+
+@pytest.mark.parametrize("yield_MPa", [None, 30.0])
+def test_modal_coordinates_need_not_be_in_memory(yield_MPa: float | None, tmp_path: Path) -> None:
+    """Slices of bounded length are enough, also for what is counted in double precision, and count the same bytes."""
+    S_m, S_b, q = modal_block(4, points=150, t=20_100)
+    size, ratio = np.ones(150), np.full((150, 2), 0.3)
+    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": yield_MPa, "mean_stress": False}
+    record = record_of(q.astype(np.float32))
+    on_disk = create_spool(tmp_path / "q", q.shape, np.dtype(np.float32))
+    of_slices = replace(record_of(record.exact, on_disk), exact=Slices(record.exact))
+    array, slices = (count_block_fast(S_m, S_b, r, size, ratio, ALUMINIUM, **choices) for r in (record, of_slices))
+    for name in BlockCount.__slots__:
+        np.testing.assert_array_equal(getattr(array, name), getattr(slices, name))
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("points", [3, 150])
+def test_compiled_and_interpreted_loop_count_the_same_bytes(
+    points: int, residue: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Over several chunks and pieces, the last ones shorter, and with what is in doubt."""
+    S_m, S_b, q = modal_block(9, points=max(points, 7), t=9000)
+    S_m, S_b = S_m[-points:], S_b[-points:]
+    size, ratio, record = np.ones(points), np.full((points, 2), 0.3), record_of(q.astype(np.float32))
+    choices = {"uses_bending_ratio": True, "residue": residue, "yield_MPa": None, "mean_stress": False}
+    compiled = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    monkeypatch.setattr(counter, "count_in_memory", run.count_record)
+    interpreted = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    for name in BlockCount.__slots__:
+        np.testing.assert_array_equal(getattr(compiled, name), getattr(interpreted, name))
+
+
+def test_few_surfaces_are_counted_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nearly all of what rounding may have decided is settled within its chunk."""
+    S_m, S_b, q = modal_block(7, points=500, t=20_000)
+    size, ratio, record = np.ones(500), np.full((500, 2), 0.3), record_of(q.astype(np.float32))
+    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
+    again, in_doubt = [], []
+    count, exactly = counter._count, run.count_chunk_exactly
+
+    def counting(block: object, wanted: NDArray[np.bool_], *rest: object) -> NDArray[np.void]:
+        again.append(int(wanted.sum()))
+        return count(block, wanted, *rest)
+
+    def settling(*args: Any) -> None:
+        in_doubt.append(len(args[-1]))
+        exactly(*args)
+
+    monkeypatch.setattr(counter, "_count", counting)
+    monkeypatch.setattr(run, "count_chunk_exactly", settling)
+    monkeypatch.setattr(counter, "count_in_memory", run.count_record)
+    count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    assert sum(in_doubt) > 5
+    assert again[1:] == [4]  # the faces that nearly cancel, with which single precision is not trusted
+
+
+@pytest.mark.parametrize("residue", RESIDUES)
+@pytest.mark.parametrize("chunk", [32, 4096])
+def test_a_chunk_in_doubt_counts_as_in_double_precision(
+    chunk: int, residue: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Chunks of some points taken for doubtful at random, so that both ways follow each other; with mean stresses."""
+    monkeypatch.setattr(counter, "CHUNK", chunk)
+    count, rng = run.count_chunk, np.random.default_rng(3)
+
+    def doubting(stress: Any, samples: Any, stage: Any, law: Any, state: Any, room: Any, doubts: Any) -> int:
+        sides, waiting = state.sides.copy(), state.waiting.copy()
+        found = count(stress, samples, stage, law, state, room, doubts)
+        if stress.dtype == np.float64:  # counted again as a whole
+            return found
+        some = (rng.random(sides.shape) < 0.5) & ~sides["doubtful"]
+        some[tuple(doubts[:found].T)] = True
+        for name in set(SIDE.names) - {"second", "fourth"}:
+            state.sides[name][some] = sides[name][some]
+        state.waiting[some] = waiting[some]
+        chosen = np.argwhere(some)
+        doubts[: len(chosen)] = chosen
+        return len(chosen)
+
+    monkeypatch.setattr(run, "count_chunk", doubting)
+    monkeypatch.setattr(counter, "count_in_memory", run.count_record)
+    for seed in range(3):
+        S_m, S_b, q = modal_block(seed, t=900)
+        assert_same(*both_counts(S_m, S_b, (q + 5.0).astype(np.float32), residue=residue))
+    for kind in ("held", "growing", "zigzag", "far from zero", "noise"):
+        assert_same(*both_counts(*block_of(rng, kind, 20, 600), residue=residue))
+
+
+@pytest.mark.parametrize("kind", ["noise", "growing", "sine"])
+def test_half_is_the_damage_of_the_rainflow_package(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sum of n S^3 without bending, against an independent counter."""
+    monkeypatch.setattr(counter, "SHORTEST", 2)
+    rng = np.random.default_rng(1)
+    for t in (50, 333):
+        s = adversarial(rng, kind, t)
+        fast, _ = both_counts(np.ones((1, 1)), np.zeros((1, 1)), s[None], PLAIN_CUBE, residue="half")
+        cycles = list(oracle.extract_cycles(s.tolist()))
+        assert fast.cycles[0, 0] == sum(n for _, _, n, _, _ in cycles)
+        assert fast.power_sum[0, 0] == pytest.approx(sum(n * S**3 for S, _, n, _, _ in cycles), rel=2e-6)
+
+
+@pytest.mark.parametrize("law", [HAIBACH, STEEP])
+def test_laws_with_knees_and_very_steep_ones_are_counted_in_double_precision(law: DamageLaw) -> None:
+    """To rounding errors."""
+    assert_same(*both_counts(*modal_block(1, points=20, t=600), law), rtol=1e-10)
+
+
+@pytest.mark.parametrize("mean_stress", [False, True])
+def test_points_in_high_mean_tension_have_the_mean_stress_factor(mean_stress: bool) -> None:
+    """Where a cycle may reach the tension at which f_M begins; elsewhere both damages are the same."""
+    S_m, S_b, q = modal_block(2, points=20, t=600)
+    fast, exact = both_counts(S_m, S_b, q + 3.0, yield_MPa=30.0, mean_stress=mean_stress)
+    assert_same(fast, exact)
+    assert (exact.damage_mean_stress > 1.01 * exact.damage).any() != mean_stress
+    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": True}
+    with pytest.raises(CaseError, match="f_M needs the yield stress"):
+        count_block_fast(S_m, S_b, record_of(q), np.ones(20), np.zeros((20, 2)), STEEL, **rules)
+
+
+def test_what_is_not_finite_is_refused() -> None:
+    """A sample of a modal coordinate, and a stress shape."""
+    S_m, S_b, q = modal_block(1, points=20, t=600)
+    spoilt = q.copy()
+    spoilt[2, 17] = np.nan
+    with pytest.raises(NumericalError, match="sample 17 of modal coordinate 2"):
+        record_of(spoilt)
+    S_b[3, 0] = np.inf
+    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": False}
+    with pytest.raises(NumericalError, match="row 3 of the block: the stress is NaN or infinite"):
+        count_block_fast(S_m, S_b, record_of(q), np.ones(20), np.zeros((20, 2)), STEEL, **rules)
+
+
+# ------------------------------------------------------------------------------------------------ vectors
+
+
+def room_for(samples: int, precision: type[np.floating]) -> state.Room:
+    """Work space filled with numbers that must not be read."""
+    room = state.room_for(samples, 0, precision)
+    for array in room:
+        array[:] = 7
+    return room
+
+
+@vector_instructions
+@pytest.mark.parametrize(("width", "precision"), [(512, np.float32), (512, np.float64), (256, np.float32)])
+def test_vector_instructions_do_what_the_plain_loops_do(
+    width: int, precision: type[np.floating], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Reversals, closed ranges and doubts, bit for bit, for every kind of history and both surfaces."""
+    from fatigue.life.counting.single import simd  # noqa: PLC0415
+
+    if width > simd.vector_bits():
+        pytest.skip("not on this processor")
+    monkeypatch.setattr(simd, "WIDTH", width)
+
+    def compiled_now(function: Callable[..., object]) -> Callable[..., object]:
+        plain: FunctionType = function.py_func  # type: ignore[attr-defined]
+        return njit(plain)
+
+    write, close = compiled_now(simd.write_reversals), compiled_now(simd.close_pass)
+    rng = np.random.default_rng(5)
+    flat = np.float32(1e-3)
+    for kind in KINDS:
+        for t in (2, 9, 17, 40, 333):
+            m, b = (np.pad(adversarial(rng, kind, t), (0, state.PAD), "edge").astype(precision) for _ in "mb")
+            for side in (np.float32(1.0), np.float32(-1.0)):
+                rooms = [room_for(t, precision) for _ in range(2)]
+                found = [
+                    f(m, b, side, flat, t, 1, r, 0) for f, r in zip((loops.write_reversals, write), rooms, strict=True)
+                ]
+                assert found[0] == found[1]
+                n = found[0][0]
+                closed = [f(r, n, 0, flat) for f, r in zip((loops.close_pass, close), rooms, strict=True)]
+                assert closed[0] == closed[1]
+                left, cycles, _ = closed[0]
+                for row, length in enumerate((left, left, cycles, cycles)):
+                    a, c = (room.numbers[row, :length] for room in rooms)
+                    np.testing.assert_array_equal(a.view(np.uint8), c.view(np.uint8))
+
+
+@vector_instructions
+def test_the_product_in_tiles_is_the_product() -> None:
+    """For numbers of rows, modes and samples that fill no tile, and for part of a longer record."""
+    from fatigue.life.counting.single import simd  # noqa: PLC0415
+
+    if simd.vector_bits() < 512:
+        pytest.skip("not on this processor")
+    rng = np.random.default_rng(0)
+    for rows, modes, samples in ((1, 1, 1), (12, 60, 64), (25, 7, 100), (96, 3, 31)):
+        shapes = rng.normal(size=(rows, modes)).astype(np.float32)
+        q = rng.normal(size=(modes, samples + 50)).astype(np.float32)[:, 13 : 13 + samples]
+        stress = np.full((-(-rows // 12) * 12, 1 + -(-samples // 32) * 32), 7.0, np.float32)
+        panels = simd.lay_out(q, simd.panels_for(modes, samples + 40))
+        simd.multiply(simd.tiles_of(shapes), panels, stress)
+        exact = shapes.astype(np.float64) @ q
+        limit = modes * 2.0**-24 * (np.abs(shapes).astype(np.float64) @ np.abs(q))
+        assert (np.abs(stress[:rows, 1 : samples + 1] - exact) <= limit).all()
+        assert not stress[rows:, 1:].any()
+        assert not stress[:, samples + 1 :].any()
+        assert (stress[:, 0] == 7.0).all()
+
+
+@vector_instructions
+def test_the_plain_loops_are_used_where_there_are_no_vectors(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the processor numba compiles for, not of the one it runs on."""
+    from fatigue.life.counting.single import simd  # noqa: PLC0415
+
+    for features, bits in (("", 0), ("+sse2", 0), ("+avx2,+fma", 256), ("+avx2,+avx512f", 512)):
+        monkeypatch.setattr(simd.config, "CPU_FEATURES", features)
+        assert simd.vector_bits() == bits

@@ -1,0 +1,232 @@
+"""Records of events: what is refused, what is doubted, and what an event brings to every station."""
+
+import pickle
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from fatigue.case import load_case
+from fatigue.errors import DataError, FatigueError
+from fatigue.life.counting.single.product import prepared_samples, space_for_samples
+from fatigue.life.curves import catalogue, damage_law
+from fatigue.life.records import spool
+from fatigue.life.records.history import ModalHistory
+from fatigue.life.records.spool import Spool
+from fatigue.pipeline.count.event_block import EventBlock
+from fatigue.pipeline.mission import events
+from fatigue.pipeline.mission.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
+from fatigue.pipeline.solve.body import read_body
+from fatigue.pipeline.solve.modal_stress import Shapes
+from fatigue.pipeline.solve.weld_groups import weld_groups
+from tests.one_event import assess_event_block
+from tests.small_case import small_case
+
+
+def body_of(case, folder):
+    """Read the small files of a case."""
+    return read_body(load_case(case.write(folder)), strict=False)
+
+
+def test_passes_of_the_small_case(tmp_path):
+    """Length = speed x kept samples x step; an event by number has none."""
+    plan, _ = mission_plan(body_of(small_case(), tmp_path))
+    assert [p.samples for p in plan.passes] == [2400, 2200, 2]
+    assert [p.length for p in plan.passes[:2]] == pytest.approx([180 / 3600 * 12.0, 360 / 3600 * 11.0])
+    assert plan.passes[2].length is None
+    assert plan.passes[1].passes_per_km == pytest.approx(0.25 / 1.1)
+
+
+def test_length_decides_where_speed_agrees(tmp_path):
+    """Both given and within 1e-3: the length is used as it stands."""
+    case = small_case()
+    case.events[0]["length_km"] = 0.6005
+    plan, _ = mission_plan(body_of(case, tmp_path))
+    assert plan.passes[0].length == 0.6005
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda c: c.events[0].update(length_km=0.61), "length_km = 0.61 of event 'sine' is not speed_km_h = 180"),
+        (
+            lambda c: c.events[1].update(start_s=11.999),
+            "start_s = 11.999 leaves 0 samples of noise.csv, which lasts 12 s",
+        ),
+        (lambda c: c.histories["noise"].__setitem__("q_2", "x"), "noise.csv: column q_2, row 1: 'x' is not a number"),
+        (lambda c: c.histories["noise"].pop("q_7"), "noise.csv"),
+    ],
+)
+def test_bad_records_are_refused(tmp_path, change, message):
+    """Place, value and remedy."""
+    case = small_case()
+    change(case)
+    with pytest.raises(FatigueError) as error:
+        mission_plan(body_of(case, tmp_path))
+    assert message in str(error.value)
+
+
+def test_mistakes_of_several_records_are_told_together(tmp_path):
+    """Two bad files, two lines."""
+    case = small_case()
+    case.histories["sine"].loc[3, "q_1"] = np.nan
+    case.histories["noise"].loc[4, "q_1"] = np.nan
+    with pytest.raises(FatigueError) as error:
+        mission_plan(body_of(case, tmp_path))
+    assert [p.where for p in error.value.problems] == ["sine.csv: column q_1, row 4", "noise.csv: column q_1, row 5"]
+
+
+def test_times_in_ms_are_refused_for_every_event(tmp_path):
+    """Before its length is compared with the record; a load case typed in by hand may have any times."""
+    case = small_case()
+    for name in ("sine", "noise"):
+        case.histories[name]["time_s"] *= 1000.0
+    case.histories["load"]["time_s"] *= 1000.0
+    case.events[0]["length_km"] = 0.6
+    with pytest.raises(DataError) as error:
+        mission_plan(body_of(case, tmp_path))
+    assert [p.where for p in error.value.problems] == ["sine.csv: column time_s", "noise.csv: column time_s"]
+    assert [p.code for p in error.value.problems] == ["long_step", "long_step"]
+
+
+def test_a_step_far_too_short_is_a_doubt(tmp_path):
+    """Times in hours."""
+    case = small_case()
+    case.histories["sine"]["time_s"] /= 3600.0
+    _, warnings = mission_plan(body_of(case, tmp_path))
+    assert [w.where for w in warnings if w.code == "short_step"] == ["sine.csv: column time_s"]
+
+
+def test_few_segments_and_no_spectrum_are_doubts(tmp_path):
+    """Told with the numbers."""
+    case = small_case(seconds=3.0)
+    _, warnings = mission_plan(body_of(case, tmp_path))
+    assert {w.code for w in warnings} == {"few_segments", "no_spectrum"}
+    assert any("an average of 5 segments of 1 s" in w.what for w in warnings)
+    assert [w.where for w in warnings if w.code == "no_spectrum"] == ["event 'load and unload'"]
+
+
+def test_upper_frequency(tmp_path):
+    """As given; else the lower of 0.4 of the sampling rate and 1.5 times the highest normal mode."""
+    case = small_case()
+    body = body_of(case, tmp_path / "a")
+    assert top_mode_hz(body) == 12.0
+    assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.005, 0.0)) == pytest.approx(18.0)
+    assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.04, 0.0)) == pytest.approx(10.0)
+    case.spectrum["upper_hz"] = 33.0
+    assert upper_hz(body_of(case, tmp_path / "b"), ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.1, 0.0)) == 33.0
+
+
+def test_event_load_statistics(tmp_path):
+    """Mean and covariance of the kept samples; residue by kind of event."""
+    case = small_case()
+    body = body_of(case, tmp_path)
+    load = event_load(body, body.case.mission.event[1], 1)
+    q = case.histories["noise"].iloc[200:][["q_1", "q_2", "q_7"]].to_numpy().T
+    assert load.mean == pytest.approx(q.mean(axis=1))
+    assert load.covariance == pytest.approx(np.cov(q, bias=True), rel=1e-9)
+    assert load.residue == "repeat"
+    assert event_load(body, body.case.mission.event[2], 1).residue == "half"
+    assert load.duration == pytest.approx(11.0)
+
+
+def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
+    """A sine at 4.5 Hz sampled at 25 Hz needs a factor of 4; a record without spectrum stays as it is."""
+    case = small_case()
+    t = np.arange(300) * 0.04
+    case.histories["sine"] = pd.DataFrame({"time_s": t, "q_1": np.sin(2 * np.pi * 4.5 * t), "q_2": 0.0, "q_7": 0.0})
+    case.counting["upsample"] = "auto"
+    case.spectrum["segment_s"] = 2.0
+    body = body_of(case, tmp_path / "case")
+    loads = event_loads(weld_groups(body, tmp_path / "scratch"), mission_plan(body)[0])
+    assert loads[0].counted.step == pytest.approx(0.01)
+    assert loads[2].counted.step == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("upsample", [1, 2, "auto"])
+def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypatch, upsample):
+    """Statistics, spectra and diagnosis to 1e-12, for the fast kernel too; the counted samples exactly."""
+    case = small_case()
+    case.counting["upsample"] = upsample
+    body = body_of(case, tmp_path / "case")
+    groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body)
+    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0)
+    held = event_loads(groups, plan, tmp_path / "histories")
+    monkeypatch.setattr(events, "HELD_BYTES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.event_load.HELD_SINGLE", 0.0)
+    monkeypatch.setattr(spool, "CHUNK", 512)
+    monkeypatch.setattr(spool, "AT_ONCE", 600)
+    monkeypatch.setattr("fatigue.spectrum.moments.NUMBERS_AT_ONCE", 1000)
+    monkeypatch.setattr("fatigue.spectrum.whole_record.NUMBERS_AT_ONCE", 60)
+    for a, b in zip(held, event_loads(groups, plan, tmp_path / "histories"), strict=True):
+        assert not isinstance(a.counted.q, Spool)
+        assert isinstance(b.counted.q, Spool)
+        assert isinstance(b.single.q, Spool)
+        np.testing.assert_array_equal(np.asarray(b.counted.q), a.counted.q)
+        laid_out = prepared_samples(np.asarray(b.single.q), space_for_samples(*b.single.q.shape, np.float32))
+        np.testing.assert_allclose(laid_out, a.single.q, rtol=1e-6, atol=1e-6)
+        assert (b.counted.step, b.counted.start, b.duration) == (a.counted.step, a.counted.start, a.duration)
+        pairs = [(a.mean, b.mean), (a.covariance, b.covariance)]
+        if a.moments is not None:
+            pairs += [(a.moments.matrix, b.moments.matrix)]
+            pairs += [(getattr(a.diagnosis.record, x), getattr(b.diagnosis.record, x)) for x in ("slow", "lines")]
+            pairs += [
+                (x.forms[: x.periods + 1], y.forms[: y.periods + 1])
+                for x, y in [(a.diagnosis.periods, b.diagnosis.periods)]
+            ]
+        for mine, theirs in pairs:
+            close = 1e-6 if mine.dtype == np.float32 else 1e-12
+            np.testing.assert_allclose(theirs, mine, rtol=close, atol=close * max(1.0, np.abs(mine).max()))
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_the_number_of_threads_does_not_matter(tmp_path, monkeypatch, single):
+    """Events prepared side by side are the same, byte for byte, as one after the other."""
+    body = body_of(small_case(), tmp_path / "case")
+    groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body, threads=1)
+    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0 if single else np.inf)
+    one, two, three = (pickle.dumps(event_loads(groups, plan, tmp_path / "histories", n)) for n in (1, 2, 3))
+    assert one == two == three
+    assert mission_plan(body, threads=3)[0] == plan
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_the_first_event_that_overflows_is_named(tmp_path, threads):
+    """Whichever thread finds one first; a thread refuses numbers beyond double precision as the caller would."""
+    case = small_case()
+    for name in ("sine", "noise"):
+        case.histories[name]["q_1"] *= 1e200
+    body = body_of(case, tmp_path / "case")
+    groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body)
+    with pytest.raises(FatigueError, match=f"event '{body.case.mission.event[0].name}' are so large"):
+        event_loads(groups, plan, threads=threads)
+
+
+def test_the_shortest_records_are_held_in_memory(tmp_path, monkeypatch):
+    """As many as fit together; without a folder for the others, all of them."""
+    body = body_of(small_case(), tmp_path / "case")
+    groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body)
+    monkeypatch.setattr(events, "HELD_BYTES", 4 * 3 * (2200 + 2))
+    loads = event_loads(groups, plan, tmp_path / "histories")
+    assert [isinstance(load.counted.q, Spool) for load in loads] == [True, False, False]
+    assert not any(isinstance(load.counted.q, Spool) for load in event_loads(groups, plan))
+
+
+@pytest.mark.parametrize("extension", ["none", "haibach"])
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_path, monkeypatch, number, extension):
+    """Every number of a sine, of noise and of two samples, with and without a knee; the kurtosis to 1e-9."""
+    case = small_case()
+    body = body_of(case, tmp_path / "case")
+    event = body.case.mission.event[number]
+    law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
+    S = np.random.default_rng(2).normal(size=(4, 5, 3))
+    shapes = Shapes(*S, size=np.full(5, 1.5), law=law, uses_bending_ratio=True)
+    held = assess_event_block(shapes, event_load(body, event, 2), 40.0, mean_stress=True)
+    monkeypatch.setattr(spool, "CHUNK", 512)
+    spooled = event_load(body, event, 2, scratch=tmp_path / "histories")
+    assert isinstance(spooled.counted.q, Spool)
+    found = assess_event_block(shapes, spooled, 40.0, mean_stress=True)
+    for name in EventBlock.__slots__:
+        close = 1e-9 if name == "kurtosis" else 1e-12
+        np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=close, atol=1e-13, err_msg=name)

@@ -1,0 +1,92 @@
+"""Every cycle of the worst points, against each point counted for itself."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fatigue.case import load_case
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.records.history import ModalHistory
+from fatigue.pipeline.solve.model import read_model
+from fatigue.pipeline.tables import cycles
+from fatigue.pipeline.tables.register import WorstPoint
+from tests.small_case import small_case
+
+POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
+
+
+def kept(model):
+    """What the cycles of the points need."""
+    return [cycles.kept_point(model, point) for point in POINTS]
+
+
+class OnlySlices:
+    """Modal coordinates that are never there as a whole."""
+
+    def __init__(self, q):
+        self._q, self.shape, self.dtype = q, q.shape, q.dtype
+
+    def __getitem__(self, part):
+        """Give some samples of all modes."""
+        assert part[0] == slice(None)
+        return self._q[part]
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory):
+    """The solved small case."""
+    return read_model(load_case(small_case().write(tmp_path_factory.mktemp("case"))), strict=False)
+
+
+@pytest.fixture(scope="module")
+def load():
+    """Record of one event in single precision that starts at 3 s, stress factor 1.5."""
+    q = np.random.default_rng(4).normal(0.0, 20.0, (3, 9000)).cumsum(axis=1).astype(np.float32)
+    history = ModalHistory("run", np.array([1, 2, 7]), OnlySlices(q), 0.01, 3.0)
+    return SimpleNamespace(counted=history, stress_factor=1.5, residue="repeat")
+
+
+@pytest.mark.parametrize("samples_at_once", [1, 40_000, 4_000_000])
+def test_cycles_are_those_of_each_point_alone(model, load, monkeypatch, samples_at_once):
+    """In the order of the points, whatever number of them is recovered at once."""
+    monkeypatch.setattr(cycles, "_SAMPLES_AT_ONCE", samples_at_once)
+    treated, q = model.stations.treated, load.counted.q[:, :].astype(float)
+    found = list(cycles.point_cycles(kept(model), load, model.case.curve))
+    for point, rows in zip(POINTS, found, strict=True):
+        membrane, bending = (1.5 * s[point.station] @ q for s in (treated.membrane, treated.bending))
+        stress = membrane + bending if point.face == 0 else membrane - bending
+        expected = rainflow(stress, "repeat")
+        assert rows["start_s"] == pytest.approx(3.0 + 0.01 * expected.start)
+        assert rows["range_MPa"] == pytest.approx(expected.range, rel=1e-9)
+        across = np.abs(bending[expected.end] - bending[expected.start])
+        assert rows["bending_range_MPa"] == pytest.approx(across, rel=1e-9)
+
+
+def test_rows_name_their_point(model, load):
+    """Weld, node, face and event are the same in all rows of a point."""
+    for point, rows in zip(POINTS, cycles.point_cycles(kept(model), load, model.case.curve), strict=True):
+        assert rows["weld"].unique().to_pylist() == ["AB"[point.weld]]
+        assert rows["surface"].unique().to_pylist() == [("top", "bottom")[point.face]]
+        assert rows["event"].unique().to_pylist() == ["run"]
+        assert set(rows["node"]) == {model.stations.node[point.station]}
+
+
+@pytest.mark.parametrize("number_of_points", [0, 1, cycles.POINTS_AT_ONCE, 2 * cycles.POINTS_AT_ONCE + 1])
+def test_points_are_written_many_at_a_time_and_all(model, load, monkeypatch, number_of_points):
+    """However they come in, in their order; a record is read once for as many as belong together."""
+    at_once, found = [], []
+
+    def rows_of(points, load, curve):
+        at_once.append(len(points))
+        return cycles_of(points, load, curve)
+
+    cycles_of = cycles.point_cycles
+    monkeypatch.setattr(cycles, "point_cycles", rows_of)
+    points = (kept(model) * number_of_points)[:number_of_points]
+    writer = cycles.CycleWriter(SimpleNamespace(write=found.append), [load], model.case.curve)
+    for point in points:
+        writer.add([point])
+    writer.flush()
+    assert [rows["node"][0] for rows in found] == [point.node for point in points]
+    assert set(at_once[:-1]) <= {cycles.POINTS_AT_ONCE}
