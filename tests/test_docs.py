@@ -180,7 +180,7 @@ def test_symbols_stand_where_the_notation_says():
     rows = re.findall(r"^\|.*\| `(\w+)` \|[^|]*\|[^|]*\| `([\w.]+)` \|$", read(NOTATION), re.MULTILINE)
     assert len(rows) > 30
     for name, place in rows:
-        thing = found(place)
+        thing = found(f"fatigue.{place}")
         has = hasattr(thing, name) or name in getattr(thing, "__dataclass_fields__", {})
         source = inspect.getsource(getattr(thing, "py_func", thing))
         assert has or re.search(rf"\b{name}\b", source), (name, place)
