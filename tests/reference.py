@@ -67,8 +67,8 @@ def codes() -> dict[str, set[str]]:
 def _codes_told(tree: ast.Module, trees: dict[str, ast.Module]) -> Iterator[str]:
     """Codes written into one module, or handed to a function of it that makes a problem of them."""
     for holder in ast.walk(tree):
-        if isinstance(holder, ast.ClassDef) and (place := _field_of_code(holder)) is not None:
-            yield from _handed(holder.name, place, "code", trees)
+        if isinstance(holder, ast.ClassDef) and holder.name != "Problem":
+            yield from _of_field("code", holder, trees)
         if not isinstance(holder, ast.FunctionDef):
             continue
         for call in _calls(holder, "Problem"):
@@ -76,6 +76,15 @@ def _codes_told(tree: ast.Module, trees: dict[str, ast.Module]) -> Iterator[str]
             yield from _constants(code)
             if isinstance(code, ast.Name):
                 yield from _of_name(code.id, holder, trees)
+            if isinstance(code, ast.JoinedStr):
+                yield from _composed(code, trees)
+
+
+def _composed(code: ast.JoinedStr, trees: dict[str, ast.Module]) -> Iterator[str]:
+    """Codes that begin alike and end with a field of a record, as ``f"no_{extra.package}"``."""
+    begin, value = (part.value for part in code.values)
+    for holder in (node for tree in trees.values() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+        yield from (f"{begin}{end}" for end in _of_field(value.attr, holder, trees))
 
 
 def _of_name(name: str, function: ast.FunctionDef, trees: dict[str, ast.Module]) -> Iterator[str]:
@@ -93,10 +102,11 @@ def _of_name(name: str, function: ast.FunctionDef, trees: dict[str, ast.Module])
                 yield from (code for row in rows for code in _constants(row.elts[names.index(name)]))
 
 
-def _field_of_code(holder: ast.ClassDef) -> int | None:
-    """Position of the field ``code`` of a record other than the problem itself."""
+def _of_field(name: str, holder: ast.ClassDef, trees: dict[str, ast.Module]) -> Iterator[str]:
+    """Values of a field wherever a record of this class is made."""
     fields = [f.target.id for f in holder.body if isinstance(f, ast.AnnAssign) and isinstance(f.target, ast.Name)]
-    return fields.index("code") if "code" in fields and holder.name != "Problem" else None
+    if name in fields:
+        yield from _handed(holder.name, fields.index(name), name, trees)
 
 
 def _handed(function: str, place: int, name: str, trees: dict[str, ast.Module]) -> Iterator[str]:
