@@ -40,8 +40,8 @@ _WARNS = re.compile("warning|remark|doubt")
 
 
 def commands() -> dict[str, click.Command]:
-    """Commands of the program by name, the program itself under the empty one."""
-    return {"": cli, **cli.commands}
+    """Commands of the program in the order of their names, the program itself under the empty one."""
+    return {"": cli, **dict(sorted(cli.commands.items()))}
 
 
 def options(command: click.Command) -> list[click.Option]:
