@@ -1,16 +1,18 @@
-"""What the program can say (commands, options, columns, codes), collected from the program, and its page of the docs.
+"""Commands, options, keys of a case, columns and codes, collected from the program, and their page of the docs.
 
 ``python -m tests.reference`` writes the collected parts of ``docs/reference.md`` again; what each warning means is
 written there by hand.
 """
 
 import ast
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import click
 
+from fatigue.case import case_schema
 from fatigue.cli import cli
 from fatigue.results.columns import TABLES
 
@@ -35,6 +37,15 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("verify", "Result folders and documents"),
     ("", "Commands and arguments"),
 )
+CASE_TABLES = {  # of case.toml, and the models that describe them
+    "[body]": "Body",
+    "[curve]": "Curve",
+    "[curves.NAME]": "CustomCurve",
+    "[counting]": "Counting",
+    "[spectrum]": "Spectrum",
+    "[mission]": "Mission",
+    "[[mission.event]]": "Event",
+}
 REFUSED = {"unit"}  # although it comes from a function that is named for warnings
 _WARNS = re.compile("warning|remark|doubt")
 
@@ -204,6 +215,21 @@ def _default(option: click.Option) -> str:
     return f" Default: {option.show_default if isinstance(option.show_default, str) else option.default}."
 
 
+def key_text() -> str:
+    """Keys of ``case.toml`` with default and meaning, table by table."""
+    models = case_schema()["$defs"]
+    parts = []
+    for heading, model in CASE_TABLES.items():
+        of, rows = models[model], []
+        for key, about in of["properties"].items():
+            given = about.get("default")
+            default = "required" if key in of.get("required", ()) else "" if given is None else f"`{json.dumps(given)}`"
+            rows.append(f"| `{key}` | {default} | {about['description']} |")
+        lines = [f"### {heading}", "", of["description"], "", "| key | default | what it is |", "|---|---|---|", *rows]
+        parts.append("\n".join(lines))
+    return "\n\n".join(parts)
+
+
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
@@ -231,7 +257,13 @@ def refusal_text(page: str) -> str:
 
 def with_collected(page: str) -> str:
     """Page with its collected parts as the program has them now."""
-    for name, text in (("commands", command_text()), ("columns", column_text()), ("codes", refusal_text(page))):
+    collected = {
+        "commands": command_text(),
+        "keys": key_text(),
+        "columns": column_text(),
+        "codes": refusal_text(page),
+    }
+    for name, text in collected.items():
         begin, end = f"<!-- {name}: written by python -m tests.reference -->", f"<!-- end of {name} -->"
         before, rest = page.split(begin, 1)
         page = f"{before}{begin}\n\n{text}\n\n{end}{rest.split(end, 1)[1]}"
