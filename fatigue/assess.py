@@ -227,7 +227,7 @@ def cycles_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
     """Tell which records are sampled too coarsely for their points, and what damage that hides."""
-    slope = max(float(rated.law.slopes[0]) for rated in body.curves.values())
+    slope = max(float(rated.rule.law.slopes[0]) for rated in body.curves.values())
     return [
         Problem(
             "sampling",

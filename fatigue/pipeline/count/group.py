@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.pipeline.count.mission_block import MissionBlock
-from fatigue.pipeline.count.piece import Piece, Rules, counted_at, estimated
+from fatigue.pipeline.count.piece import Piece, counted_at, estimated
 from fatigue.pipeline.count.settle import Screening, settle
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model, toe_faces
@@ -70,11 +70,11 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     for name in dict.fromkeys(curve_of.tolist()):
         rows = np.flatnonzero(curve_of == name)
         shapes = shapes_of(stations, rows, model.curves[name], curve.thickness_rule)
-        rules = Rules(curve.yield_MPa, curve.mean_stress == "asme", _weld_names(model, rows))
+        welds = _weld_names(model, rows)
         if screening is None:
-            pieces = counted_at(np.arange(len(rows)), shapes, loads, estimated(shapes, loads, rules), plan, rules)
+            pieces = counted_at(np.arange(len(rows)), shapes, loads, estimated(shapes, loads, welds), plan, welds)
         else:
-            pieces = settle(shapes, stations.weld[rows], toe[rows], loads, plan, screening, rules)
+            pieces = settle(shapes, stations.weld[rows], toe[rows], loads, plan, screening, welds)
         for piece in pieces:
             _put(piece, rows[piece.rows], result)
     return result

@@ -5,17 +5,18 @@ from dataclasses import dataclass, replace
 
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import DamageLaw, SNCurve, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.curves import SNCurve, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.rule import CycleRule
 from fatigue.readers.neutral.body import Weld
 
 
 @dataclass(frozen=True, slots=True)
 class RatedCurve:
-    """A curve as this assessment uses it."""
+    """A curve as this assessment uses it: at a survival level, with the rule that turns cycles into damage."""
 
     curve: SNCurve
     survival: str
-    law: DamageLaw
+    rule: CycleRule
 
 
 def curves_of_case(case: Case) -> dict[str, SNCurve]:
@@ -85,6 +86,7 @@ def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld
         except CaseError as error:
             problems += [replace(p, where=f"{case.path.name}: {p.where}") for p in error.problems]
             continue
-        rated[name] = RatedCurve(curve, survival_level(curve, case.curve.survival), law)
+        rule = CycleRule(law, curve.applies == "dS", case.curve.yield_MPa, case.curve.mean_stress == "asme")
+        rated[name] = RatedCurve(curve, survival_level(curve, case.curve.survival), rule)
     refuse(CaseError, problems)
     return rated

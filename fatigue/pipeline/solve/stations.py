@@ -6,7 +6,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.damage import ThicknessRule, size_factor
+from fatigue.life.curves import ThicknessRule
+from fatigue.life.rule import size_factor
 from fatigue.pipeline.solve.modal_stress import RawEnds, Shapes
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.weld.line import LineStack, line_of_node
@@ -87,7 +88,7 @@ def _joined(parts: Sequence[StructuralStress]) -> StructuralStress:
 
 
 def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve, thickness_rule: ThicknessRule) -> Shapes:
-    """Stress shapes of some stations, ascending, with the law of their curve and the size factor of their plates."""
+    """Stress shapes of some stations, ascending, with the rule of their curve and the size factor of their plates."""
     stress = stations.treated
     mine, ends = np.isin(stations.raw_rows, rows), np.isin(rows, stations.raw_rows)
     part = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
@@ -97,8 +98,7 @@ def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve, thi
         in_plane_shear=stress.in_plane_shear[part],
         twist_shear=stress.twist_shear[part],
         size=size_factor(stations.thickness[part], rated.curve, thickness_rule),
-        law=rated.law,
-        uses_bending_ratio=rated.curve.applies == "dS",
+        rule=rated.rule,
         raw_ends=RawEnds(
             rows=np.flatnonzero(ends),
             membrane=stations.raw.membrane[mine],

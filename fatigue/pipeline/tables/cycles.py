@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from fatigue.case import Curve
 from fatigue.life.counting.rainflow import rainflow
-from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor, size_factor
 from fatigue.life.records.history import stress_history
+from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range, size_factor
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
@@ -104,17 +104,16 @@ def _cycle_rows(
     bending: NDArray[np.float64],
 ) -> dict[str, Any]:
     """Count at one point with these stress histories (t,) [MPa]."""
-    rated = point.rated
+    rated, rule = point.rated, point.rated.rule
     stress = membrane + bending if point.face == 0 else membrane - bending
 
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
     r = bending_ratio(dm, db)
     size = size_factor(np.array([point.thickness]), rated.curve, curve.thickness_rule)
-    dS = cycles.range * size / (ratio_factor(r) if rated.curve.applies == "dS" else 1.0)
-    if curve.mean_stress == "asme" and curve.yield_MPa is not None:
-        low = np.minimum(stress[cycles.start], stress[cycles.end])
-        dS = dS / mean_stress_factor(low, low + cycles.range, curve.yield_MPa)
+    minimum = np.minimum(stress[cycles.start], stress[cycles.end])
+    f_M = rule.mean_stress_factor(minimum, minimum + cycles.range)
+    dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
 
     n = len(cycles.range)
     step, start = load.counted.step, load.counted.start
@@ -135,5 +134,5 @@ def _cycle_rows(
         "bending_range_MPa": db,
         "bending_ratio": r,
         "equivalent_range_dS": dS,
-        "damage": cycles.count * cycle_damage(dS, rated.law),
+        "damage": cycles.count * cycle_damage(dS, rule.law),
     }

@@ -8,11 +8,12 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.errors import DataError, FatigueError
-from fatigue.life.counting.single.product import prepared_samples, space_for_samples
+from fatigue.life.counting.single.kernels.product import prepared_samples, space_for_samples
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.records import spool
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Spool
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.pipeline.mission import events
 from fatigue.pipeline.mission.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
@@ -221,12 +222,12 @@ def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_p
     event = body.case.mission.event[number]
     law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
     S = np.random.default_rng(2).normal(size=(4, 5, 3))
-    shapes = Shapes(*S, size=np.full(5, 1.5), law=law, uses_bending_ratio=True)
-    held = assess_event_block(shapes, event_load(body, event, 2), 40.0, mean_stress=True)
+    shapes = Shapes(*S, size=np.full(5, 1.5), rule=CycleRule(law, True, 40.0, mean_stress=True))
+    held = assess_event_block(shapes, event_load(body, event, 2))
     monkeypatch.setattr(spool, "CHUNK", 512)
     spooled = event_load(body, event, 2, scratch=tmp_path / "histories")
     assert isinstance(spooled.counted.q, Spool)
-    found = assess_event_block(shapes, spooled, 40.0, mean_stress=True)
+    found = assess_event_block(shapes, spooled)
     for name in EventBlock.__slots__:
         close = 1e-9 if name == "kurtosis" else 1e-12
         np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=close, atol=1e-13, err_msg=name)

@@ -28,15 +28,15 @@ def test_stations_follow_the_register(model):
 
 
 def test_shapes_of_some_stations(model):
-    """Treated stress, with size factor and law of the curve."""
+    """Treated stress, with size factor and rule of the curve."""
     treated = model.stations.treated
     for name, rows in (("master-aluminium", np.array([0, 3])), ("iiw-aluminium-40", np.array([13]))):
         shapes = shapes_of(model.stations, rows, model.curves[name], "actual")
         assert np.array_equal(shapes.bending, treated.bending[rows])
         assert np.array_equal(shapes.at(np.array([len(rows) - 1])).membrane, treated.membrane[rows[-1:]])
-        assert shapes.uses_bending_ratio == (name == "master-aluminium")
-        assert shapes.size == pytest.approx(8.0 ** (1.6 / 7.2) if shapes.uses_bending_ratio else 1.0)
-        assert shapes.law is model.curves[name].law
+        assert shapes.rule.uses_bending_ratio == (name == "master-aluminium")
+        assert shapes.size == pytest.approx(8.0 ** (1.6 / 7.2) if shapes.rule.uses_bending_ratio else 1.0)
+        assert shapes.rule is model.curves[name].rule
 
 
 def with_raw(model, changed):
