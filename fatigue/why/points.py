@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fatigue.case import Case
 from fatigue.errors import DataError, Problem
 from fatigue.life.mission import Plan
-from fatigue.life.rule import size_exponent, size_factor
+from fatigue.life.rule import size_exponent
 from fatigue.pipeline.solve.model import Model, solve_group
 from fatigue.pipeline.solve.weld_groups import SideForces, WeldGroups
 from fatigue.results import read_codes, read_table
@@ -67,16 +67,16 @@ class Points:
 
 def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64], chosen: NDArray[np.object_]) -> Points:
     """Take points of a model, given by station and face."""
-    stations, curve = model.stations, model.case.curve
+    stations = model.stations
     names = np.array([weld.name for weld in model.welds], dtype=object)
-    rated_of_weld = [model.curves[name] for name in model.curve_of_weld]
+    rated_of_weld = model.curve_of_weld
     rule = np.empty(len(station), dtype=object)
     size, exponent = np.empty(len(station)), np.empty(len(station))
     for i, at in enumerate(station):
         rated, t = rated_of_weld[stations.weld[at]], stations.thickness[at : at + 1]
         rule[i] = rated.rule
-        size[i] = size_factor(t, rated.curve, curve.thickness_rule)[0]
-        exponent[i] = size_exponent(float(t[0]), rated.curve, curve.thickness_rule)
+        size[i] = rated.size(t)[0]
+        exponent[i] = size_exponent(float(t[0]), rated.curve, rated.thickness_rule)
     return Points(
         weld=names[stations.weld[station]],
         part=stations.part[station],
