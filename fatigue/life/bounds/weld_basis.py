@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.bounds.screening import ROUNDING, ModalExtent, PowerSums, size_bound
 from fatigue.life.bounds.weld_sums import SINGLE, Combined, Sums, combined, room_for_histories, sums_in_time
-from fatigue.life.counting.single.count import Record
+from fatigue.life.counting.single.record import SingleRecord
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -108,7 +108,7 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
     )
 
 
-def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExtent) -> tuple[Floats, PowerSums]:
+def reduced_bound(bases: WeldBases, rows: Rows, record: SingleRecord, extent: ModalExtent) -> tuple[Floats, PowerSums]:
     """Bound range (r, 2) and sum n S^q, q = 3 and 4, (r, 2) each, of top and bottom stress at some stations.
 
     Parameters
@@ -141,7 +141,7 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
 
 
 def _combined(
-    bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent: ModalExtent
+    bases: WeldBases, rows: Rows, scale: Floats, record: SingleRecord, extent: ModalExtent
 ) -> tuple[Combined, Floats]:
     """Prepare some stations, over their scale, for the loop over time: top beside bottom, weld by weld.
 

@@ -6,15 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.single.power import widest_vectors
-from fatigue.life.counting.single.product import (
+from fatigue.life.counting.single.kernels.power import widest_vectors
+from fatigue.life.counting.single.kernels.product import (
     STEP,
     TILE,
     block_for,
     is_in_panels,
     multiply,
     multiply_rows,
-    prepared_shapes,
+    prepared_rows,
     rows_in_tiles,
     samples_of,
     space_for_samples,
@@ -85,7 +85,7 @@ def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, 
     histories.
     """
     modes = stresses.histories.shape[1]
-    B = prepared_shapes(stresses.histories)
+    B = prepared_rows(stresses.histories)
     width = (u.shape[1] - 1 - STEP) // STEP * STEP
     space = space_for_samples(modes, width, np.float32)
     found = np.zeros((TILE * stresses.begin[1, -1], len(Sums._fields)))
@@ -113,7 +113,7 @@ def add_record(
 ) -> None:
     """Add what `add_sums` finds in a record, ``sizes`` samples long, so many of them at a time.
 
-    As in `single.run` the loop is compiled where the record and the product allow that: `add_in_memory`.
+    As in `kernels.over_time` the loop is compiled where the record and the product allow that: `add_in_memory`.
     """
     samples, width = sizes
     for start in range(0, samples, width):

@@ -1,6 +1,6 @@
 """The inner loops of the fast counter in vector instructions of x86-64 processors, up to 16 samples at a time.
 
-The two steps of `single.loops` select: turning points among samples, closed ranges among turning points. A comparison
+The two steps of `kernels.loops` select: turning points among samples, closed ranges among turning points. A comparison
 of vectors gives one bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would
 decide one after the other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps`` with
 a table of lane numbers). The results are bit for bit those of the plain loops, which run instead where this file says
@@ -150,7 +150,7 @@ class _Vector:
 def _reversals_of_lanes(
     typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, z: Any, zm: Any, n: Any
 ) -> Any:
-    """Do what `single.loops.write_reversals` does for the samples i to i + lanes - 1."""
+    """Do what `kernels.loops.write_reversals` does for the samples i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         m_, b_, side_, flat_, i_, up_, z_, zm_, n_ = args
@@ -201,7 +201,7 @@ def _cycles_of_lanes(
     cycles: Any,
     flat: Any,
 ) -> Any:
-    """Do what `single.loops.close_pass` does for the reversals i to i + lanes - 1."""
+    """Do what `kernels.loops.close_pass` does for the reversals i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_, flat_ = args
@@ -301,7 +301,7 @@ product_of_tile = cast(Callable[..., None], intrinsic(_product_of_tile))
 def write_reversals(
     m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
 ) -> tuple[int, int, bool]:
-    """Do what `single.loops.write_reversals` does."""
+    """Do what `kernels.loops.write_reversals` does."""
     z, zm = room.numbers[0], room.numbers[1]
     small_steps = 0
     for i in range(0, samples, lanes_of(m)):
@@ -312,7 +312,7 @@ def write_reversals(
 
 @compiled()
 def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
-    """Do what `single.loops.close_pass` does."""
+    """Do what `kernels.loops.close_pass` does."""
     z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
     z[n] = z[n + 1] = -np.inf
     kept = 0
