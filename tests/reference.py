@@ -4,10 +4,8 @@
 written there by hand.
 """
 
-import ast
 import json
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import click
@@ -15,9 +13,9 @@ import click
 from fatigue.case import case_schema
 from fatigue.cli import cli
 from fatigue.results.columns import TABLES
+from tests.problem_codes import codes
 
 ROOT = Path(__file__).parents[1]
-PACKAGE = ROOT / "fatigue"
 PAGE = ROOT / "docs" / "reference.md"
 AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("case", "The case file"),
@@ -46,8 +44,6 @@ CASE_TABLES = {  # of case.toml, and the models that describe them
     "[mission]": "Mission",
     "[[mission.event]]": "Event",
 }
-REFUSED = {"unit"}  # although it comes from a function that is named for warnings
-_WARNS = re.compile("warning|remark|doubt")
 
 
 def commands() -> dict[str, click.Command]:
@@ -58,108 +54,6 @@ def commands() -> dict[str, click.Command]:
 def options(command: click.Command) -> list[click.Option]:
     """Options of a command."""
     return [p for p in command.params if isinstance(p, click.Option)]
-
-
-def columns() -> set[str]:
-    """Columns of all result tables."""
-    return {column.name for table in TABLES.values() for column in table}
-
-
-def codes() -> dict[str, set[str]]:
-    """Codes of all problems the package can tell, with the modules that tell them, as paths inside the package."""
-    trees = {path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text()) for path in PACKAGE.rglob("*.py")}
-    found: dict[str, set[str]] = {}
-    for module, tree in trees.items():
-        for code in _codes_told(tree, trees):
-            found.setdefault(code, set()).add(module)
-    return found
-
-
-def _codes_told(tree: ast.Module, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes written into one module, or handed to a function of it that makes a problem of them."""
-    for holder in ast.walk(tree):
-        if isinstance(holder, ast.ClassDef) and holder.name != "Problem":
-            yield from _of_field("code", holder, trees)
-        if not isinstance(holder, ast.FunctionDef):
-            continue
-        for call in _calls(holder, "Problem"):
-            code = call.args[0]
-            yield from _constants(code)
-            if isinstance(code, ast.Name):
-                yield from _of_name(code.id, holder, trees)
-            if isinstance(code, ast.JoinedStr):
-                yield from _composed(code, trees)
-
-
-def _composed(code: ast.JoinedStr, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes that begin alike and end with a field of a record, as ``f"no_{extra.package}"``."""
-    begin, value = (part.value for part in code.values)
-    for holder in (node for tree in trees.values() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
-        yield from (f"{begin}{end}" for end in _of_field(value.attr, holder, trees))
-
-
-def _of_name(name: str, function: ast.FunctionDef, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes that a name stands for in a function: its parameter, or what a loop over a written table gives."""
-    parameters = [p.arg for p in (*function.args.posonlyargs, *function.args.args) if p.arg != "self"]
-    if name in parameters:
-        yield from _handed(function.name, parameters.index(name), name, trees)
-        for default in function.args.defaults:
-            yield from _constants(default)
-    for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
-        if isinstance(loop.target, ast.Tuple) and isinstance(loop.iter, ast.Tuple):
-            names = [getattr(target, "id", "") for target in loop.target.elts]
-            rows = [row for row in loop.iter.elts if isinstance(row, ast.Tuple)]
-            if name in names:
-                yield from (code for row in rows for code in _constants(row.elts[names.index(name)]))
-
-
-def _of_field(name: str, holder: ast.ClassDef, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Values of a field wherever a record of this class is made."""
-    fields = [f.target.id for f in holder.body if isinstance(f, ast.AnnAssign) and isinstance(f.target, ast.Name)]
-    if name in fields:
-        yield from _handed(holder.name, fields.index(name), name, trees)
-
-
-def _handed(function: str, place: int, name: str, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes handed to the function of a name, by position or by name, anywhere in the package."""
-    for call in (call for tree in trees.values() for call in _calls(tree, function)):
-        given = [k.value for k in call.keywords if k.arg == name] or call.args[place : place + 1]
-        yield from (code for value in given for code in _constants(value))
-
-
-def _calls(tree: ast.AST, function: str) -> Iterator[ast.Call]:
-    """Calls of a function by its name."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == function:
-            yield node
-
-
-def _constants(value: ast.expr) -> Iterator[str]:
-    """Codes that an expression holds as they are."""
-    if isinstance(value, ast.IfExp):
-        yield from (*_constants(value.body), *_constants(value.orelse))
-    if isinstance(value, ast.Constant) and isinstance(value.value, str) and re.fullmatch(r"[a-z0-9_]+", value.value):
-        yield value.value
-
-
-def codes_of_warnings() -> set[str]:
-    """Codes of problems that are made where warnings are: in a function named for them, or added to a list of them."""
-    found: set[str] = set()
-    for path in PACKAGE.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            is_named = isinstance(node, ast.FunctionDef) and _WARNS.search(node.name)
-            is_added = isinstance(node, ast.AugAssign | ast.Call) and _WARNS.search(_list_added_to(node))
-            if is_named or is_added:
-                found |= {code for call in _calls(node, "Problem") for code in _constants(call.args[0])}
-    return found - REFUSED
-
-
-def _list_added_to(node: ast.AST) -> str:
-    """Name of the list in ``list += ...`` or ``list.append(...)``; empty for anything else."""
-    target = node.target if isinstance(node, ast.AugAssign) else None
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in ("append", "extend"):
-        target = node.func.value
-    return str(getattr(target, "id", getattr(target, "attr", "")))
 
 
 def named_in(text: str) -> set[str]:

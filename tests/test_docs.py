@@ -9,7 +9,7 @@ import pytest
 
 from fatigue.pipeline.count.piece import TIERS
 from fatigue.spectrum import trust
-from tests import reference
+from tests import problem_codes, reference
 from tests.small_case import small_case
 
 ROOT = Path(__file__).parents[1]
@@ -124,8 +124,8 @@ def test_reference_is_that_of_the_program():
 def test_every_warning_has_its_meaning():
     """A code that is told as a warning stands in a table with what it says and what to do."""
     told = reference.warnings_told(read(reference.PAGE))
-    assert not told - set(reference.codes())
-    assert not reference.codes_of_warnings() - told
+    assert not told - set(problem_codes.codes())
+    assert not problem_codes.codes_of_warnings() - told
 
 
 def test_the_house_is_drawn_as_it_is():
