@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from fatigue.life.bounds.forms import face_forms, part_forms
 from fatigue.life.bounds.screening import ModalExtent, extent_bound
 from fatigue.life.bounds.weld_basis import reduced_bound, weld_bases
-from fatigue.life.counting.single.record import SingleRecord
+from fatigue.life.counting.record import SingleRecord
 from fatigue.life.mission import Plan, mission_sum
 from fatigue.pipeline.count.bounds import Bound, Unsettled, event_bound, event_by_event
 from fatigue.pipeline.count.estimate import Estimate, estimate_event, mean_stress, member_variances
