@@ -32,7 +32,7 @@ class ForeignHistory:
     name : (m,) name of the column
     time : (t,) [s]
     q : (m, t)
-    remarks : doubts met while reading
+    warnings : met while reading
     unit : (m,) unit the file states for the column, empty where it states none; () where it states none at all
     resolution : (m,) half a unit of the last digit written of the frequency [Hz], NaN where it is not known
     normalisation : of the modes, where the file declares it
@@ -46,7 +46,7 @@ class ForeignHistory:
     name: tuple[str, ...]
     time: NDArray[np.float64]
     q: NDArray[np.floating]
-    remarks: tuple[Problem, ...] = field(default=())
+    warnings: tuple[Problem, ...] = field(default=())
     unit: tuple[str, ...] = ()
     resolution: NDArray[np.float64] | None = None
     normalisation: Normalisation | None = None
@@ -89,9 +89,9 @@ def _once(history: ForeignHistory) -> tuple[ForeignHistory, list[Problem]]:
     first, count = int((~keep).argmax()), int(np.count_nonzero(~keep))
     what = f"time stands still at {history.time[first]:.9g} s; the later sample of every instant is kept"
     what += f" ({count} left out)"
-    remark = Problem("instant_twice", history.sample(first + 1), what, "Export every instant once to avoid it", count)
+    warning = Problem("instant_twice", history.sample(first + 1), what, "Export every instant once to avoid it", count)
     lines = None if history.lines is None else history.lines[keep]
-    return replace(history, time=history.time[keep], q=history.q[:, keep], lines=lines), [remark]
+    return replace(history, time=history.time[keep], q=history.q[:, keep], lines=lines), [warning]
 
 
 def uniform(history: ForeignHistory, resample_s: float | None) -> ForeignHistory:
@@ -137,7 +137,7 @@ def uniform(history: ForeignHistory, resample_s: float | None) -> ForeignHistory
         )
     time = history.time[0] + resample_s * np.arange(int(count + 1e-9) + 1)
     q = CubicSpline(history.time, history.q, axis=1)(np.minimum(time, history.time[-1]))
-    remarks = [
+    warnings = [
         *twice,
         Problem(
             "resampled",
@@ -150,12 +150,12 @@ def uniform(history: ForeignHistory, resample_s: float | None) -> ForeignHistory
     longest = int(np.argmax(steps))
     if steps[longest] > GAP * max(float(np.median(steps)), resample_s):
         what = f"a gap of {steps[longest]:.6g} s from {history.time[longest]:.9g} s was filled by interpolation"
-        remarks.append(Problem("gap", history.sample(longest + 1), what, "Check that no samples were lost there"))
+        warnings.append(Problem("gap", history.sample(longest + 1), what, "Check that no samples were lost there"))
     if resample_s > 1.001 * float(np.median(steps)):
-        remarks.append(
+        warnings.append(
             Problem("coarser", history.source, "the new step is coarser than the file's usual one", "Use a finer step")
         )
-    return replace(history, time=time, q=q, lines=None, remarks=(*history.remarks, *remarks))
+    return replace(history, time=time, q=q, lines=None, warnings=(*history.warnings, *warnings))
 
 
 def matched(

@@ -233,17 +233,17 @@ def _listed(path: Path, head: Sequence[str], width: int) -> tuple[_Row | None, C
     """
     found = [(k + 1, int(m[1]), m[2]) for k, line in enumerate(head) if (m := _LISTED.match(line))]
     for first, (line, number, _) in enumerate(found):
-        run = [f for k, f in enumerate(found[first:]) if f[:2] == (line + k, number + k)]
-        if len(run) < 2 or number not in (0, 1):
+        listed = [f for k, f in enumerate(found[first:]) if f[:2] == (line + k, number + k)]
+        if len(listed) < 2 or number not in (0, 1):
             continue
-        names = [name.strip("\"' ") for _, _, name in run]
+        names = [name.strip("\"' ") for _, _, name in listed]
         timed = any(time_unit_in(name) is not None for name in names)
         if len(names) == width - 1 and not timed:
             names = ["time", *names]
         if len(names) != width:
             what = f"{len(names)} channels are listed above rows of {width} numbers"
             raise DataError(Problem("column_count", f"{path}, line {line}", what, "Export again, or remove the list"))
-        return _Row(line, tuple(names), "names"), range(line, line + len(run))
+        return _Row(line, tuple(names), "names"), range(line, line + len(listed))
     return None, ()
 
 

@@ -90,7 +90,7 @@ class Card:
 class _Open:
     """A card that may go on, or stray continuation lines, without a name and kept as ``lines``.
 
-    ``announced`` is the mark of field 10; ``doubtful`` a number such as ``+1.`` in its place, which is data unless a
+    ``announced`` is the mark of field 10; ``unsure`` a number such as ``+1.`` in its place, which is data unless a
     continuation follows; ``flows`` tells that the last line ended in a comma, ``start`` and ``width`` where the fields
     of the last line begin and how many its form has. ``pattern`` is the replicating line that made the card.
     """
@@ -101,7 +101,7 @@ class _Open:
     wanted: bool
     fields: list[str] = field(default_factory=list)
     announced: str = ""
-    doubtful: str = ""
+    unsure: str = ""
     unread: str = ""
     flows: bool = False
     start: int = 0
@@ -111,14 +111,14 @@ class _Open:
 
     def card(self) -> Card:
         """Close the card."""
-        data = [*self.fields, self.doubtful] if self.doubtful else self.fields
+        data = [*self.fields, self.unsure] if self.unsure else self.fields
         return Card(self.name, tuple(data), self.source, self.line)
 
     def complete(self) -> None:
         """Fill the last line with empty fields, as a continuation begins a line of its own."""
         length = len(self.fields) - self.start
         self.fields += [""] * (max(self.width, -(-length // self.width) * self.width) - length)
-        self.doubtful = ""
+        self.unsure = ""
 
 
 @dataclass(slots=True)
@@ -233,7 +233,7 @@ def _stray(head: str, now: _Open | None, where: str) -> Problem | None:
 
 def _begin(now: _Open, split: Split) -> None:
     if now.wanted:
-        now.fields, now.width, now.doubtful, now.unread = split.data, split.width, split.doubtful, split.unread
+        now.fields, now.width, now.unsure, now.unread = split.data, split.width, split.unsure, split.unread
     now.announced, now.flows = split.mark, split.flows
 
 
@@ -243,7 +243,12 @@ def _go_on(now: _Open, split: Split, problems: list[Problem]) -> None:
         now.lines.append(split)
     elif now.wanted:
         now.complete()
-        now.start, now.width, now.doubtful, now.unread = len(now.fields), split.width, split.doubtful, split.unread
+        now.start, now.width, now.unsure, now.unread = (
+            len(now.fields),
+            split.width,
+            split.unsure,
+            split.unread,
+        )
         if split.width == ROW and now.start % ROW and any(split.data):
             where = place(now.source, now.line)
             what = f"a line of small fields follows half a line of large ones of this {now.name}"
@@ -260,7 +265,7 @@ def _flow(now: _Open, line: str) -> None:
         now.lines.append(split._replace(data=before.data + split.data, width=before.width))
     elif now.wanted:
         now.fields += split.data
-        now.doubtful = split.doubtful
+        now.unsure = split.unsure
     now.announced, now.flows = split.mark, split.flows
 
 
