@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.convert.audit.audit import Audit, AuditRow, audit
+from fatigue.readers.convert.audit.audit import Audit, audit
+from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.displacement.check import displacement_row
 from fatigue.readers.convert.displacement.record import read_displacement
 from fatigue.readers.convert.modal_basis import (
@@ -104,8 +105,8 @@ def audited(read: ForeignInputs, options: ConvertOptions) -> Audit:
         DataError,
         [
             Problem("audit", f"{options.forces}, {row.check}", row.finding, row.remedy or "Correct the input")
-            for row in judged.rows
-            if row.light == "red" and row.check not in options.accept
+            for row in judged.red
+            if row.check not in options.accept
         ],
     )
     if FREQUENCIES not in options.accept:

@@ -67,7 +67,7 @@ def test_neutral_forces_are_those_of_the_model(files):
         if not name.startswith("q_") and "." in name and name not in ("case.toml", "welds_register.csv", "convert.json")
     ]
     assert result.audit.convention == "on_node"
-    assert not result.audit.is_red
+    assert not result.audit.red
     assert len(lines) == 3
     for line in lines:
         found = side_forces((line,), sides[line.weld], forces, modes.mode, line.weld)[0]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
-from fatigue.readers.convert.audit.audit import AuditRow
+from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.displacement.nodes import with_other_node
 from fatigue.readers.convert.displacement.record import DisplacementRecord
 from fatigue.readers.convert.displacement.side_by_side import causes_of, compared

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.convert.audit.audit import AuditRow, Light
+from fatigue.readers.convert.audit.row import AuditRow, Light
 from fatigue.readers.convert.displacement.causes import EXPLAINED, Cause
 from fatigue.readers.convert.displacement.comparison import Comparison, best_fit
 from fatigue.readers.convert.displacement.side_by_side import EventComparison

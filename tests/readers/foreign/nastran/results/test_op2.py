@@ -313,7 +313,7 @@ def test_damaged_files_are_refused_or_told_by_the_audit(tmp_path, word, order):
         except DataError:
             outcomes["refused"] += 1
             continue
-        if audit(found, model).is_red:
+        if audit(found, model).red:
             outcomes["red"] += 1
             continue
         outcomes["harmless"] += 1
