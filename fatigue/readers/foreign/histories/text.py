@@ -19,7 +19,8 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.naming import composed
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, check_values
 from fatigue.readers.foreign.histories.header import Header, header_frequencies, read_header
-from fatigue.readers.foreign.histories.rows import find_rows, read_values
+from fatigue.readers.foreign.histories.number_rows import find_rows
+from fatigue.readers.foreign.histories.row_values import read_values
 from fatigue.readers.foreign.histories.statements import (
     normalisation_in,
     stated_length,

@@ -10,8 +10,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.foreign.histories.matching import matched
 from fatigue.readers.foreign.histories.mcf import read_mcf
+from fatigue.readers.foreign.histories.time_grid import uniform
 from fatigue.readers.foreign.read import read_coordinates, recognise
 
 MCF = """\

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.fe.model import FeModel, Shell, shell_mesh
-from fatigue.readers.foreign.nastran.deck.cards import Card, cards
+from fatigue.readers.foreign.nastran.deck.card import Card
+from fatigue.readers.foreign.nastran.deck.cards import cards
 from fatigue.readers.foreign.nastran.deck.lines import Deck, read_deck
 from fatigue.readers.foreign.nastran.deck.notes import LeftOut, Twice
 from fatigue.readers.foreign.nastran.deck.sets import joined_sets, set_on_card

@@ -3,7 +3,7 @@
 import re
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.lines import Line, place
 
 _SET = re.compile(r"SET\s+(\d{1,9})\s*=\s*(.*)\Z", re.ASCII | re.DOTALL)

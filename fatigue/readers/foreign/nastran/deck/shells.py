@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.model import Section, Shell
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 
 _THICKNESS_SPREAD = 0.01
 _FULL_BENDING = 1.0  # 12 I / T^3 of a homogeneous plate

@@ -9,7 +9,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
-from fatigue.readers.foreign.nastran.deck.cards import Card, cards
+from fatigue.readers.foreign.nastran.deck.card import Card
+from fatigue.readers.foreign.nastran.deck.cards import cards
 from fatigue.readers.foreign.nastran.deck.notes import LeftOut
 from tests.readers.bdf_writer import FORMS, Fields, spelling, write
 

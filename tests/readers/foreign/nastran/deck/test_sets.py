@@ -2,7 +2,7 @@
 
 import pytest
 
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.sets import case_sets, joined_sets, set_members, set_on_card
 
 
