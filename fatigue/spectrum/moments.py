@@ -8,7 +8,7 @@ stress history, to rounding (Braccesi, Cianetti et al. published the idea for mo
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -54,10 +54,6 @@ class Spectra:
     resolution_hz: float
     upper_hz: float
     segment_s: float
-
-    def part(self, first: int, last: int) -> "Spectra":
-        """Take the segments from ``first`` to before ``last``."""
-        return replace(self, starts=self.starts[first:last])
 
     def transforms(self) -> Iterator[NDArray[np.float64]]:
         """Transform one segment after the other: (m, 2 f), the real and the imaginary part of each bin.

@@ -60,8 +60,8 @@ RATIO_SCATTER = 0.5  # of ln(Dirlik / rainflow) over that of each damage (Monte 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class DiagnosisMatrices:
-    """What the diagnosis of all points of an event needs, computed once.
+class TrustMatrices:
+    """What the judgement of all points of an event needs, computed once.
 
     ``moments`` are the moment matrices of the event, from the same transforms as the periods. ``periods`` is None if
     the record holds too few segments to judge its scatter.
@@ -75,7 +75,7 @@ class DiagnosisMatrices:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Diagnosis:
+class Judgement:
     """Verdict and the numbers behind it; every array is (n,). What could not be measured is NaN.
 
     Attributes
@@ -131,10 +131,10 @@ class Diagnosis:
     segments: int
 
 
-def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatrices:
-    """Prepare the diagnosis of an event from its kept record and the segment spectra of it."""
+def trust_matrices(history: ModalHistory, spectra: Spectra) -> TrustMatrices:
+    """Prepare the judgement of an event from its kept record and the segment spectra of it."""
     moments, variances = moments_and_variances(spectra)
-    return DiagnosisMatrices(
+    return TrustMatrices(
         moments=moments,
         record=record_matrices(history, spectra.upper_hz),
         periods=period_matrices(history, spectra, variances),
@@ -143,10 +143,10 @@ def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatr
     )
 
 
-def diagnose(
+def judge(
     shapes: NDArray[np.float64],
     moments: NDArray[np.float64],
-    matrices: DiagnosisMatrices,
+    matrices: TrustMatrices,
     *,
     slope: float,
     dirlik_ratio: NDArray[np.float64],
@@ -155,8 +155,8 @@ def diagnose(
     top_cycle_share: NDArray[np.float64],
     samples_per_peak: NDArray[np.float64],
     top_mode_hz: float | None,
-) -> Diagnosis:
-    """Diagnose all points of one event.
+) -> Judgement:
+    """Judge all points of one event: verdict and the numbers behind it.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def diagnose(
     damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
     chance = np.exp(1.645 * RATIO_SCATTER * np.where(np.isnan(damage_cov), 2 * CONFIDENT, damage_cov))
-    diagnosis = Diagnosis(
+    judgement = Judgement(
         verdict=np.zeros(len(shapes), dtype=np.int8),
         record_too_short=~(damage_cov <= CONFIDENT),
         dirlik_ratio=dirlik_ratio,
@@ -215,8 +215,8 @@ def diagnose(
         slow_hz=matrices.record.slow_hz,
         segments=matrices.segments,
     )
-    diagnosis.verdict[:] = _verdict(diagnosis)
-    return diagnosis
+    judgement.verdict[:] = _verdict(judgement)
+    return judgement
 
 
 def sampling_loss(samples_per_peak: NDArray[np.float64], k: float) -> NDArray[np.float64]:
@@ -236,7 +236,7 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
     return np.asarray(hyp1f1(-k / 2, 1.0, -over_noise) / (1 + over_noise) ** (k / 2))
 
 
-def _verdict(of: Diagnosis) -> NDArray[np.int8]:
+def _verdict(of: Judgement) -> NDArray[np.int8]:
     """Apply the rule: the first finding that holds; a number that could not be had accuses nobody."""
     modulated = (of.modulation_index > of.modulation_high) & (of.modulation_factor > MODULATION_MATTERS)
     high_peaks = of.expected_kurtosis - 3 < EXPLAINED_KURTOSIS * (of.kurtosis - 3)
