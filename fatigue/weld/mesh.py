@@ -34,11 +34,6 @@ class ShellMesh:
     thickness: NDArray[np.float64]
     offset: NDArray[np.float64]
 
-    @property
-    def sides(self) -> NDArray[np.int64]:
-        """Number of sides of each element, (e,)."""
-        return np.where(self.corner[:, 3] == NONE, 3, 4)
-
     def side_ends(self) -> NDArray[np.int64]:
         """Give the indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
         first = self.corner

@@ -40,13 +40,11 @@ class StructuralStress:
     transverse_shear: Floats
 
 
-def structural_stress(line: Lines, load: Floats) -> StructuralStress:
-    """Structural stress of a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
-    return _of_section(local_axes(line), line.thickness, load)
+def structural_stress(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
+    """Structural stress of a line force and moment in global axes, (n, m, 6) [N/mm, N].
 
-
-def _of_section(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
-    """Structural stress at nodes with the given local axes, (n, 3, 3), and thickness, (n,) [mm]."""
+    ``axes`` are the local axes of each node, (n, 3, 3), as `local_axes` gives them; ``t`` is the thickness, (n,) [mm].
+    """
     x, y, z = np.moveaxis(axes, 1, 0) / t[:, np.newaxis]
     along = np.stack([y, -6 * x / t[:, np.newaxis], x, 6 * y / t[:, np.newaxis], z], axis=1)
     stress = np.empty((5, *load.shape[:2]))
@@ -112,9 +110,9 @@ def line_stress(line: Lines, load: Floats) -> LineStress:
     at_corner[line.begin[:-1]] |= line.corner_start
     at_corner[line.begin[1:] - 1] |= line.corner_end
     mended = np.flatnonzero(ends.treated)
-    stress = _of_section(axes, line.thickness, load)
+    stress = structural_stress(axes, line.thickness, load)
     before = StructuralStress(*(part[mended] for part in _parts(stress)))
-    after = _of_section(axes[mended], line.thickness[mended], ends.mean)
+    after = structural_stress(axes[mended], line.thickness[mended], ends.mean)
     for part, of_mean in zip(_parts(stress), _parts(after), strict=True):
         part[mended] = of_mean
     return LineStress(
