@@ -179,11 +179,11 @@ def _from_first(samples: NDArray[np.floating]) -> NDArray[np.float64]:
 
 def moment_matrices(spectra: Spectra, orders: Sequence[float] = DIRLIK_ORDERS) -> MomentMatrices:
     """Integrate the cross-spectra of the modal coordinates, times f**p, over the kept bins."""
-    return next(moments_by_run(spectra, orders, len(spectra.starts)))
+    return next(moments_by_chunk(spectra, orders, len(spectra.starts)))
 
 
-def moments_by_run(spectra: Spectra, orders: Sequence[float], run: int) -> Iterator[MomentMatrices]:
-    """Moment matrices of ``run`` segments after the other; at the end there may be fewer."""
+def moments_by_chunk(spectra: Spectra, orders: Sequence[float], size: int) -> Iterator[MomentMatrices]:
+    """Moment matrices of one chunk after the other, each of ``size`` segments; the last may have fewer."""
     modes, segments = spectra.history.q.shape[0], len(spectra.starts)
     exponents = np.asarray(orders, dtype=np.float64)
     roots = np.repeat(np.sqrt(spectra.weight * spectra.frequency ** exponents[:, None]), 2, axis=1)
@@ -192,12 +192,12 @@ def moments_by_run(spectra: Spectra, orders: Sequence[float], run: int) -> Itera
         for i, root in enumerate(roots):
             rows = parts * root
             matrix[i] += rows @ rows.T
-        in_run = number % run + 1
-        if in_run == run or number + 1 == segments:
+        done = number % size + 1
+        if done == size or number + 1 == segments:
             yield MomentMatrices(
                 orders=exponents,
-                matrix=matrix / in_run,
-                segments=in_run,
+                matrix=matrix / done,
+                segments=done,
                 resolution_hz=spectra.resolution_hz,
                 upper_hz=spectra.upper_hz,
             )
@@ -233,22 +233,22 @@ def pair_densities(spectra: Spectra) -> NDArray[np.float64]:
     return density
 
 
-def point_moments(shapes: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:
+def point_moments(modal_stress: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:
     """Spectral moments of the stress at every point.
 
-    ``shapes`` is (n, m), the stress per unit modal coordinate [MPa]; returns (p, n) [MPa**2 Hz**p], never negative.
+    ``modal_stress`` is (n, m) [MPa per unit modal coordinate]; returns (p, n) [MPa**2 Hz**p], never negative.
     """
-    return np.maximum(quadratic_forms(shapes, matrices.matrix), 0.0)
+    return np.maximum(quadratic_forms(modal_stress, matrices.matrix), 0.0)
 
 
-def quadratic_forms(shapes: NDArray[np.floating], matrices: NDArray[Real]) -> NDArray[Real]:
-    """Evaluate ``s' M s`` for all rows s of ``shapes`` (n, m) and all M of ``matrices`` (p, m, m): (p, n).
+def quadratic_forms(modal_stress: NDArray[np.floating], matrices: NDArray[Real]) -> NDArray[Real]:
+    """Evaluate ``s' M s`` for all rows s of ``modal_stress`` (n, m) and all M of ``matrices`` (p, m, m): (p, n).
 
     Works in the precision of the matrices.
     """
-    forms = np.empty((len(matrices), len(shapes)), dtype=matrices.dtype)
-    for first in range(0, len(shapes), BLOCK_POINTS):
-        block = shapes[first : first + BLOCK_POINTS].astype(matrices.dtype, copy=False)
+    forms = np.empty((len(matrices), len(modal_stress)), dtype=matrices.dtype)
+    for first in range(0, len(modal_stress), BLOCK_POINTS):
+        block = modal_stress[first : first + BLOCK_POINTS].astype(matrices.dtype, copy=False)
         for row, matrix in zip(forms, matrices, strict=True):
             np.einsum("nm,nm->n", block @ matrix, block, out=row[first : first + BLOCK_POINTS])
     return forms

@@ -25,11 +25,11 @@ def weights_of_pairs(modes: int) -> NDArray[np.float64]:
     return np.where(first == second, 1.0, 2.0)
 
 
-def pair_forms(shapes: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Evaluate quadratic forms given by their weights (p, pairs) for all rows of ``shapes`` (n, m): (p, n)."""
-    forms = np.empty((len(weights), len(shapes)), dtype=weights.dtype)
-    for begin in range(0, len(shapes), BLOCK_POINTS):
-        block = shapes[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
+def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Evaluate quadratic forms given by their weights (p, pairs) for all rows of ``modal_stress`` (n, m): (p, n)."""
+    forms = np.empty((len(weights), len(modal_stress)), dtype=weights.dtype)
+    for begin in range(0, len(modal_stress), BLOCK_POINTS):
+        block = modal_stress[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
         products = np.empty((weights.shape[1], block.shape[1]), dtype=weights.dtype)
         _multiply_pairs(block, products)
         forms[:, begin : begin + BLOCK_POINTS] = weights @ products

@@ -144,7 +144,7 @@ def trust_matrices(history: ModalHistory, spectra: Spectra) -> TrustMatrices:
 
 
 def judge(
-    shapes: NDArray[np.float64],
+    modal_stress: NDArray[np.float64],
     moments: NDArray[np.float64],
     matrices: TrustMatrices,
     *,
@@ -160,7 +160,7 @@ def judge(
 
     Parameters
     ----------
-    shapes : (n, m) stress per unit modal coordinate [MPa]
+    modal_stress : (n, m) stress per unit modal coordinate [MPa]
     moments : (4, n) spectral moments of that stress, orders 0, 1, 2, 4
     matrices : of the event
     slope : k of the S-N curve where the damage is done
@@ -172,9 +172,11 @@ def judge(
     """
     shape = spectral_shape(moments)
     record = matrices.record
-    total, slow, lines = (quadratic_forms(shapes, M[None])[0] for M in (record.covariance, record.slow, record.lines))
+    total, slow, lines = (
+        quadratic_forms(modal_stress, M[None])[0] for M in (record.covariance, record.slow, record.lines)
+    )
     line_share = np.clip(quotient(lines, total), 0.0, 1.0)
-    time = _stationarity(shapes, matrices.periods)
+    time = _stationarity(modal_stress, matrices.periods)
     lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
     variance_cov = np.sqrt(quotient(1.0, matrices.duration * time.bandwidth_hz))
     steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
@@ -182,7 +184,7 @@ def judge(
     low, high = _ratio_band(slope)
     chance = np.exp(1.645 * RATIO_SCATTER * np.where(np.isnan(damage_cov), 2 * CONFIDENT, damage_cov))
     judgement = Judgement(
-        verdict=np.zeros(len(shapes), dtype=np.int8),
+        verdict=np.zeros(len(modal_stress), dtype=np.int8),
         record_too_short=~(damage_cov <= CONFIDENT),
         dirlik_ratio=dirlik_ratio,
         tb_ratio=tb_ratio,
@@ -259,11 +261,11 @@ def _verdict(of: Judgement) -> NDArray[np.int8]:
     return verdict
 
 
-def _stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
+def _stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
     """Judge the variance over time, or say nothing (NaN) of a record too short for it."""
     if periods is not None:
-        return stationarity(shapes, periods)
-    unknown = np.full(len(shapes), np.nan)
+        return stationarity(modal_stress, periods)
+    unknown = np.full(len(modal_stress), np.nan)
     return Stationarity(unknown[None], unknown, unknown, unknown, unknown, unknown)
 
 

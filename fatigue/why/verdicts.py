@@ -93,15 +93,15 @@ def event_verdicts(
     spectra = segment_spectra(load.counted, body.case.spectrum.segment_s, load.moments.upper_hz)
     matrices = trust_matrices(load.counted, spectra)
     normal = [f for f, kind in zip(body.modes.frequency, body.modes.kind, strict=True) if kind == "normal"]
-    shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
+    modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
     one_ratio = _one_ratio_rules(points, assessed)
     for law in {id(rule.law): rule.law for rule in points.rule}.values():
         at = np.flatnonzero([rule.law is law for rule in points.rule])
         here = assessed.iloc[at]
         same_ratio = here["damage_same_ratio_per_pass"].to_numpy()
         judgement = judge(
-            shapes[at],
-            point_moments(shapes[at], load.moments),
+            modal_stress[at],
+            point_moments(modal_stress[at], load.moments),
             matrices,
             slope=_slope_of_damage(attribution, at, float(law.slopes[0])),
             dirlik_ratio=quotient(here["damage_dirlik_per_pass"].to_numpy(), same_ratio),
@@ -118,7 +118,7 @@ def event_verdicts(
         changing = at[found.verdict[at] == "non_stationary"]
         to_equivalent = np.array([one_ratio[i].size for i in changing])
         rate = damage_rate_by_period(
-            shapes[changing] * to_equivalent[:, None], spectra, partial(dirlik_damage_rate, law=law)
+            modal_stress[changing] * to_equivalent[:, None], spectra, partial(dirlik_damage_rate, law=law)
         )
         counted = assessed["damage_same_ratio_per_pass"].to_numpy()[changing]
         found.segmentwise_ratio[changing] = quotient(load.duration * rate, counted)
@@ -142,8 +142,8 @@ def _split(
 
     The surrogates are those of the few stresses, not of the many modal coordinates: both have the same spectra.
     """
-    shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
-    stresses = replace(load.counted, mode=np.arange(len(shapes)), q=shapes @ np.asarray(load.counted.q))
+    modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
+    stresses = replace(load.counted, mode=np.arange(len(modal_stress)), q=modal_stress @ np.asarray(load.counted.q))
 
     def damage_rate(surrogate: ModalHistory) -> Floats:
         nothing = np.zeros(surrogate.q.shape[1])  # with one bending ratio only the sum of membrane and bending counts

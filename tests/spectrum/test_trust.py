@@ -45,8 +45,8 @@ def judged(records, k=K, step=1 / RATE, **changes):
     q = np.atleast_2d(records)
     history = ModalHistory("event", np.arange(len(q)) + 1, q, step, 0.0)
     spectra = segment_spectra(history, 4.0, min(80.0, 0.4 / step))
-    shapes, law = np.eye(len(q)), straight_law(k)
-    moments = point_moments(shapes, moment_matrices(spectra))
+    modal_stress, law = np.eye(len(q)), straight_law(k)
+    moments = point_moments(modal_stress, moment_matrices(spectra))
     damage = []
     for cycles in (rainflow(x, "repeat") for x in q):
         damage.append(cycles.count * cycles.range**k)
@@ -61,7 +61,7 @@ def judged(records, k=K, step=1 / RATE, **changes):
         "samples_per_peak": 1 / step / spectral_shape(moments).peaks,
         "top_mode_hz": 36.0,
     }
-    return judge(shapes, moments, trust_matrices(history, spectra), **(known | changes))
+    return judge(modal_stress, moments, trust_matrices(history, spectra), **(known | changes))
 
 
 def verdicts(judgement):
@@ -133,11 +133,11 @@ def test_points_mix_modes():
     q = np.stack([stationary(rng, LONG), sine(0.99)(rng, LONG)])
     history = ModalHistory("event", np.array([1, 2]), q, 1 / RATE, 0.0)
     spectra = segment_spectra(history, 4.0, 80.0)
-    shapes = np.array([[1.0, 0.0], [1.0, 1e-3], [0.0, 1.0], [0.1, 1.0], [0.0, 0.0]])
-    moments = point_moments(shapes, moment_matrices(spectra))
+    modal_stress = np.array([[1.0, 0.0], [1.0, 1e-3], [0.0, 1.0], [0.1, 1.0], [0.0, 0.0]])
+    moments = point_moments(modal_stress, moment_matrices(spectra))
     good = np.ones(5)
     found = judge(
-        shapes,
+        modal_stress,
         moments,
         trust_matrices(history, spectra),
         slope=K,
@@ -267,11 +267,11 @@ def test_a_record_in_which_nothing_moves():
     """A constant record is not assessed, without a warning."""
     history = ModalHistory("event", np.array([1, 2]), np.full((2, SHORT), 7.0), 1 / RATE, 0.0)
     spectra = segment_spectra(history, 4.0, 80.0)
-    shapes = np.ones((1, 2))
+    modal_stress = np.ones((1, 2))
     nothing = np.array([np.nan])
     found = judge(
-        shapes,
-        point_moments(shapes, moment_matrices(spectra)),
+        modal_stress,
+        point_moments(modal_stress, moment_matrices(spectra)),
         trust_matrices(history, spectra),
         slope=K,
         dirlik_ratio=nothing,
