@@ -45,8 +45,9 @@ def structural_stress(axes: Floats, t: Floats, load: Floats) -> StructuralStress
 
     ``axes`` are the local axes of each node, (n, 3, 3), as `local_axes` gives them; ``t`` is the thickness, (n,) [mm].
     """
-    x, y, z = np.moveaxis(axes, 1, 0) / t[:, np.newaxis]
-    along = np.stack([y, -6 * x / t[:, np.newaxis], x, 6 * y / t[:, np.newaxis], z], axis=1)
+    x, y, z = np.moveaxis(axes, 1, 0)
+    t = t[:, np.newaxis]
+    along = np.stack([y / t, -6 * x / t**2, x / t, 6 * y / t**2, z / t], axis=1)
     stress = np.empty((5, *load.shape[:2]))
     _components(np.ascontiguousarray(load), along, stress)
     return StructuralStress(*stress)
