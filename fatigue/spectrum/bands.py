@@ -24,8 +24,11 @@ LOWEST_CENTRE_HZ, HIGHEST_CENTRE_HZ = 1.0, 80.0  # nominal one-third octaves a b
 def third_octaves(lowest_hz: float = LOWEST_CENTRE_HZ, highest_hz: float = HIGHEST_CENTRE_HZ) -> Floats:
     """Band edges of one-third octaves, ``10**(n/10) * 10**(+-1/20)`` Hz (IEC 61260-1, base ten).
 
-    The bands run from that around ``lowest_hz`` to that around ``highest_hz``; what lies below the first edge and above
-    the last one are bands as well, see `band_slices`.
+    The bands run from the one around ``lowest_hz`` to the one around ``highest_hz``; what lies below the first edge and
+    above the last one are bands as well, see ``band_slices``.
+
+    >>> third_octaves(1.0, 1.6).round(3)
+    array([0.891, 1.122, 1.413, 1.778])
     """
     first, last = round(10.0 * np.log10(lowest_hz)), round(10.0 * np.log10(highest_hz))
     return np.asarray(10.0 ** ((np.arange(first, last + 2) - 0.5) / 10.0))

@@ -26,7 +26,7 @@ def weights_of_pairs(modes: int) -> NDArray[np.float64]:
 
 
 def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Evaluate quadratic forms given by their weights (p, pairs) for all rows of ``modal_stress`` (n, m): (p, n)."""
+    """Quadratic forms, (p, n), given by their weights (p, pairs), of all rows of ``modal_stress`` (n, m)."""
     forms = np.empty((len(weights), len(modal_stress)), dtype=weights.dtype)
     for begin in range(0, len(modal_stress), BLOCK_POINTS):
         block = modal_stress[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")

@@ -9,7 +9,11 @@ from numpy.typing import NDArray
 
 
 def hann(length: int) -> NDArray[np.float64]:
-    """Return the window."""
+    """Return the window.
+
+    >>> hann(4)
+    array([0. , 0.5, 1. , 0.5])
+    """
     return 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(length) / length)
 
 

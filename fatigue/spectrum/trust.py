@@ -222,7 +222,11 @@ def judge(
 
 
 def sampling_loss(samples_per_peak: NDArray[np.float64], k: float) -> NDArray[np.float64]:
-    """Share of the damage lost because peaks fall between samples: ``k (pi / samples per peak)**2 / 6``."""
+    """Share of the damage lost because peaks fall between samples: ``k (pi / samples per peak)**2 / 6`` (Eq. 6).
+
+    >>> float(sampling_loss(np.array(10.0), k=3.6).round(3))
+    0.059
+    """
     return np.asarray(np.minimum(k * (np.pi / samples_per_peak) ** 2 / 6, 1.0))
 
 
@@ -230,7 +234,10 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
     """Damage of a tone that holds ``share`` of the variance, plus narrow-band noise, over all-Gaussian damage.
 
     Mean of a Rice-distributed amplitude to the power k: ``1F1(-k/2; 1; -s) / (1 + s)**(k/2)`` with s the variance of
-    the tone over that of the noise (Rice, 1945); ``1 / Gamma(1 + k/2)`` for a pure tone.
+    the tone over the variance of the noise (Rice, 1945); ``1 / Gamma(1 + k/2)`` for a pure tone.
+
+    >>> float(tone_damage_factor(np.array(0.0), k=3.6))
+    1.0
     """
     from scipy.special import hyp1f1  # noqa: PLC0415 - slow to import
 
