@@ -22,7 +22,7 @@ class FoundInputs:
     """The inputs of a result: the case as it was assessed, the folder of its files and their hashes.
 
     ``root`` is None where the case file was not found any more; ``lost`` says so then, and what to do. ``outdated``
-    are doubts about the welds, which are shown as they were assessed.
+    are warnings about the welds, which are shown as they were assessed.
     """
 
     case: Case

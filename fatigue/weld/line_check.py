@@ -1,4 +1,4 @@
-"""What makes a weld line unfit for assessment (refusals), and what makes it doubtful (warnings).
+"""What makes a weld line unfit for assessment (refusals), and what is doubtful about it (warnings).
 
 The judgements take a line or a stack of lines. Thousands of lines are judged together first, and the few that stand
 out then one by one, in words.
@@ -53,16 +53,16 @@ def unfit_lines(line: Lines) -> NDArray[np.intp]:
 
 
 def line_warnings(line: WeldLine, where: str) -> list[Problem]:
-    """Doubts about a line that passes ``check_line``: short edges, steps of thickness, crooked geometry."""
-    return _problems(line, where, _doubts(line))
+    """Warnings about a line that passes ``check_line``: short edges, steps of thickness, crooked geometry."""
+    return _problems(line, where, _warnings(line))
 
 
-def doubtful_lines(line: Lines) -> NDArray[np.intp]:
-    """Lines of a stack, all fit for assessment, by position, about which ``line_warnings`` has something to say."""
-    return np.flatnonzero(_touched(line, _doubts(line)))
+def warned_lines(line: Lines) -> NDArray[np.intp]:
+    """Positions in a stack of the lines that ``line_warnings`` warns about; all lines are fit for assessment."""
+    return np.flatnonzero(_touched(line, _warnings(line)))
 
 
-def _doubts(line: Lines) -> list[_Finding]:
+def _warnings(line: Lines) -> list[_Finding]:
     """Judge what does not forbid an assessment."""
     nodes, points, t = edge_nodes(line), edge_points(line), line.thickness
     owner = line_of_node(line)

@@ -123,21 +123,21 @@ def split_at_kinks(line: WeldLine) -> tuple[WeldLine, ...]:
     if not corner.size:
         return (line,)
     n = line.node.size
-    cuts = np.append(corner, corner[0] + n) if line.closed else np.concatenate([[0], corner, [n - 1]])
-    pieces = list(pairwise(cuts))
+    bounds = np.append(corner, corner[0] + n) if line.closed else np.concatenate([[0], corner, [n - 1]])
+    parts = list(pairwise(bounds))
     return tuple(
-        _piece(
+        _part(
             line,
             number,
             np.arange(begin, end + 1) % n,
             corner_start=line.closed or number > 1 or line.corner_start,
-            corner_end=line.closed or number < len(pieces) or line.corner_end,
+            corner_end=line.closed or number < len(parts) or line.corner_end,
         )
-        for number, (begin, end) in enumerate(pieces, start=1)
+        for number, (begin, end) in enumerate(parts, start=1)
     )
 
 
-def _piece(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bool, corner_end: bool) -> WeldLine:
+def _part(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bool, corner_end: bool) -> WeldLine:
     """Take the nodes ``at`` of a line as an open part."""
     return replace(
         line,

@@ -20,7 +20,7 @@ USUAL = 0.5, 200.0  # [mm] what lies outside may be right (a coupon of foil, a f
 
 
 def unit_problems(lines: LineStack, file: str) -> list[Problem]:
-    """Find thicknesses and coordinates that cannot be mm; ``file`` is the one they come from, or its path in the case.
+    """Problems of thicknesses and coordinates that cannot be mm; ``file`` is the one they come from, or its path in the case.
 
     With a wrong thickness nothing is said about the coordinates, which are judged by it.
     """
@@ -29,7 +29,7 @@ def unit_problems(lines: LineStack, file: str) -> list[Problem]:
 
 
 def unit_warnings(lines: LineStack, file: str) -> list[Problem]:
-    """Doubt thicknesses that few plates have; for lines that ``unit_problems`` lets pass."""
+    """Warnings of thicknesses that few plates have, of lines that ``unit_problems`` lets pass."""
     at = (lines.thickness < USUAL[0]) | (lines.thickness > USUAL[1])
     if not at.any():
         return []
