@@ -20,7 +20,7 @@ USUAL = 0.5, 200.0  # [mm] what lies outside may be right (a coupon of foil, a f
 
 
 def unit_problems(lines: LineStack, file: str) -> list[Problem]:
-    """Problems of thicknesses and coordinates that cannot be mm; ``file`` is the one they come from, or its path in the case.
+    """Problems of thicknesses and coordinates that cannot be mm; ``file`` holds them, or is its path in the case.
 
     With a wrong thickness nothing is said about the coordinates, which are judged by it.
     """

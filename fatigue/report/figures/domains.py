@@ -21,19 +21,10 @@ from fatigue.report.figures.style import (
     upright,
 )
 from fatigue.report.wording import in_figure
+from fatigue.spectrum import trust
 
 MOST_POINTS = 20_000  # beyond, only a part of the points that agree is drawn
-VERDICTS = (
-    "valid",
-    "not_assessed",
-    "sampling",
-    "quasi_static",
-    "single_event",
-    "non_stationary",
-    "harmonic",
-    "non_gaussian",
-    "bandwidth",
-)
+VERDICTS = ("valid", *(verdict for verdict in trust.VERDICTS if verdict != "valid"))  # in the order of the legend
 TRUSTED = VERDICTS[:2]
 SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star")
 _ESTIMATES = ("life_km_same_ratio", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict")
