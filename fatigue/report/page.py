@@ -69,7 +69,7 @@ def write_report(
 def report_page(
     folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
 ) -> str:
-    """Return the page as text; see `write_report`."""
+    """Return the page as text; see ``write_report``."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)

@@ -37,7 +37,7 @@ def third_octaves(lowest_hz: float = LOWEST_CENTRE_HZ, highest_hz: float = HIGHE
 def coefficients(x: NDArray[np.floating], residue: Residue) -> Floats:
     """Coefficients (..., t) of records (..., t) in the orthonormal basis of a record that recurs, or of a single pass.
 
-    Their frequencies are `coefficient_frequencies`, ascending.
+    Their frequencies are ``coefficient_frequencies``, ascending.
     """
     if residue == "half":
         from scipy.fft import dct  # noqa: PLC0415 - scipy.fft takes a while to import

@@ -214,7 +214,7 @@ def cross_densities(spectra: Spectra) -> NDArray[np.float64]:
 
 
 def pair_densities(spectra: Spectra) -> NDArray[np.float64]:
-    """Real part of the one-sided cross-spectral density of each of the `pairs` of modes, (f, pairs), see above."""
+    """Real part of the one-sided cross-spectral density of each of the ``pairs`` of modes, (f, pairs), see above."""
     modes, bins = spectra.history.q.shape[0], len(spectra.frequency)
     upper = np.ravel_multi_index(pairs(modes), (modes, modes))
     density = np.zeros((bins, len(upper)))

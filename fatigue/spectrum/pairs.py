@@ -38,7 +38,7 @@ def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[np.float32])
 
 @compiled()
 def _multiply_pairs(block: NDArray[np.float32], products: NDArray[np.float32]) -> None:
-    """Write the products of all pairs of the modes of some points, (m, n), as (pairs, n), in the order of `pairs`."""
+    """Write the products of all pairs of the modes of some points, (m, n), as (pairs, n), in the order of ``pairs``."""
     pair = 0
     for first in range(len(block)):
         for second in range(first, len(block)):

@@ -26,7 +26,7 @@ def principal_scatter(
 
     That variance is ``2 sum over lags of overlap(lag) (s' R(lag) s)**2`` with the autocovariance R of the coordinates
     and the autocorrelation of the taper. The few principal directions of the stack of matrices hold all but
-    `NEGLIGIBLE` of its energy, the sum of its squared numbers.
+    ``NEGLIGIBLE`` of its energy, the sum of its squared numbers.
     """
     first, second = pairs(len(scale))
     beside_diagonal = np.sqrt(weights_of_pairs(len(scale)))  # each number there stands twice in the energy

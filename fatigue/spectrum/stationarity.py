@@ -92,7 +92,7 @@ def moments_and_variances(spectra: Spectra) -> tuple[MomentMatrices, NDArray[np.
 def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[np.float64]) -> PeriodMatrices | None:
     """Judge the periods of an event, one or, in a long record, some segments each; None if there are fewer than eight.
 
-    ``variances`` is (p, m, m), see `moments_and_variances`.
+    ``variances`` is (p, m, m), see ``moments_and_variances``.
     """
     if len(spectra.starts) < FEWEST_PERIODS:
         return None
@@ -115,7 +115,7 @@ def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[
 
 
 def segments_per_period(spectra: Spectra) -> int:
-    """Segments that make one period, so that there are no more than `MOST_PERIODS`."""
+    """Segments that make one period, so that there are no more than ``MOST_PERIODS``."""
     return -(-len(spectra.starts) // MOST_PERIODS)
 
 

@@ -80,8 +80,8 @@ class Judgement:
 
     Attributes
     ----------
-    verdict : index into `VERDICTS`
-    record_too_short : the damage would scatter by more than `CONFIDENT` from record to record, or that is unknown
+    verdict : index into ``VERDICTS``
+    record_too_short : the damage would scatter by more than ``CONFIDENT`` from record to record, or that is unknown
     dirlik_ratio, tb_ratio : damage of Dirlik and of Tovo-Benasciutti over rainflow damage
     ratio_low, ratio_high : band in which the ratio means agreement
     alpha2 : irregularity
@@ -90,7 +90,7 @@ class Judgement:
     slow_share : of the variance, below ``slow_hz``
     top_cycle_share : of the rainflow damage, in the largest cycle
     top_cycle_limit : share that chance allows
-    modulation_index, modulation_low, modulation_high : see `Stationarity`
+    modulation_index, modulation_low, modulation_high : see ``Stationarity``
     modulation_factor : damage that the modulation found adds
     line_share : of the variance, in spectral lines
     line_factor : damage that lines take away: of tone plus noise over Gaussian of the same variance

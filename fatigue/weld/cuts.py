@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from fatigue.weld.detection import Key, Topology
 from fatigue.weld.line import WeldLine
-from fatigue.weld.mesh import NONE, unit
+from fatigue.weld.line_geometry import unit
+from fatigue.weld.mesh import NONE
 
 STRAIGHT_DEG = 30.0
 """Where weld lines cross, a line goes on straight ahead within this angle or ends."""

@@ -156,8 +156,9 @@ def _part(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: boo
 
 
 def unit(vectors: Vectors) -> Vectors:
-    """Vectors of length 1."""
-    scaled: Vectors = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+    """Vectors of length 1 along the last axis; a zero vector stays zero."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    scaled: Vectors = np.divide(vectors, length, out=np.zeros(vectors.shape), where=length > 0)
     return scaled
 
 

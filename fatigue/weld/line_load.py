@@ -151,7 +151,7 @@ def _band_order(line: Lines) -> NDArray[np.int64]:
 
 
 def _band(matrix: csr_array, order: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Diagonals of A in that order as `solve_banded` takes them, (n, w + 1)."""
+    """Diagonals of A in that order as ``solve_banded`` takes them, (n, w + 1)."""
     place, entries = np.argsort(order), matrix.tocoo()
     row = place[entries.row]
     below = row - place[entries.col]

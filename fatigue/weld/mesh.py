@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.weld.line_geometry import unit
+
 NONE = -1
 """Index of a corner or a mid-side node an element does not have."""
 
@@ -66,10 +68,3 @@ def inward(mesh: ShellMesh) -> NDArray[np.float64]:
     vector = unit(np.cross(normals(mesh)[:, None, :], along))
     vector[ends[:, :, 1] == NONE] = 0.0
     return vector
-
-
-def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Vectors of length one along the last axis; a zero vector stays zero."""
-    length = np.linalg.norm(vector, axis=-1, keepdims=True)
-    scaled: NDArray[np.float64] = np.divide(vector, length, out=np.zeros_like(vector), where=length > 0)
-    return scaled

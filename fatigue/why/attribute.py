@@ -1,8 +1,8 @@
-"""Whose damage it is: that of every point and event, shared out to modes, frequency bands and places on the track.
+"""Whose damage it is: the damage of every point and event shared out to modes, frequency bands and places on the track.
 
-One pass over the records. Cycles are counted as in the assessment, so the parts add up to the damage of the result; see
-`fatigue.life.attribution` for the method. Everything is weighted with the mission: damages are per km, and the sum over
-the events is the ``damage_per_km`` of a point.
+The records are gone through once. Cycles are counted as in the assessment, so the parts add up to the damage of the
+result; ``fatigue.life.attribution`` has the method. Everything is weighted with the mission: damages are per km, and
+the sum over the events is the ``damage_per_km`` of a point.
 """
 
 from collections.abc import Sequence
@@ -115,7 +115,7 @@ class Attribution:
 
     @property
     def resonant_share(self) -> Floats:
-        """Part of `mode_share` that each mode makes in its own resonance, (p, m); NaN without damping."""
+        """Part of ``mode_share`` that each mode makes in its own resonance, (p, m); NaN without damping."""
         return self.share(np.asarray(sum(event.resonant for event in self.events)))
 
     @property

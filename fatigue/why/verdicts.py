@@ -38,10 +38,10 @@ class EventVerdicts:
     Attributes
     ----------
     event : name
-    verdict, reason : one of `fatigue.spectrum.trust.VERDICTS`, and the same in words with its numbers
-    measured : the numbers of `fatigue.spectrum.trust.Judgement` by name
+    verdict, reason : one of ``fatigue.spectrum.trust.VERDICTS``, and the same in words with its numbers
+    measured : the numbers of ``fatigue.spectrum.trust.Judgement`` by name
     segmentwise_ratio : Dirlik summed over the periods of the record, over rainflow; where the event is not stationary
-    formula, process, standard_error : the split of Dirlik over rainflow, see `RatioSplit`; where it was asked for
+    formula, process, standard_error : the split of Dirlik over rainflow, see ``RatioSplit``; where it was asked for
     explained : share of ln(process) that the modulation and the tones found explain
     """
 

@@ -36,7 +36,7 @@ def time_against_frequency(nodes: ResultTable) -> go.Figure:
 
     ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
     colours the points: 3 for a Gaussian record. Points without an estimate are left out; of very many points a part is
-    drawn, see `drawn_points`.
+    drawn, see ``drawn_points``.
     """
     nodes = frame_of(nodes, "nodes", (*_ESTIMATES, "kurtosis", "weld", "node", "surface"), empty=True)
     shown = nodes[drawn_points(nodes)]

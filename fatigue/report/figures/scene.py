@@ -78,8 +78,8 @@ def scene(
 
     Parameters
     ----------
-    stations : one row per station with the columns of the table of nodes, see `worst_faces`
-    rows : drawing order, see `line_rows`
+    stations : one row per station with the columns of the table of nodes, see ``worst_faces``
+    rows : drawing order, see ``line_rows``
     target_km : fixes the colour scale [km]
     body : the body to draw, None for none
     """

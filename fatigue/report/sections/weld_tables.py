@@ -44,7 +44,7 @@ def _raw_life(life_km: float) -> str:
 
 
 def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year: float) -> PageTable:
-    """Life with one assumption changed at a time; ``variants`` as `fatigue.report.variants.variants` makes them."""
+    """Life with one assumption changed at a time; ``variants`` as ``fatigue.report.variants.variants`` makes them."""
     rows = []
     for assumption, choice, used, factor in variants.itertuples(index=False):
         life = np.inf if factor == 0.0 else life_km / factor

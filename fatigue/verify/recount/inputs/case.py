@@ -1,6 +1,5 @@
 """The inputs of a result: found again, compared with the hashes in its provenance; the case and its modes."""
 
-import hashlib
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.results import case_of, new_inputs
+from fatigue.results import case_of, new_inputs, sha256
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 
@@ -84,15 +83,10 @@ def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
             yield Problem(
                 "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"
             )
-        elif _sha256(path) != known["sha256"]:
+        elif sha256(path) != known["sha256"]:
             what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
             case = ", or name the case as it was with --case" if path == case_file else ""
             yield Problem("changed_input", str(path), what, f"Assess again, or put the old file back{case}")
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[np.float64]:
