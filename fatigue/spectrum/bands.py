@@ -1,11 +1,11 @@
 """Frequency bands of a record that add up to the record exactly, and products taken band by band.
 
 The record is written in an orthonormal basis in time whose members each have one frequency. The sum of products over
-samples is then the same sum over coefficients, ``x @ y = X @ Y``, and a band is a run of coefficients: the parts of the
-product that belong to the bands add up to the whole, and the parts of the record do.
+samples is then the same sum over coefficients, ``x @ y = X @ Y``. A band is a slice of the coefficients. So the bands
+of a product add up to the whole product, and the bands of a record to the record.
 
-A record that recurs is periodic, and its basis that of Fourier. A single pass ends elsewhere than it began; the cosine
-basis (DCT-II) continues it as its own mirror image, so that the jump does not leak into every band.
+A record that recurs is periodic, and its basis is the Fourier basis. A single pass ends elsewhere than it began; the
+cosine basis (DCT-II) continues it as its own mirror image, so that the jump does not leak into every band.
 """
 
 import itertools
@@ -61,7 +61,7 @@ def coefficient_frequencies(samples: int, step: float, residue: Residue) -> Floa
 
 
 def band_slices(frequency: Floats, edges: Sequence[float] | Floats) -> list[slice]:
-    """Find the runs of coefficients below the first edge, between neighbouring edges, and from the last edge on.
+    """Slices of the coefficients below the first edge, between neighbouring edges, and from the last edge on.
 
     ``frequency`` is ascending [Hz]; a band contains its lower edge. One band more than there are edges; a band between
     two coefficients is empty.

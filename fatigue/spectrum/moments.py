@@ -2,7 +2,7 @@
 
 Stress is linear in the modal coordinates q, and a spectral moment is quadratic in stress. So with the moment matrices
 ``M_p = integral of f**p Re S_qq(f) df`` the moment of a point with stress per unit modal coordinate s is ``s' M_p s``.
-Windowed, detrended segments are linear in q as well: the result is that of Welch's method applied to the point's own
+Windowed, detrended segments are linear in q as well: the result is what Welch's method finds of the point's own
 stress history, to rounding (Braccesi, Cianetti et al. published the idea for modal models, 2005 and later).
 """
 
@@ -56,7 +56,7 @@ class Spectra:
     segment_s: float
 
     def transforms(self) -> Iterator[NDArray[np.float64]]:
-        """Transform one segment after the other: (m, 2 f), the real and the imaginary part of each bin.
+        """Transforms of one segment after the other, (m, 2 f): the real and the imaginary part of each bin.
 
         The mean over segments of the products of two modes, summed over both parts of a bin, is the real part of their
         one-sided cross-spectral density [unit modal coordinate**2 / Hz]. The imaginary part is antisymmetric and leaves
@@ -71,7 +71,7 @@ class Spectra:
                 yield self._transform(samples[:, start - starts[0] : start - starts[0] + length])
 
     def _transform(self, samples: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Transform one segment, (m, length of a segment), some modes at a time."""
+        """Transform of one segment, (m, length of a segment), some modes at a time."""
         length, bins = samples.shape[1], len(self.frequency)
         amplitude = np.empty((len(samples), bins), dtype=np.complex128)
         at_once = max(1, CACHED_NUMBERS // length)
@@ -104,7 +104,7 @@ class MomentMatrices:
 
 
 def samples_per_segment(step: float, segment_s: float) -> int:
-    """Round the segment length to samples."""
+    """Number of samples of a segment, its length rounded."""
     return round(segment_s / step)
 
 
@@ -114,15 +114,15 @@ def has_spectrum(history: ModalHistory, segment_s: float) -> bool:
 
 
 def segment_count(samples: int, step: float, segment_s: float) -> int:
-    """Count the segments that a record of so many samples holds; 0 where a segment has fewer than four samples."""
+    """Number of segments in a record of so many samples; 0 where a segment has fewer than four samples."""
     length = samples_per_segment(step, segment_s)
     return len(segment_starts(samples, length)) if length >= 4 else 0
 
 
 def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) -> Spectra:
-    """Cut all modal coordinates into segments that overlap by half: own mean removed, periodic Hann window.
+    """Spectra of segments that overlap by half, of all modal coordinates: own mean removed, periodic Hann window.
 
-    Bins above ``upper_hz`` [Hz] are dropped. The scaling is that of Welch's method (1967), one-sided.
+    Bins above ``upper_hz`` [Hz] are dropped. The scaling is Welch's (1967), one-sided.
 
     Raises
     ------
@@ -162,7 +162,7 @@ def segment_starts(samples: int, length: int) -> range:
 
 
 def windowed(samples: NDArray[np.floating], window: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Remove the mean of one segment of modal coordinates (m, len(window)) and taper it.
+    """One segment of modal coordinates, (m, len(window)), without its mean and tapered.
 
     The mean goes in double precision: gravity can be a thousand times what is left.
     """
@@ -173,7 +173,7 @@ def windowed(samples: NDArray[np.floating], window: NDArray[np.float64]) -> NDAr
 
 
 def _from_first(samples: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Take samples from the first one of each mode, in double precision: a record at rest has exactly no spectrum."""
+    """Samples less the first one of each mode, in double precision: a record at rest has exactly no spectrum."""
     return np.asarray(samples - samples[:, :1].astype(np.float64), dtype=np.float64)
 
 
@@ -214,7 +214,7 @@ def cross_densities(spectra: Spectra) -> NDArray[np.float64]:
 
 
 def pair_densities(spectra: Spectra) -> NDArray[np.float64]:
-    """Real part of the one-sided cross-spectral density of each of the ``pairs`` of modes, (f, pairs), see above."""
+    """Real part of the one-sided cross-spectral density of each of the ``pairs`` of modes, (f, pairs)."""
     modes, bins = spectra.history.q.shape[0], len(spectra.frequency)
     upper = np.ravel_multi_index(pairs(modes), (modes, modes))
     density = np.zeros((bins, len(upper)))

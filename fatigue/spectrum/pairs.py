@@ -1,8 +1,8 @@
 """Many quadratic forms of the same points at once, from the products of all pairs of modes.
 
 ``s' M s = sum over i <= j of w_ij s_i s_j`` with ``w_ii = M_ii`` and ``w_ij = 2 M_ij`` beside the diagonal. A symmetric
-matrix holds every number beside the diagonal twice, so this takes half the products of ``s' (M s)``, and for all
-matrices together it is one matrix product: that of their weights with the products of the pairs.
+matrix holds every number beside the diagonal twice, so this takes half the products of ``s' (M s)``. For all matrices
+together it is one matrix product, of their weights with the products of the pairs.
 """
 
 import numpy as np

@@ -16,7 +16,7 @@ from fatigue.spectrum.trust import (
 
 
 def reason(of: Judgement, i: int) -> str:
-    """Say in one or two sentences why point i has its verdict, and how far the record can be trusted."""
+    """Why point i has its verdict, and how far the record can be trusted, in one or two sentences."""
     verdict = VERDICTS[of.verdict[i]]
     sentence = _SENTENCES[verdict](of, i)
     return sentence if verdict == "not_assessed" else f"{sentence} {_confidence(of, i)}".rstrip()

@@ -19,9 +19,9 @@ NEGLIGIBLE = 0.01  # share of the scatter energy the principal spectra may miss:
 def principal_scatter(
     spectra: Spectra, density: NDArray[np.float64], scale: NDArray[np.float64], taper: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Find forms H_j with ``sum (s' H_j s)**2`` the variance of a Gaussian process' tapered variance.
+    """Forms H_j with ``sum (s' H_j s)**2`` the variance of a Gaussian process' tapered variance, (r, pairs).
 
-    ``density`` (f, pairs) is that of the spectra, and is used up; ``s`` is the modal stress times ``scale`` (m,);
+    ``density`` (f, pairs) belongs to the spectra, and is used up; ``s`` is the modal stress times ``scale`` (m,);
     ``taper`` is the weight of each squared sample. The forms are given by their weights of pairs, (r, pairs).
 
     That variance is ``2 sum over lags of overlap(lag) (s' R(lag) s)**2`` with the autocovariance R of the coordinates

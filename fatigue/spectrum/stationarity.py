@@ -34,7 +34,7 @@ MOST_PERIODS = 32  # into which a long record is cut: more would cost time and t
 class PeriodMatrices:
     """Variance of the modal coordinates period by period, and the scatter to be expected of it by chance.
 
-    The forms are those of coordinates scaled to unit variance, in single precision: they take ``modal_stress * rms``.
+    The forms belong to coordinates scaled to unit variance, in single precision: they take ``modal_stress * rms``.
     Each is a row of ``forms``, its weights of the ``pairs`` of modes: first the variance of each period, then the
     variance of the record, then the principal spectra of the scatter. The expected squared coefficient of variation of
     a point's variance from period to period, were the record Gaussian and stationary, is
@@ -90,7 +90,7 @@ def moments_and_variances(spectra: Spectra) -> tuple[MomentMatrices, NDArray[np.
 
 
 def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[np.float64]) -> PeriodMatrices | None:
-    """Judge the periods of an event, one or, in a long record, some segments each; None if there are fewer than eight.
+    """Matrices of the periods of an event, of one segment or, in a long record, some; None for fewer than eight.
 
     ``variances`` is (p, m, m), see ``moments_and_variances``.
     """
@@ -150,7 +150,7 @@ def stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices) -> 
 
 
 def modulation_factor(of: Stationarity, k: float) -> NDArray[np.float64]:
-    """Damage of the periods, each at its own variance, over that at their mean variance: (n,), 1 when stationary.
+    """Damage of the periods, each at its own variance, over the damage at their mean variance: (n,), 1 when stationary.
 
     ``mean(v**(k/2)) / mean(v)**(k/2)``, over the value it has by chance, ``1 + (k/2)(k/2 - 1)/2 cov**2``.
     """

@@ -52,16 +52,18 @@ MODULATION_MATTERS = 1.1  # factor on the damage
 EXPLAINED_KURTOSIS = 0.25  # share of the excess that modulation must make; with less, high peaks scatter the variance
 LINE_SHARE = 0.30  # of the variance, in tones
 STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
-NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, that of a mode with 3 % damping: a tone is narrower
+NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, of a mode with 3 % damping: a tone is narrower
 KURTOSIS_OFF = 0.5  # from what the modulation found explains
 RATIO_BAND = {4.0: (0.80, 1.25), 5.0: (0.65, 1.35)}  # of Dirlik / rainflow on Gaussian records, by slope k
 CONFIDENT = 0.25  # coefficient of variation of the damage from one record to the next
-RATIO_SCATTER = 0.5  # of ln(Dirlik / rainflow) over that of each damage (Monte Carlo): one record, common errors
+RATIO_SCATTER = (
+    0.5  # scatter of ln(Dirlik / rainflow) over the scatter of each damage (Monte Carlo): one record, common errors
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrustMatrices:
-    """What the judgement of all points of an event needs, computed once.
+    """Matrices of an event that the judgement of all its points needs, computed once.
 
     ``moments`` are the moment matrices of the event, from the same transforms as the periods. ``periods`` is None if
     the record holds too few segments to judge its scatter.
@@ -132,7 +134,7 @@ class Judgement:
 
 
 def trust_matrices(history: ModalHistory, spectra: Spectra) -> TrustMatrices:
-    """Prepare the judgement of an event from its kept record and the segment spectra of it."""
+    """Matrices for the judgement of an event, from its kept record and the segment spectra of it."""
     moments, variances = moments_and_variances(spectra)
     return TrustMatrices(
         moments=moments,
@@ -156,7 +158,7 @@ def judge(
     samples_per_peak: NDArray[np.float64],
     top_mode_hz: float | None,
 ) -> Judgement:
-    """Judge all points of one event: verdict and the numbers behind it.
+    """Judgement on all points of one event: the verdict and the numbers behind it.
 
     Parameters
     ----------
@@ -246,7 +248,7 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
 
 
 def _verdict(of: Judgement) -> NDArray[np.int8]:
-    """Apply the rule: the first finding that holds; a number that could not be had accuses nobody."""
+    """Verdict by the rule: the first finding that holds; a number that could not be had accuses nobody."""
     modulated = (of.modulation_index > of.modulation_high) & (of.modulation_factor > MODULATION_MATTERS)
     high_peaks = of.expected_kurtosis - 3 < EXPLAINED_KURTOSIS * (of.kurtosis - 3)
     narrow = of.relative_bandwidth < NARROW_PEAK
@@ -269,7 +271,7 @@ def _verdict(of: Judgement) -> NDArray[np.int8]:
 
 
 def _stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
-    """Judge the variance over time, or say nothing (NaN) of a record too short for it."""
+    """Variance over time, judged; NaN for a record too short for it."""
     if periods is not None:
         return stationarity(modal_stress, periods)
     unknown = np.full(len(modal_stress), np.nan)
@@ -283,7 +285,7 @@ def _ratio_band(slope: float) -> tuple[float, float]:
 
 
 def _rayleigh_cycles(shape: SpectralShape, time: Stationarity, duration: float, k: float) -> NDArray[np.float64]:
-    """Count the Rayleigh cycles that would do Dirlik's damage, those only that fall into the periods which do it."""
+    """Number of Rayleigh cycles that would do Dirlik's damage, in the periods which do it only."""
     variance = time.relative_variance
     damage = np.where(np.isnan(variance), 1.0, variance) ** (k / 2)
     busy = damage.mean(axis=0) ** 2 / np.mean(damage**2, axis=0)

@@ -115,7 +115,7 @@ def corners(line: Lines) -> NDArray[np.bool_]:
 
 
 def split_at_kinks(line: WeldLine) -> tuple[WeldLine, ...]:
-    """Split a line at its corners into open parts; a corner node belongs to both parts that meet there.
+    """Open parts of a line split at its corners; a corner node belongs to both parts that meet there.
 
     A closed line begins anew at its first corner; without corners the line itself is the only part.
     """
@@ -138,7 +138,7 @@ def split_at_kinks(line: WeldLine) -> tuple[WeldLine, ...]:
 
 
 def _part(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bool, corner_end: bool) -> WeldLine:
-    """Take the nodes ``at`` of a line as an open part."""
+    """Open part of a line with the nodes ``at``."""
     return replace(
         line,
         part=part,
@@ -164,7 +164,7 @@ def unit(vectors: Vectors) -> Vectors:
 
 @once
 def edge_tangents(line: Lines) -> tuple[Vectors, Vectors]:
-    """Return the unit tangents before and after each node, (n, 3) each; zero where an open line has no edge."""
+    """Unit tangents before and after each node, (n, 3) each; zero where an open line has no edge."""
     first, mid, last = edge_nodes(line).T
     at_first, at_mid, at_last = np.moveaxis(unit(edge_derivative(edge_points(line), np.array([-1.0, 0.0, 1.0]))), 1, 0)
     before, after = np.zeros_like(line.xyz), np.zeros_like(line.xyz)
@@ -175,6 +175,6 @@ def edge_tangents(line: Lines) -> tuple[Vectors, Vectors]:
 
 
 def tangents(line: Lines) -> Vectors:
-    """Return the unit tangent at each node, (n, 3): the normalised sum of those before and after it."""
+    """Unit tangent at each node, (n, 3): the normalised sum of the unit tangents before and after it."""
     before, after = edge_tangents(line)
     return unit(before + after)

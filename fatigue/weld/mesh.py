@@ -21,7 +21,7 @@ class ShellMesh:
     xyz : (n, 3) coordinates [mm]
     element : (e,) element ids, ascending
     corner : (e, 4) indices into ``node`` round the element; the last is -1 on a triangle
-    mid : (e, 4) indices of the mid-side nodes, that of side k between corners k and k + 1; -1 where there is none
+    mid : (e, 4) indices of the mid-side nodes; side k lies between corners k and k + 1; -1 where there is none
     pid : (e,) property ids
     thickness : (e,) thickness [mm], NaN if unknown
     offset : (e,) distance from the nodes to the mid-surface along the element normal [mm]
@@ -37,7 +37,7 @@ class ShellMesh:
     offset: NDArray[np.float64]
 
     def side_ends(self) -> NDArray[np.int64]:
-        """Give the indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
+        """Indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
         first = self.corner
         last = np.roll(first, -1, axis=1)
         triangle = first[:, 3] == NONE
@@ -54,7 +54,7 @@ def centroids(mesh: ShellMesh) -> NDArray[np.float64]:
 
 
 def normals(mesh: ShellMesh) -> NDArray[np.float64]:
-    """Return the unit normal of each element by the right-hand rule, (e, 3); zero for an element without area."""
+    """Unit normal of each element by the right-hand rule, (e, 3); zero for an element without area."""
     a, b, c, d = (mesh.xyz[mesh.corner[:, k]] for k in range(4))
     is_triangle = (mesh.corner[:, 3] == NONE)[:, None]
     vector = np.where(is_triangle, np.cross(b - a, c - a), np.cross(c - a, d - b))
@@ -62,7 +62,7 @@ def normals(mesh: ShellMesh) -> NDArray[np.float64]:
 
 
 def inward(mesh: ShellMesh) -> NDArray[np.float64]:
-    """Return the unit vector from each side into its element, normal to the side, (e, 4, 3); zero on no side."""
+    """Unit vector from each side into its element, normal to the side, (e, 4, 3); zero on no side."""
     ends = mesh.side_ends()
     along = mesh.xyz[ends[:, :, 1]] - mesh.xyz[ends[:, :, 0]]
     vector = unit(np.cross(normals(mesh)[:, None, :], along))
