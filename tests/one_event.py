@@ -6,7 +6,7 @@ from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import Shapes
 
 
-def assess_event_block(shapes: Shapes, load: EventLoad, yield_MPa: float | None, mean_stress: bool) -> EventBlock:
+def assess_event_block(shapes: Shapes, load: EventLoad) -> EventBlock:
     """Damage of one pass of an event at every station of a block, in the time and in the frequency domain."""
     estimate = estimate_event(shapes, load, member_variances(shapes, load))
-    return judged(count_event(shapes, load, estimate, yield_MPa, mean_stress), shapes, load, estimate)
+    return judged(count_event(shapes, load, estimate), shapes, load, estimate)

@@ -45,19 +45,17 @@ def event_bound(
     shapes: Shapes,
     rows: NDArray[np.intp] | slice,
     mean: NDArray[np.float64],
-    yield_MPa: float | None,
 ) -> Bound:
     """Bound one pass at some ``rows`` of a block from bounds of range and sum n S^q, (n, 2) each, of the record.
 
-    They are those before the event's ``stress_factor``. ``mean`` (n, 2) is the time mean of the stress [MPa];
-    ``yield_MPa`` is given where damage contains the mean-stress factor: stations that may need it have no bound then.
+    They are those before the event's ``stress_factor``. ``mean`` (n, 2) is the time mean of the stress [MPa]. Where
+    the damage contains the mean-stress factor, stations that may need it have no bound.
     """
     stress_range = stress_factor * found[0]
     power_sums = {q: stress_factor**q * power_sum for q, power_sum in found[1].items()}
     size = shapes.size[rows, None]
-    damage, largest = damage_bound(
-        stress_range, power_sums, size, shapes.law, uses_bending_ratio=shapes.uses_bending_ratio
-    )
+    damage, largest = damage_bound(stress_range, power_sums, size, shapes.rule)
+    yield_MPa = shapes.rule.yield_of_damage
     if yield_MPa is not None:
         damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)

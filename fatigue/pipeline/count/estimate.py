@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.bounds.forms import face_forms
-from fatigue.life.damage import ratio_factor
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import Shapes
 from fatigue.quotient import quotient
@@ -79,7 +78,7 @@ def estimate_event(shapes: Shapes, load: EventLoad, variances: NDArray[np.float6
         return Estimate(bending_ratio, mean, np.full((4, *mean.shape), np.nan), *(nothing,) * 5)
 
     moments = f**2 * np.concatenate([face_forms(S_m, S_b, pair) for pair in load.moment_pairs])
-    I_s = ratio_factor(np.nan_to_num(bending_ratio)) if shapes.uses_bending_ratio else 1.0
+    I_s = shapes.rule.ratio_factor(np.nan_to_num(bending_ratio))
     equivalent = (moments * (shapes.size[:, None] / I_s) ** 2).reshape(4, -1)
     m0, _, m2, m4 = moments
     peaks_per_s = np.sqrt(quotient(m4, m2))
@@ -87,8 +86,8 @@ def estimate_event(shapes: Shapes, load: EventLoad, variances: NDArray[np.float6
         bending_ratio=bending_ratio,
         mean=mean,
         moments=moments,
-        dirlik=load.duration * dirlik_damage_rate(equivalent, shapes.law).reshape(mean.shape),
-        tb=load.duration * tovo_benasciutti_damage_rate(equivalent, shapes.law).reshape(mean.shape),
+        dirlik=load.duration * dirlik_damage_rate(equivalent, shapes.rule.law).reshape(mean.shape),
+        tb=load.duration * tovo_benasciutti_damage_rate(equivalent, shapes.rule.law).reshape(mean.shape),
         irregularity=quotient(m2, np.sqrt(m0 * m4)),
         peaks_per_s=peaks_per_s,
         samples_per_peak=quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s),

@@ -8,21 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import NumericalError, Problem
-from fatigue.life.counting.chunks import count_block_long
-from fatigue.life.counting.rainflow import BlockCount, count_block
-from fatigue.life.counting.single.count import count_block_fast, is_fast
-from fatigue.life.damage import cycle_damage, ratio_factor, shear_factor
-from fatigue.life.records.history import stress_history
-from fatigue.life.records.spool import Spool
+from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.count import count
+from fatigue.life.rule import cycle_damage
+from fatigue.life.shear import shear_factor
 from fatigue.pipeline.count.bounds import Bound
 from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import RawEnds, Shapes, faces
 from fatigue.quotient import quotient
 from fatigue.spectrum.trust import VERDICTS, judge
-
-_SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before they are counted: 32 MB
-_LONGEST_ROW = 250_000  # samples of a record of which 16 rows at a time are worth a matrix product
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,20 +56,15 @@ class EventBlock:
         return EventBlock(*(getattr(self, field.name)[rows] for field in fields(self)))
 
 
-def count_event(
-    shapes: Shapes, load: EventLoad, estimate: Estimate, yield_MPa: float | None, mean_stress: bool
-) -> EventBlock:
+def count_event(shapes: Shapes, load: EventLoad, estimate: Estimate) -> EventBlock:
     """Count one pass of an event at every station of a block; see `judged` for the verdict.
 
     The equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5).
     """
-    counted, raw_end = _counted(shapes, load, estimate.one_ratio, yield_MPa, mean_stress)
+    counted, raw_end = _counted(shapes, load, estimate.one_ratio)
     var, shear_var, covar, shear_bending_ratio = _variances(shapes, load)
-    if shapes.uses_bending_ratio:
-        I_s, I_t = ratio_factor(estimate.one_ratio), ratio_factor(shear_bending_ratio)
-    else:
-        I_s = I_t = np.ones_like(var)
-    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** shapes.law.slopes[0]
+    I_s, I_t = shapes.rule.ratio_factor(estimate.one_ratio), shapes.rule.ratio_factor(shear_bending_ratio)
+    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** shapes.rule.law.slopes[0]
     return EventBlock(
         damage=counted.damage,
         damage_same_ratio=counted.damage_same_ratio,
@@ -104,7 +94,7 @@ def judged(event: EventBlock, shapes: Shapes, load: EventLoad, estimate: Estimat
     """Judge by what was counted whether the estimate may be trusted at each point of a block."""
     if load.trust is None:
         return event
-    law, stress = shapes.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
+    law, stress = shapes.rule.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
     same_ratio, damage = event.damage_same_ratio.reshape(-1), event.damage.reshape(-1)
     found = judge(
         stress.reshape(-1, stress.shape[-1]),
@@ -173,80 +163,23 @@ def no_overflow(event: str, welds: str) -> Iterator[None]:
         ) from None
 
 
-def _counted(
-    shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64], yield_MPa: float | None, mean_stress: bool
-) -> tuple[BlockCount, NDArray[np.float64]]:
+def _counted(shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64]) -> tuple[BlockCount, NDArray[np.float64]]:
     """Count a block, and beside it the ends that matter as they are without treatment: their damage is that of (n, 2).
 
     It is NaN at ends that do not matter without treatment, and that of the block where there is none.
     """
-    n, ends = len(shapes), shapes.raw_ends
+    n, ends, f = len(shapes), shapes.raw_ends, load.stress_factor
     rows = ends.rows[ends.matters]
+    stress = BlockStress(f * shapes.membrane, f * shapes.bending, shapes.size, one_ratio)
     if rows.size:
-        shapes = replace(
-            shapes,
-            membrane=np.concatenate([shapes.membrane, ends.membrane[ends.matters]]),
-            bending=np.concatenate([shapes.bending, ends.bending[ends.matters]]),
-            size=np.concatenate([shapes.size, shapes.size[rows]]),
-        )
-        one_ratio = np.concatenate([one_ratio, one_ratio[rows]])
-    everything = _superpose_and_count(shapes, load, one_ratio, yield_MPa, mean_stress)
-    counted = BlockCount(*(getattr(everything, field.name)[:n] for field in fields(BlockCount)))
+        membrane, bending = f * ends.membrane[ends.matters], f * ends.bending[ends.matters]
+        stress = stress.beside(BlockStress(membrane, bending, shapes.size[rows], one_ratio[rows]))
+    everything = count(stress, load.record, shapes.rule)
+    counted = everything.at(slice(n))
     raw_end = counted.damage.copy()
     raw_end[ends.rows] = np.nan
     raw_end[rows] = everything.damage[n:]
     return counted, raw_end
-
-
-def _superpose_and_count(
-    shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64], yield_MPa: float | None, mean_stress: bool
-) -> BlockCount:
-    """Recover membrane and bending histories, a few rows or some samples at a time, and count them."""
-    S_m, S_b, size = load.stress_factor * shapes.membrane, load.stress_factor * shapes.bending, shapes.size
-    if load.single is not None and is_fast(shapes.law, load.single):
-        return count_block_fast(
-            S_m,
-            S_b,
-            load.single,
-            size,
-            one_ratio,
-            shapes.law,
-            uses_bending_ratio=shapes.uses_bending_ratio,
-            residue=load.residue,
-            yield_MPa=yield_MPa,
-            mean_stress=mean_stress,
-        )
-    q = load.counted.q
-    if isinstance(q, Spool) or q.shape[1] > _LONGEST_ROW:
-        return count_block_long(
-            S_m,
-            S_b,
-            q,
-            size,
-            one_ratio,
-            shapes.law,
-            uses_bending_ratio=shapes.uses_bending_ratio,
-            residue=load.residue,
-            yield_MPa=yield_MPa,
-            mean_stress=mean_stress,
-        )
-    rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # depends on the record only: the bytes do not depend on the machine
-    pieces = []
-    for first in range(0, len(S_m), rows):
-        some = slice(first, first + rows)
-        piece = count_block(
-            stress_history(S_m[some], q),
-            stress_history(S_b[some], q),
-            size[some],
-            one_ratio[some],
-            shapes.law,
-            uses_bending_ratio=shapes.uses_bending_ratio,
-            residue=load.residue,
-            yield_MPa=yield_MPa,
-            mean_stress=mean_stress,
-        )
-        pieces.append(piece)
-    return BlockCount(*(np.concatenate([getattr(p, f.name) for p in pieces]) for f in fields(BlockCount)))
 
 
 def _variances(shapes: Shapes, load: EventLoad) -> tuple[NDArray[np.float64], ...]:

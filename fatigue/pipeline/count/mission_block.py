@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
-from fatigue.life.mission import Plan, equivalent_range, life_km, load_factor, mission_sum, straight_load_factor
+from fatigue.life.mission import Plan, life_km, load_factor, mission_sum, range_at_2e6, straight_load_factor
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.quotient import quotient
 
@@ -73,7 +73,7 @@ def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> Mi
         life_km_same_ratio=_life(same_ratio, plan),
         dirlik_ratio=quotient(dirlik, same_ratio),
         max_range=np.stack([p.max_range for p in parts]).max(axis=0),
-        equivalent_range=equivalent_range(
+        equivalent_range=range_at_2e6(
             mission_sum(np.stack([p.power_sum for p in parts]), plan.passes), k, plan.target_km
         ),
         mean_stress=_of_event("mean", parts, governing),

@@ -19,20 +19,6 @@ ABOVE = 1.0 + 1e-6  # so that what was counted in single precision is a bound as
 ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
 
 
-@dataclass(frozen=True, slots=True)
-class Rules:
-    """How stations are counted: ``mean_stress`` says whether damage contains f_M, ``welds`` are for messages."""
-
-    yield_MPa: float | None  # noqa: N815
-    mean_stress: bool
-    welds: str
-
-    @property
-    def yield_of_damage(self) -> float | None:
-        """The yield stress [MPa] where damage contains f_M, which depends on it."""
-        return self.yield_MPa if self.mean_stress else None
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
     """Some stations of a block, ``rows`` ascending; ``tier`` is an index into `TIERS`; histograms are left out."""
@@ -43,8 +29,8 @@ class Piece:
     tier: int
 
 
-def estimated(shapes: Shapes, loads: Sequence[EventLoad], rules: Rules) -> tuple[Estimate, ...]:
-    """Estimate all events at all stations of a block.
+def estimated(shapes: Shapes, loads: Sequence[EventLoad], welds: str) -> tuple[Estimate, ...]:
+    """Estimate all events at all stations of a block, parts of ``welds``, which are for messages.
 
     Raises
     ------
@@ -52,7 +38,7 @@ def estimated(shapes: Shapes, loads: Sequence[EventLoad], rules: Rules) -> tuple
     """
     estimates: tuple[Estimate, ...] = ()
     for load in loads:
-        with no_overflow(load.counted.event, rules.welds):
+        with no_overflow(load.counted.event, welds):
             estimates += (estimate_event(shapes, load, member_variances(shapes, load)),)
     return estimates
 
@@ -63,7 +49,7 @@ def counted_at(
     loads: Sequence[EventLoad],
     estimates: Sequence[Estimate],
     plan: Plan,
-    rules: Rules,
+    welds: str,
 ) -> Iterator[Piece]:
     """Count all events at some stations of a block.
 
@@ -73,7 +59,7 @@ def counted_at(
     """
     for part in _cut(rows, shapes):
         some = shapes.at(part)
-        events = [_counted(part, some, load, e, rules) for load, e in zip(loads, estimates, strict=True)]
+        events = [_counted(part, some, load, e, welds) for load, e in zip(loads, estimates, strict=True)]
         yield _piece(part, _judged(events, part, shapes, loads, estimates), plan, shapes, 0)
 
 
@@ -85,7 +71,7 @@ def counted_while(
     loads: Sequence[EventLoad],
     estimates: Sequence[Estimate],
     plan: Plan,
-    rules: Rules,
+    welds: str,
 ) -> Iterator[Piece]:
     """Count some stations of a block event by event, as long as they are unsettled.
 
@@ -99,7 +85,7 @@ def counted_while(
     for part in _cut(rows, shapes):
         events: dict[int, tuple[NDArray[np.intp], EventBlock]] = {}
         for number, left in event_by_event(part, bounds, plan, unsettled):
-            event = _counted(left, shapes.at(left), loads[number], estimates[number], rules)
+            event = _counted(left, shapes.at(left), loads[number], estimates[number], welds)
             counted = Bound(*(ABOVE * a for a in (event.damage, event.max_range, event.max_equivalent_range)))
             bounds[number] = bounds[number].tightened(counted, left)
             events[number] = left, event
@@ -123,9 +109,9 @@ def bounded_at(
     return _piece(rows, events, plan, shapes, tier)
 
 
-def _counted(rows: NDArray[np.intp], some: Shapes, load: EventLoad, estimate: Estimate, rules: Rules) -> EventBlock:
-    with no_overflow(load.counted.event, rules.welds):
-        return count_event(some, load, estimate.at(rows), rules.yield_MPa, rules.mean_stress)
+def _counted(rows: NDArray[np.intp], some: Shapes, load: EventLoad, estimate: Estimate, welds: str) -> EventBlock:
+    with no_overflow(load.counted.event, welds):
+        return count_event(some, load, estimate.at(rows))
 
 
 def _judged(
@@ -142,12 +128,12 @@ def _judged(
 
 def _cut(rows: NDArray[np.intp], shapes: Shapes) -> Iterator[NDArray[np.intp]]:
     """Take all rows at once unless their histograms would be large."""
-    step = max(1, len(rows)) if shapes.law.is_straight else ROWS_WITH_HISTOGRAM
+    step = max(1, len(rows)) if shapes.rule.law.is_straight else ROWS_WITH_HISTOGRAM
     return (rows[first : first + step] for first in range(0, len(rows), step))
 
 
 def _piece(rows: NDArray[np.intp], events: Sequence[EventBlock], plan: Plan, shapes: Shapes, tier: int) -> Piece:
     """Weight the events with the mission; only that needs their histograms."""
-    mission = mission_block(events, plan, shapes.law)
+    mission = mission_block(events, plan, shapes.rule.law)
     nothing = np.zeros((len(rows), 2, 0, 2))
     return Piece(rows, tuple(replace(event, histogram=nothing) for event in events), mission, tier)

@@ -21,12 +21,12 @@ from numpy.typing import NDArray
 from fatigue.life.bounds.forms import face_forms, part_forms
 from fatigue.life.bounds.screening import ModalExtent, extent_bound
 from fatigue.life.bounds.weld_basis import reduced_bound, weld_bases
-from fatigue.life.counting.single.count import Record
+from fatigue.life.counting.record import SingleRecord
 from fatigue.life.mission import Plan, mission_sum
 from fatigue.pipeline.count.bounds import Bound, Unsettled, event_bound, event_by_event
 from fatigue.pipeline.count.estimate import Estimate, estimate_event, mean_stress, member_variances
 from fatigue.pipeline.count.event_block import no_overflow
-from fatigue.pipeline.count.piece import TIERS, Piece, Rules, bounded_at, counted_at, counted_while
+from fatigue.pipeline.count.piece import TIERS, Piece, bounded_at, counted_at, counted_while
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import Shapes
 
@@ -46,7 +46,7 @@ class Screening:
     share: float
     proves_worst: bool
     extents: tuple[ModalExtent, ...]
-    records: tuple[Record, ...]
+    records: tuple[SingleRecord, ...]
 
 
 def settle(
@@ -56,7 +56,7 @@ def settle(
     loads: Sequence[EventLoad],
     plan: Plan,
     screening: Screening,
-    rules: Rules,
+    welds: str,
 ) -> Iterator[Piece]:
     """Settle or count every station of some whole welds that share a curve.
 
@@ -67,21 +67,21 @@ def settle(
     toe : (n, 2) faces that carry a weld toe
     loads, plan : the events
     screening : up to which share of the limit a bound is enough
-    rules : of the curve
+    welds : names of the welds, for messages
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    estimates, modal_bounds = _estimates_and_modal_bounds(shapes, loads, screening, rules)
+    estimates, modal_bounds = _estimates_and_modal_bounds(shapes, loads, screening, welds)
     bounds = list(modal_bounds)
-    shapes = _without_small_raw_ends(shapes, loads, plan, screening, rules)
+    shapes = _without_small_raw_ends(shapes, loads, plan, screening, welds)
 
     tier = np.ones(len(shapes), dtype=np.int8)
     likely_worst = _likely_worst(weld, toe, estimates, bounds, plan)
     tier[likely_worst] = 0
     worst = np.zeros((len(shapes), 1))
-    for piece in counted_at(likely_worst, shapes, loads, estimates, plan, rules):
+    for piece in counted_at(likely_worst, shapes, loads, estimates, plan, welds):
         yield piece
         at_worst = np.where(toe[piece.rows], piece.mission.utilisation, 0.0).max(axis=1)
         of_these = np.isin(weld, weld[piece.rows])
@@ -97,8 +97,8 @@ def settle(
 
     rest = unsettled(np.flatnonzero(tier))
     tier[rest] = 2
-    _bound_while(unsettled, rest, bounds, shapes, weld, loads, estimates, plan, screening, rules)
-    for piece in counted_while(unsettled, unsettled(rest), bounds, shapes, loads, estimates, plan, rules):
+    _bound_while(unsettled, rest, bounds, shapes, weld, loads, estimates, plan, screening, welds)
+    for piece in counted_while(unsettled, unsettled(rest), bounds, shapes, loads, estimates, plan, welds):
         yield piece
         tier[piece.rows] = 0
     for number in range(1, len(TIERS)):
@@ -115,7 +115,7 @@ def _utilisation(bounds: Sequence[Bound], plan: Plan) -> NDArray[np.float64]:
 
 
 def _estimates_and_modal_bounds(
-    shapes: Shapes, loads: Sequence[EventLoad], screening: Screening, rules: Rules
+    shapes: Shapes, loads: Sequence[EventLoad], screening: Screening, welds: str
 ) -> tuple[tuple[Estimate, ...], tuple[Bound, ...]]:
     """Estimate every event, and bound it from how its modal coordinates move: both without a loop over time.
 
@@ -124,11 +124,11 @@ def _estimates_and_modal_bounds(
     estimates: tuple[Estimate, ...] = ()
     bounds: tuple[Bound, ...] = ()
     for load, extent in zip(loads, screening.extents, strict=True):
-        with no_overflow(load.counted.event, rules.welds):
+        with no_overflow(load.counted.event, welds):
             forms = part_forms(shapes.membrane, shapes.bending, extent.products)
             variances = member_variances(shapes, load) if load.is_upsampled else forms[0, :, :2]
             estimates += (estimate_event(shapes, load, variances),)
-            bounds += (_modal_bound(shapes, estimates[-1].mean, forms[..., 2:], load, extent, rules),)
+            bounds += (_modal_bound(shapes, estimates[-1].mean, forms[..., 2:], load, extent, welds),)
     return estimates, bounds
 
 
@@ -138,15 +138,15 @@ def _modal_bound(
     forms: NDArray[np.float64],
     load: EventLoad,
     extent: ModalExtent,
-    rules: Rules,
+    welds: str,
 ) -> Bound:
     """Bound an event from mean stress (n, 2) and the forms (2, n, 2) that `extent_bound` wants."""
     found = extent_bound(shapes.membrane, shapes.bending, forms, extent)
-    return event_bound(found, load.stress_factor, shapes, slice(None), mean, rules.yield_of_damage)
+    return event_bound(found, load.stress_factor, shapes, slice(None), mean)
 
 
 def _without_small_raw_ends(
-    shapes: Shapes, loads: Sequence[EventLoad], plan: Plan, screening: Screening, rules: Rules
+    shapes: Shapes, loads: Sequence[EventLoad], plan: Plan, screening: Screening, welds: str
 ) -> Shapes:
     """Let ends without treatment not matter where they stay below the share as well."""
     ends = shapes.raw_ends
@@ -155,9 +155,9 @@ def _without_small_raw_ends(
     raw = replace(shapes.at(ends.rows), membrane=ends.membrane, bending=ends.bending)
     bounds = []
     for load, extent in zip(loads, screening.extents, strict=True):
-        with no_overflow(load.counted.event, rules.welds):
+        with no_overflow(load.counted.event, welds):
             forms = face_forms(raw.membrane, raw.bending, extent.products)
-            bounds.append(_modal_bound(raw, mean_stress(raw, load), forms, load, extent, rules))
+            bounds.append(_modal_bound(raw, mean_stress(raw, load), forms, load, extent, welds))
     matters = np.asarray((_utilisation(bounds, plan) >= screening.share).any(axis=1))
     return replace(shapes, raw_ends=replace(ends, matters=matters))
 
@@ -172,7 +172,7 @@ def _bound_while(
     estimates: Sequence[Estimate],
     plan: Plan,
     screening: Screening,
-    rules: Rules,
+    welds: str,
 ) -> None:
     """Tighten the bounds of some stations by the range and the variation of their stress, as long as it is needed.
 
@@ -184,7 +184,7 @@ def _bound_while(
             record, extent = screening.records[number], screening.extents[number]
             found = reduced_bound(bases, np.searchsorted(part, left), record, extent)
             mean, factor = estimates[number].mean[left], loads[number].stress_factor
-            bounded = event_bound(found, factor, shapes, left, mean, rules.yield_of_damage)
+            bounded = event_bound(found, factor, shapes, left, mean)
             bounds[number] = bounds[number].tightened(bounded, left)
 
 

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.curves import DamageLaw
+from fatigue.life.rule import CycleRule
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,8 +37,7 @@ class Shapes:
 
     ``membrane``, ``bending``, ``in_plane_shear``, ``twist_shear`` are (n, m) [MPa per unit modal coordinate], bending
     and twist those of the top face; ``size`` (n,) turns a structural stress range over ``I(r)^(1/m)`` into the
-    equivalent range of the law; ``uses_bending_ratio`` is False for curves in plain structural stress, where I is 1.
-    ``raw_ends`` are among them.
+    equivalent range of the ``rule``. ``raw_ends`` are among them.
     """
 
     membrane: NDArray[np.float64]
@@ -46,8 +45,7 @@ class Shapes:
     in_plane_shear: NDArray[np.float64]
     twist_shear: NDArray[np.float64]
     size: NDArray[np.float64]
-    law: DamageLaw
-    uses_bending_ratio: bool
+    rule: CycleRule
     raw_ends: RawEnds = NO_ENDS
 
     def __len__(self) -> int:

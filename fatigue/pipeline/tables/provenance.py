@@ -1,4 +1,4 @@
-"""Where every number of a result comes from: inputs, versions, curves, rules and doubts, as one record."""
+"""Where every number of a result comes from: inputs, versions, curves, rules and warnings, as one record."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -112,9 +112,9 @@ def _curve_record(rated: RatedCurve) -> dict[str, Any]:
         "source": curve.source,
         "used": {
             "survival": rated.survival,
-            "slopes": rated.law.slopes,
-            "log_constants": rated.law.log_constants,
-            "knees": rated.law.knees,
-            "cutoff": rated.law.cutoff,
+            "slopes": rated.rule.law.slopes,
+            "log_constants": rated.rule.law.log_constants,
+            "knees": rated.rule.law.knees,
+            "cutoff": rated.rule.law.cutoff,
         },
     }

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.life.curves import catalogue, damage_law
-from fatigue.life.damage import ratio_factor
 from fatigue.life.records.history import ModalHistory
+from fatigue.life.rule import CycleRule, ratio_factor
 from fatigue.pipeline.mission.event_load import prepare_event
 from fatigue.pipeline.solve.modal_stress import Shapes
 from fatigue.spectrum.methods import dirlik_damage_rate
@@ -19,6 +19,7 @@ from fatigue.spectrum.moments import segment_spectra
 from tests.one_event import assess_event_block
 
 LAW = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7)
+ALUMINIUM = CycleRule(LAW, uses_bending_ratio=True)
 STEP = 0.004
 
 
@@ -30,11 +31,11 @@ def record(seed=0, samples=3000, modes=4):
     return ModalHistory("e", np.arange(modes), q + rng.normal(0.0, 100.0, (modes, 1)), STEP, 0.0)
 
 
-def shapes(seed=1, stations=3, modes=4, law=LAW, uses_bending_ratio=True):
+def shapes(seed=1, stations=3, modes=4, rule=ALUMINIUM):
     """Random stress shapes."""
     rng = np.random.default_rng(seed)
     S = rng.normal(0.0, 10.0, (4, stations, modes))
-    return Shapes(*S, size=np.full(stations, 1.5), law=law, uses_bending_ratio=uses_bending_ratio)
+    return Shapes(*S, size=np.full(stations, 1.5), rule=rule)
 
 
 def load(history, residue="repeat", stress_factor=1.0, segment_s=1.0):
@@ -45,7 +46,7 @@ def load(history, residue="repeat", stress_factor=1.0, segment_s=1.0):
 def test_statistics_are_those_of_the_recovered_stress():
     """Mean, bending ratio, shear ratio from the covariance of q equal those of the recovered histories."""
     history, S = record(), shapes()
-    found = assess_event_block(S, load(history), None, mean_stress=False)
+    found = assess_event_block(S, load(history))
     m, b = S.membrane @ history.q, S.bending @ history.q
     tau_m, tau_b = S.in_plane_shear @ history.q, S.twist_shear @ history.q
     for face, sign in ((0, 1.0), (1, -1.0)):
@@ -62,7 +63,7 @@ def test_statistics_are_those_of_the_recovered_stress():
 def test_dirlik_is_that_of_welchs_spectrum_of_the_equivalent_stress():
     """Damage by matrices equals damage from the Welch PSD of the recovered stress times its one factor."""
     history, S = record(), shapes()
-    found = assess_event_block(S, load(history), None, mean_stress=False)
+    found = assess_event_block(S, load(history))
     factor = 1.5 / ratio_factor(found.bending_ratio[0, 0])
     equivalent = factor * (S.membrane[0] + S.bending[0]) @ history.q
     n = round(1.0 / STEP)
@@ -80,10 +81,9 @@ def test_dirlik_is_that_of_welchs_spectrum_of_the_equivalent_stress():
 def test_stress_factor_scales_every_damage_with_its_power(factor, seed):
     """All four damages of a straight law scale with factor^k; ratios and rates stay."""
     k = LAW.slopes[0]
-    plain = assess_event_block(shapes(seed), load(record(seed, 800), segment_s=0.5), 200.0, mean_stress=False)
-    scaled = assess_event_block(
-        shapes(seed), load(record(seed, 800), stress_factor=factor, segment_s=0.5), 200.0, mean_stress=False
-    )
+    S = shapes(seed, rule=CycleRule(LAW, uses_bending_ratio=True, yield_MPa=200.0))
+    plain = assess_event_block(S, load(record(seed, 800), segment_s=0.5))
+    scaled = assess_event_block(S, load(record(seed, 800), stress_factor=factor, segment_s=0.5))
     for name in ("damage", "damage_same_ratio", "damage_dirlik", "damage_tb", "damage_shear", "power_sum"):
         assert getattr(scaled, name) == pytest.approx(factor**k * getattr(plain, name), rel=1e-9)
     for name in ("bending_ratio", "shear_ratio", "irregularity", "peaks_per_s", "kurtosis"):
@@ -93,13 +93,12 @@ def test_stress_factor_scales_every_damage_with_its_power(factor, seed):
 def test_a_block_is_its_stations():
     """No station depends on another: cut anywhere, the bytes are the same up to the rounding of the product."""
     history, S = record(), shapes(stations=5)
-    whole = assess_event_block(S, load(history), None, mean_stress=False)
+    whole = assess_event_block(S, load(history))
     one = Shapes(
         *(getattr(S, n)[2:3] for n in ("membrane", "bending", "in_plane_shear", "twist_shear", "size")),
-        law=S.law,
-        uses_bending_ratio=True,
+        rule=S.rule,
     )
-    alone = assess_event_block(one, load(history), None, mean_stress=False)
+    alone = assess_event_block(one, load(history))
     assert alone.damage[0] == pytest.approx(whole.damage[2], rel=1e-12)
     assert alone.damage_dirlik[0] == pytest.approx(whole.damage_dirlik[2], rel=1e-12)
 
@@ -107,15 +106,15 @@ def test_a_block_is_its_stations():
 def test_one_ratio_is_exact_for_one_mode():
     """A single mode has one bending ratio in every cycle, so both counts agree."""
     history = record(modes=1)
-    found = assess_event_block(shapes(modes=1), load(history), None, mean_stress=False)
+    found = assess_event_block(shapes(modes=1), load(history))
     assert found.damage_same_ratio == pytest.approx(found.damage, rel=1e-12)
 
 
 def test_without_shear_shapes_shear_changes_nothing():
     """No shear stress: ratio 0, damage unchanged."""
     S = shapes()
-    none = Shapes(S.membrane, S.bending, 0 * S.membrane, 0 * S.membrane, S.size, S.law, uses_bending_ratio=True)
-    found = assess_event_block(none, load(record()), None, mean_stress=False)
+    none = Shapes(S.membrane, S.bending, 0 * S.membrane, 0 * S.membrane, S.size, S.rule)
+    found = assess_event_block(none, load(record()))
     assert (found.shear_ratio == 0.0).all()
     assert found.damage_shear == pytest.approx(found.damage, rel=1e-12)
 
@@ -124,7 +123,7 @@ def test_a_constant_record_does_nothing():
     """No variation: no damage in either domain, no NaN in a damage, no ratio made up."""
     rest = np.random.default_rng(5).normal(0.0, 100.0, (4, 1))
     history = ModalHistory("e", np.arange(4), np.tile(rest, 600), STEP, 0.0)
-    found = assess_event_block(shapes(), load(history), None, mean_stress=False)
+    found = assess_event_block(shapes(), load(history))
     for name in ("damage", "damage_same_ratio", "damage_dirlik", "damage_tb", "damage_shear", "cycles", "max_range"):
         assert (getattr(found, name) == 0.0).all(), name
     for name in ("bending_ratio", "shear_ratio", "irregularity", "peaks_per_s", "kurtosis"):
@@ -135,7 +134,7 @@ def test_a_constant_record_does_nothing():
 def test_a_record_without_spectrum_has_no_estimate():
     """Shorter than a segment: NaN, not zero."""
     history = record(samples=50)
-    found = assess_event_block(shapes(), prepare_event(history, "half", 1.0, 1, None, None), None, mean_stress=False)
+    found = assess_event_block(shapes(), prepare_event(history, "half", 1.0, 1, None, None))
     assert np.isnan(found.damage_dirlik).all()
     assert np.isnan(found.peaks_per_s).all()
     assert (found.damage > 0.0).all()
@@ -144,8 +143,8 @@ def test_a_record_without_spectrum_has_no_estimate():
 def test_plain_structural_curves_do_not_use_the_bending_ratio():
     """With a FAT class the factor I(r) is 1 in both domains."""
     law = damage_law(catalogue()["iiw-aluminium-40"], None, "none", 1e7)
-    S = shapes(law=law, uses_bending_ratio=False)
-    found = assess_event_block(S, load(record()), None, mean_stress=False)
+    S = shapes(rule=CycleRule(law, uses_bending_ratio=False))
+    found = assess_event_block(S, load(record()))
     assert found.damage == pytest.approx(found.damage_same_ratio, rel=1e-12)
     assert found.max_equivalent_range == pytest.approx(1.5 * found.max_range, rel=1e-12)
     assert found.histogram.shape[:2] == (3, 2)
@@ -156,12 +155,11 @@ def test_plain_structural_curves_do_not_use_the_bending_ratio():
 @pytest.mark.parametrize("residue", ["repeat", "half"])
 def test_the_kernel_of_large_jobs_gives_the_same_block(residue):
     """Single precision with its doubts recounted: every field within the 1e-6 that results promise."""
-    history, S = record(samples=6000), shapes(stations=40)
+    history = record(samples=6000)
+    S = shapes(stations=40, rule=CycleRule(LAW, uses_bending_ratio=True, yield_MPa=300.0))
     spectra = segment_spectra(history, 1.0, 100.0)
     double, single = (
-        assess_event_block(
-            S, prepare_event(history, residue, 1.2, 1, spectra, 40.0, single=single), 300.0, mean_stress=False
-        )
+        assess_event_block(S, prepare_event(history, residue, 1.2, 1, spectra, 40.0, single=single))
         for single in (False, True)
     )
     for field in fields(double):

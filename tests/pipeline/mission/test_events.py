@@ -1,4 +1,4 @@
-"""Records of events: what is refused, what is doubted, and what an event brings to every station."""
+"""Records of events: what is refused, what is warned of, and what an event brings to every station."""
 
 import pickle
 
@@ -8,11 +8,12 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.errors import DataError, FatigueError
-from fatigue.life.counting.single.product import prepared_samples, space_for_samples
+from fatigue.life.counting.single.kernels.product import prepared_samples, space_for_samples
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.records import spool
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Spool
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.pipeline.mission import events
 from fatigue.pipeline.mission.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
@@ -89,7 +90,7 @@ def test_times_in_ms_are_refused_for_every_event(tmp_path):
     assert [p.code for p in error.value.problems] == ["long_step", "long_step"]
 
 
-def test_a_step_far_too_short_is_a_doubt(tmp_path):
+def test_a_step_far_too_short_is_a_warning(tmp_path):
     """Times in hours."""
     case = small_case()
     case.histories["sine"]["time_s"] /= 3600.0
@@ -97,7 +98,7 @@ def test_a_step_far_too_short_is_a_doubt(tmp_path):
     assert [w.where for w in warnings if w.code == "short_step"] == ["sine.csv: column time_s"]
 
 
-def test_few_segments_and_no_spectrum_are_doubts(tmp_path):
+def test_few_segments_and_no_spectrum_are_warnings(tmp_path):
     """Told with the numbers."""
     case = small_case(seconds=3.0)
     _, warnings = mission_plan(body_of(case, tmp_path))
@@ -113,6 +114,8 @@ def test_upper_frequency(tmp_path):
     assert top_mode_hz(body) == 12.0
     assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.005, 0.0)) == pytest.approx(18.0)
     assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.04, 0.0)) == pytest.approx(10.0)
+    case.modes["frequency_hz"] = 1e-4  # rigid-body modes under the name of normal ones
+    assert top_mode_hz(body_of(case, tmp_path / "rigid")) is None
     case.spectrum["upper_hz"] = 33.0
     assert upper_hz(body_of(case, tmp_path / "b"), ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.1, 0.0)) == 33.0
 
@@ -220,12 +223,12 @@ def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_p
     event = body.case.mission.event[number]
     law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
     S = np.random.default_rng(2).normal(size=(4, 5, 3))
-    shapes = Shapes(*S, size=np.full(5, 1.5), law=law, uses_bending_ratio=True)
-    held = assess_event_block(shapes, event_load(body, event, 2), 40.0, mean_stress=True)
+    shapes = Shapes(*S, size=np.full(5, 1.5), rule=CycleRule(law, True, 40.0, mean_stress=True))
+    held = assess_event_block(shapes, event_load(body, event, 2))
     monkeypatch.setattr(spool, "CHUNK", 512)
     spooled = event_load(body, event, 2, scratch=tmp_path / "histories")
     assert isinstance(spooled.counted.q, Spool)
-    found = assess_event_block(shapes, spooled, 40.0, mean_stress=True)
+    found = assess_event_block(shapes, spooled)
     for name in EventBlock.__slots__:
         close = 1e-9 if name == "kurtosis" else 1e-12
         np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=close, atol=1e-13, err_msg=name)
