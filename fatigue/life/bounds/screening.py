@@ -16,8 +16,8 @@ For q = 1 this is Markov's inequality, for q equal to the slope the crossing bou
 two powers needs no range: ``sum n S^k <= (sum n S^q)^((p-k)/(p-q)) (sum n S^p)^((k-q)/(p-q))`` (Hoelder), and a curve
 that is steeper for smaller ranges lies nowhere above the straight continuation of any of its segments. The smallest of
 all these bounds is taken. They hold for the record that is counted (upsampled or not) and for modal stress that
-contains the event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer, with a loop
-but without counting, from `weld_basis.reduced_bound`.
+contains the event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer,
+with a loop but without counting, from `weld_basis.reduced_bound`.
 """
 
 from collections.abc import Mapping

@@ -70,8 +70,8 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
     """Find the histories of each weld that serve all events, once per group of welds.
 
     They are the combinations of its membrane and bending stresses with the largest variances, summed over the events in
-    units of the mean over all stations. ``S_m``, ``S_b`` (n, m) are the modal stress of whole welds, ``weld`` (n,) tells
-    them apart, stations of one weld side by side; ``extents`` are those of all events.
+    units of the mean over all stations. ``S_m``, ``S_b`` (n, m) are the modal stress of whole welds, ``weld`` (n,)
+    tells them apart, stations of one weld side by side; ``extents`` are those of all events.
     """
     products = S_m.T @ S_m + S_b.T @ S_b
     metric = np.zeros_like(products)
