@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.pipeline.count.group import GroupResult, arrays_of
+from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.results import JOURNAL
 from fatigue.results.folder import STAGING, STATE, complete, refuse_foreign
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from fatigue.pipeline.count.group import GroupResult
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order, fulfil
 from fatigue.pipeline.run.work import Work
