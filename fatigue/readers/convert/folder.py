@@ -31,7 +31,7 @@ def sha256(path: Path) -> str:
 
 
 def read_record(path: Path) -> dict[str, Any]:
-    """Read what a conversion recorded: inputs with hashes, sign convention, audit, remarks.
+    """Read what a conversion recorded: inputs with hashes, sign convention, audit, warnings.
 
     Raises
     ------

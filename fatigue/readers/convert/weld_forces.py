@@ -71,6 +71,12 @@ def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int,
     return "; ".join(found)
 
 
+def rows_at_welds(found: FoundWelds, results: FeResults) -> NDArray[np.int64]:
+    """Find the force rows of the elements beside the welds to assess."""
+    elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
+    return np.flatnonzero(np.isin(results.element, elements) & results.of_element)
+
+
 def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
     """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
     is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")

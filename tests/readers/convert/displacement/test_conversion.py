@@ -8,8 +8,7 @@ import pytest
 
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.convert.convert import convert
-from fatigue.readers.convert.displacement.record import Displacement
-from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.convert.options import ConvertOptions, Displacement
 from tests.readers.convert.displacement.modal_records import resonances
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
@@ -106,7 +105,7 @@ def test_a_wrong_one_stops_the_conversion(simulated, change, factor, words):
         convert(wrong)
     assert "tee.op2, displacement" in str(caught.value)
     assert not options.out.exists()
-    assert convert(replace(wrong, accept=("displacement",))).audit.is_red
+    assert convert(replace(wrong, accept=("displacement",))).audit.red
 
 
 def test_units_of_all_files_count(simulated, tmp_path):

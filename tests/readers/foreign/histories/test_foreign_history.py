@@ -10,8 +10,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.foreign.histories.matching import matched
 from fatigue.readers.foreign.histories.mcf import read_mcf
+from fatigue.readers.foreign.histories.time_grid import uniform
 from fatigue.readers.foreign.read import read_coordinates, recognise
 
 MCF = """\
@@ -132,8 +134,8 @@ def test_uneven_steps_are_resampled_on_request():
     even = uniform(uneven, 0.02)
     assert np.allclose(np.diff(even.time), 0.02)
     assert np.allclose(even.q[0], np.sin(even.time), atol=2e-5)
-    assert [remark.code for remark in even.remarks] == ["resampled"]
-    assert [remark.code for remark in uniform(uneven, 0.2).remarks] == ["resampled", "coarser"]
+    assert [warning.code for warning in even.warnings] == ["resampled"]
+    assert [warning.code for warning in uniform(uneven, 0.2).warnings] == ["resampled", "coarser"]
     assert uniform(history([0, 1, 2]), None).time.size == 3
     for step in (0.0, -1.0, 1e-12, 99.0):
         with pytest.raises(DataError, match="is impossible"):
@@ -151,7 +153,7 @@ def test_an_instant_written_twice():
     even = uniform(twice, 0.1)
     assert even.time == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
     assert even.q[0] == pytest.approx([0.0, 1.0, 4.0, 6.0, 7.0])
-    assert [(remark.code, remark.count) for remark in even.remarks] == [("instant_twice", 3), ("resampled", 1)]
+    assert [(warning.code, warning.count) for warning in even.warnings] == [("instant_twice", 3), ("resampled", 1)]
     with pytest.raises(DataError, match="time stands still"):
         uniform(history([1.0, 1.0]), 0.1)
 
@@ -159,8 +161,8 @@ def test_an_instant_written_twice():
 def test_a_gap_is_told():
     """An interpolation over lost samples is a doubt that names the place."""
     gap = history([*np.arange(0, 1, 0.01), *np.arange(3, 4, 0.01)])
-    assert [remark.code for remark in uniform(gap, 0.01).remarks] == ["resampled", "gap"]
-    assert "from 0.99 s" in uniform(gap, 0.01).remarks[1].what
+    assert [warning.code for warning in uniform(gap, 0.01).warnings] == ["resampled", "gap"]
+    assert "from 0.99 s" in uniform(gap, 0.01).warnings[1].what
 
 
 def stated(frequency, mode=(1, 2), resolution=None):

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.fe.model import FeModel, Shell, shell_mesh
-from fatigue.readers.foreign.nastran.deck.cards import Card, cards
+from fatigue.readers.foreign.nastran.deck.card import Card
+from fatigue.readers.foreign.nastran.deck.cards import cards
 from fatigue.readers.foreign.nastran.deck.lines import Deck, read_deck
 from fatigue.readers.foreign.nastran.deck.notes import LeftOut, Twice
 from fatigue.readers.foreign.nastran.deck.sets import joined_sets, set_on_card
@@ -38,7 +39,7 @@ class _Bulk:
     markers: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
     bars: dict[str, int] = field(default_factory=dict)
     twice: Twice = field(default_factory=Twice)
-    remarks: list[Problem] = field(default_factory=list)
+    warnings: list[Problem] = field(default_factory=list)
 
     def default(self, at: int) -> int:
         """Coordinate system of grids that name none: field ``at`` of GRDSET, else the basic one."""
@@ -46,7 +47,7 @@ class _Bulk:
 
 
 def read_bdf(path: Path) -> FeModel:
-    """Read grids, coordinate systems, shells, shell properties, sets and markers; other cards become a remark.
+    """Read grids, coordinate systems, shells, shell properties, sets and markers; other cards become a warning.
 
     Raises
     ------
@@ -108,19 +109,25 @@ def _model(bulk: _Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) 
     if not shells:
         raise DataError(_no_shells(bulk, left_out))
     turned = sorted(grid for grid, c in cd.items() if c)
-    sets, set_remarks = joined_sets(bulk.sets, deck.control)
+    sets, set_warnings = joined_sets(bulk.sets, deck.control)
     return FeModel(
         source=bulk.source,
         mesh=shell_mesh(bulk.source, xyz, shells, {pid: found.section for pid, found in properties.items()}),
         frame_node=np.array(turned, np.int64),
         frame=np.array([frames.axes_at(cd[g], xyz[g]) for g in turned]).reshape(-1, 3, 3),
-        section_doubt=_section_doubts(properties, shells),
-        element_doubt={s.element: s.doubt for s in shells if s.doubt},
+        unconfirmed_sections=_unconfirmed_sections(properties, shells),
+        unconfirmed_elements={s.element: s.unconfirmed for s in shells if s.unconfirmed},
         node_sets={key: np.unique(np.array(ids, np.int64)) for key, ids in sets.items()},
         marker_edges={name: np.array(pairs, np.int64) for name, pairs in bulk.markers.items()},
         other_cards=bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)},
         included=deck.included,
-        remarks=(*deck.remarks, *bulk.remarks, *set_remarks, *bulk.twice.remarks(), *left_out.remarks(bulk.source)),
+        warnings=(
+            *deck.warnings,
+            *bulk.warnings,
+            *set_warnings,
+            *bulk.twice.warnings(),
+            *left_out.warnings(bulk.source),
+        ),
     )
 
 
@@ -151,12 +158,12 @@ def _is_element(name: str) -> bool:
     return name.startswith(_ELEMENT_CARDS) and not name.startswith(_NO_ELEMENTS)
 
 
-def _section_doubts(properties: dict[int, Property], shells: list[Shell]) -> dict[int, str]:
+def _unconfirmed_sections(properties: dict[int, Property], shells: list[Shell]) -> dict[int, str]:
     """Properties whose thickness needs a confirmation by hand, missing ones included."""
-    doubts = {pid: found.section.doubt for pid, found in properties.items() if found.section.doubt}
+    unconfirmed = {pid: found.section.unconfirmed for pid, found in properties.items() if found.section.unconfirmed}
     for pid in {s.pid for s in shells if s.thickness is None} - properties.keys():
-        doubts[pid] = f"property {pid} is not a PSHELL, PCOMP or PCOMPG of this model"
-    return doubts
+        unconfirmed[pid] = f"property {pid} is not a PSHELL, PCOMP or PCOMPG of this model"
+    return unconfirmed
 
 
 def _grid(bulk: _Bulk, card: Card) -> None:
@@ -262,7 +269,7 @@ def _shell(bulk: _Bulk, card: Card) -> None:
 
 
 def _set(bulk: _Bulk, card: Card) -> None:
-    bulk.remarks += set_on_card(bulk.sets, card)
+    bulk.warnings += set_on_card(bulk.sets, card)
 
 
 def _plotel(bulk: _Bulk, card: Card) -> None:
@@ -277,11 +284,11 @@ def _bar(bulk: _Bulk, card: Card) -> None:
 
 
 def _mark(bulk: _Bulk, card: Card, at: int) -> None:
-    """Keep two grids that a line card joins; one that cannot be read can mark no weld and is no more than a remark."""
+    """Keep two grids that a line card joins; one that cannot be read can mark no weld and is no more than a warning."""
     try:
         bulk.markers.setdefault(card.name, []).append((card.integer(at), card.integer(at + 1)))
     except DataError as error:
-        bulk.remarks += [Problem("no_mark", p.where, f"{p.what}; it marks no weld", p.remedy) for p in error.problems]
+        bulk.warnings += [Problem("no_mark", p.where, f"{p.what}; it marks no weld", p.remedy) for p in error.problems]
 
 
 _HANDLERS: dict[str, Callable[[_Bulk, Card], None]] = {
