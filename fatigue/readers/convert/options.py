@@ -7,7 +7,7 @@ from fatigue.errors import given_path
 from fatigue.readers.convert.displacement.record import Displacement
 from fatigue.readers.convert.weld_lines import WeldSources
 from fatigue.readers.foreign.histories.foreign_history import Match
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.units.systems import Normalisation
 
 

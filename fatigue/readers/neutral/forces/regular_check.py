@@ -2,7 +2,7 @@
 
 Rows come node by node with all modes, in the same order of modes at every node, and the nodes are those of the lines in
 any order. Then a few comparisons of whole columns take the place of looking up every row. What is not of this form, or
-has any mistake in it, is left to `tables.check_nodal_forces`, which looks at every row and says what is wrong.
+has any mistake in it, is left to `nodal_forces.check_nodal_forces`, which looks at every row and says what is wrong.
 """
 
 from collections.abc import Collection, Sequence
@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError
 from fatigue.readers.neutral.body import Modes
 from fatigue.readers.neutral.files import DAMAGE
-from fatigue.readers.neutral.forces.order import Batches, Source, WeldCodes
-from fatigue.readers.neutral.forces.tables import COMPONENTS, stations_of
+from fatigue.readers.neutral.forces.convention import COMPONENTS
+from fatigue.readers.neutral.forces.placement import stations_of
+from fatigue.readers.neutral.forces.source import Batches, Source
+from fatigue.readers.neutral.forces.weld_codes import WeldCodes
 from fatigue.readers.neutral.line_file import LineFile
 
 ROWS_AT_ONCE = 250_000  # decoded: 10 MB
@@ -31,7 +33,7 @@ class NotRegular(Exception):
 class RegularCheck:
     """A table of forces under the assumption that row after row it has the modes of ``cycle``, again and again.
 
-    ``batches`` and ``rows`` are those of the `order.Source`; ``welds`` are numbered as in ``lines``. Threads may
+    ``batches`` and ``rows`` are those of the `source.Source`; ``welds`` are numbered as in ``lines``. Threads may
     check different pieces at the same time. ``modes`` repeats the cycle for a batch of rows that begins anywhere in it.
     """
 
