@@ -26,8 +26,8 @@ from fatigue.readers.foreign.histories.statements import (
     stated_time_unit,
     statement_problems,
 )
+from fatigue.readers.neutral.column_values import seconds_of
 from fatigue.readers.neutral.files import open_columns
-from fatigue.readers.neutral.tables import seconds_of
 from fatigue.readers.text.encoding import read_head
 from fatigue.readers.text.layout import text_lines, whole_cells
 from fatigue.readers.units.channel_names import Channel, channel, seconds_per, unit_of_time, without_unit_one

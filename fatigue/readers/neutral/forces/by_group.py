@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fatigue.naming import composed
 from fatigue.readers.neutral.body import Modes
-from fatigue.readers.neutral.files import Columns
+from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.forces.in_place import in_place
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
 from fatigue.readers.neutral.forces.regular_check import RegularCheck, regular_check

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.files import DAMAGE, damaged
+from fatigue.readers.neutral.columns import DAMAGE, damaged
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
 from fatigue.readers.neutral.forces.source import Source, coded, force_columns, trimmed
 from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds

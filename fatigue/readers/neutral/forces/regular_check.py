@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError
 from fatigue.readers.neutral.body import Modes
-from fatigue.readers.neutral.files import DAMAGE
+from fatigue.readers.neutral.columns import DAMAGE
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.forces.placement import stations_of
 from fatigue.readers.neutral.forces.source import Batches, Source

@@ -14,7 +14,8 @@ import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, refuse
 from fatigue.known_formats import misplaced
-from fatigue.readers.neutral.files import DAMAGE, Columns, csv_batches, damaged
+from fatigue.readers.neutral.columns import DAMAGE, Columns, damaged
+from fatigue.readers.neutral.csv_columns import csv_batches
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
 from fatigue.readers.neutral.forces.source import CODE, KINDS, Source, coded, force_columns, trimmed
 from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds

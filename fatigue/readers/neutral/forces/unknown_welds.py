@@ -5,7 +5,7 @@ import pyarrow as pa
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.files import Columns
+from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.forces.weld_codes import WeldCodes
 from fatigue.readers.neutral.tables import Table
 

@@ -9,7 +9,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.naming import composed
-from fatigue.readers.neutral.tables import codes_of
+from fatigue.readers.neutral.column_values import codes_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
