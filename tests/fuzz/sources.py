@@ -22,7 +22,7 @@ from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_weld
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces, read_nodal_forces
 from fatigue.readers.neutral.history import read_history
-from fatigue.readers.neutral.register.weld_register import open_register
+from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.tables import open_table
 from fatigue.results import read_provenance, read_table
 from fatigue.results.store import schema, write_json

@@ -24,7 +24,8 @@ from fatigue.readers.foreign.fe.model import in_mm
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.register.conversion import COMMAND, LINES, command_line
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons, register_text
+from fatigue.readers.neutral.register.register_file import register_text
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
 

@@ -11,14 +11,8 @@ from fatigue.errors import DataError, Problem, given_path
 from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.formats import read_model
-from fatigue.readers.neutral.register.weld_register import (
-    RegisterRow,
-    kind_of,
-    merged,
-    open_register,
-    proposed,
-    register_text,
-)
+from fatigue.readers.neutral.register.register_file import open_register, register_text
+from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of, merged, proposed
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace

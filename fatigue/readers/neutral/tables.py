@@ -29,6 +29,7 @@ from fatigue.readers.neutral.column_values import (
 )
 from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.files import open_columns, other_format
+from fatigue.readers.text.flags import WORDS_OF_PROGRAMS, flag_of
 
 LARGEST = 2**63 - 1  # id
 MOST_GUESSES = 20  # at what an unknown text was meant to be: each compares it with all that are known
@@ -170,8 +171,8 @@ class Table:
         if pt.is_boolean(column.type):
             return np.array(column.fill_null(default).to_numpy(), dtype=np.bool_)
         if is_text(column.type):
-            words = [text.lower() for text in self.texts(name, default=str(default))]
-            values = np.array([{"true": 1, "false": 0}.get(word, np.nan) for word in words])
+            said = [flag_of(text, WORDS_OF_PROGRAMS) for text in self.texts(name, default=str(default))]
+            values = np.array([np.nan if flag is None else flag for flag in said])
         else:
             values = self.numbers(name, default=default)
         wrong = ~np.isin(values, [0, 1])
