@@ -18,7 +18,8 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.neutral.columns import Columns, damaged
 from fatigue.readers.neutral.table_units import units_row_warnings
 from fatigue.readers.text.encoding import encoding_of, not_utf8_warning, read_text
-from fatigue.readers.text.layout import TableLayout, table_layout, text_lines
+from fatigue.readers.text.layout import TableLayout, table_layout
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.numbers import as_numbers, split_fields
 
 CSV_BLOCK = 1 << 22  # bytes of a CSV file decoded together, some 50 000 rows

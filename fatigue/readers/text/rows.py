@@ -10,7 +10,8 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.known_formats import misplaced
 from fatigue.naming import composed
 from fatigue.readers.text.encoding import read_text
-from fatigue.readers.text.layout import TableLayout, layout_of, text_lines
+from fatigue.readers.text.layout import TableLayout, layout_of
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.numbers import plain_number
 
 

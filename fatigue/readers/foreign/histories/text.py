@@ -29,7 +29,7 @@ from fatigue.readers.foreign.histories.statements import (
 from fatigue.readers.neutral.column_values import seconds_of
 from fatigue.readers.neutral.files import open_columns
 from fatigue.readers.text.encoding import read_head
-from fatigue.readers.text.layout import text_lines, whole_cells
+from fatigue.readers.text.lines import text_lines, whole_cells
 from fatigue.readers.units.channel_names import Channel, channel, seconds_per, unit_of_time, without_unit_one
 
 _COUNT_NAME = re.compile(
