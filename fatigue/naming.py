@@ -64,6 +64,14 @@ def missing_case(path: Path) -> Problem:
     return replace(found, remedy="Give the path of a case.toml") if found.remedy == "Correct the path" else found
 
 
+def missing_case_of_result(path: Path) -> Problem:
+    """Say what is in the place of a case file that is named for a result and is not there."""
+    what, remedy = "there is no such file", "Correct the path after --case"
+    if path.is_dir():
+        what, remedy = "this is a folder", "Give the path of the case.toml in it"
+    return Problem("missing_case", str(path), what, remedy)
+
+
 def missing_foreign_file(path: Path) -> Problem:
     """Say what is in the place of an FE or simulation file that is not there."""
     return missing_file(path, code="unreadable", wanted="the file itself")

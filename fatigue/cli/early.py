@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import missing_case, missing_file, missing_foreign_file
+from fatigue.naming import missing_case, missing_case_of_result, missing_file, missing_foreign_file
 
 MOST_MODES = 100_000  # of one range
 
@@ -28,10 +28,7 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
 
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():
-        what, remedy = "there is no such file", "Correct the path after --case"
-        if case_file.is_dir():
-            what, remedy = "this is a folder", "Give the path of the case.toml in it"
-        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+        raise DataError(missing_case_of_result(case_file))
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:

@@ -15,8 +15,10 @@ from fatigue.cli.early import (
     refuse_unknown_curve,
     refuse_unknown_units,
 )
-from fatigue.cli.main import as_json, cli, print_json
+from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO
+from fatigue.cli.options import as_json
+from fatigue.cli.output import print_json
 from fatigue.cli.progress import is_quiet, narrated, narrating
 from fatigue.stages import stage
 
