@@ -12,7 +12,7 @@ from fatigue.cli import cli, main
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_bad_modes, refuse_missing_case
 from fatigue.errors import FatigueError
 from fatigue.readers.convert.modal_basis import mode_list
-from fatigue.readers.foreign.formats import recognise
+from fatigue.readers.foreign.read import recognise
 from fatigue.readers.neutral.files import open_columns
 
 ROOT = Path(__file__).parents[1]

@@ -23,7 +23,7 @@ from pyarrow import feather, orc
 from fatigue.case import load_case
 from fatigue.errors import FatigueError
 from fatigue.known_formats import known_format, misplaced
-from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
+from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.neutral.tables import open_table
 
 NASTRAN = Path("data/nastran")

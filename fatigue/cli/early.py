@@ -32,7 +32,7 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:
-    """Name FE and simulation files that are not there, as `fatigue.readers.foreign.formats.recognise` does."""
+    """Name FE and simulation files that are not there, as `fatigue.readers.foreign.read.recognise` does."""
     for path in paths:
         try:
             path.open("rb").close()

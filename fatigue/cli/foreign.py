@@ -332,7 +332,7 @@ def tension_patch(file: Path, results: bool, force: bool) -> None:
     else:
         refuse_existing(file, force=force, what="is there already", remedy="Use --force to overwrite it")
     from fatigue.readers.convert.audit.tension_patch import DECK, convention_of
-    from fatigue.readers.foreign.formats import read_forces
+    from fatigue.readers.foreign.read import read_forces
 
     if results:
         click.echo(f'force_convention = "{convention_of(read_forces(file, None))}"')

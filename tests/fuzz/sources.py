@@ -16,8 +16,8 @@ from fatigue.readers.convert.folder import read_record
 from fatigue.readers.convert.modal_basis import common_modes
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
+from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_welds
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces, read_nodal_forces

@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
+from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.results import read_table
 from fatigue.results.store import schema

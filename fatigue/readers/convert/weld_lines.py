@@ -10,7 +10,7 @@ import numpy as np
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
-from fatigue.readers.foreign.formats import read_model
+from fatigue.readers.foreign.read import read_model
 from fatigue.readers.neutral.register.register_file import open_register, register_text
 from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of, merged, proposed
 from fatigue.readers.neutral.tables import open_table

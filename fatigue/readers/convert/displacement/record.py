@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.foreign.fe.results import is_sound
-from fatigue.readers.foreign.formats import read_coordinates
+from fatigue.readers.foreign.read import read_coordinates
 from fatigue.readers.units.coordinate_units import states_no_unit
 
 Floats = NDArray[np.float64]

@@ -1,8 +1,6 @@
-"""MSC HDF5 and punch files: the same rows as OP2, and their refusals."""
+"""MSC HDF5 files: the same rows as OP2, and their refusals."""
 
-import builtins
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +9,11 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.convert.audit.audit import audit
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
-from fatigue.readers.foreign.nastran.results.h5 import read_h5, read_h5_model
 from fatigue.readers.foreign.nastran.results.op2 import read_op2
-from fatigue.readers.foreign.nastran.results.punch import read_punch
-from tests.readers.tee_model import tee
+
+h5py = pytest.importorskip("h5py")
+
+from fatigue.readers.foreign.nastran.results.h5 import read_h5, read_h5_model  # noqa: E402 (needs h5py)
 
 NASTRAN = Path("data/nastran")
 H5 = NASTRAN / "modes_elements.h5"
@@ -23,7 +22,6 @@ H5 = NASTRAN / "modes_elements.h5"
 @pytest.fixture
 def h5(tmp_path):
     """A copy of the real file to be changed."""
-    h5py = pytest.importorskip("h5py")
     path = tmp_path / "a.h5"
     shutil.copy(H5, path)
     with h5py.File(path, "r+") as file:
@@ -32,7 +30,6 @@ def h5(tmp_path):
 
 def test_rows_are_those_of_the_op2_file():
     """The same model run by two solvers: equal rows; each balances to its own precision."""
-    pytest.importorskip("h5py")
     double, single = read_h5(H5), read_op2(NASTRAN / "modes_elements.op2")
     for name in ("mode", "node", "element", "kind"):
         assert np.array_equal(getattr(double, name), getattr(single, name))
@@ -44,7 +41,6 @@ def test_rows_are_those_of_the_op2_file():
 
 def test_model_is_that_of_the_bulk_data():
     """Geometry from the HDF5 file equals that from the bulk data."""
-    pytest.importorskip("h5py")
     ours, theirs = read_h5_model(H5), read_bdf(NASTRAN / "modes_elements.bdf")
     for name in ("node", "xyz", "element", "corner", "mid", "pid", "thickness", "offset"):
         assert np.array_equal(getattr(ours.mesh, name), getattr(theirs.mesh, name))
@@ -148,92 +144,8 @@ def test_h5_thickness_left_blank(h5, blank):
     assert np.isnan(of[int(rows["EID"][1])])
 
 
-def test_missing_h5py_is_told(monkeypatch):
-    """Without h5py the message says what to install."""
-    plain = builtins.__import__
-
-    def without(name, *args, **kwargs):
-        if name == "h5py":
-            raise ImportError
-        return plain(name, *args, **kwargs)
-
-    monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(DataError, match=r'Run: pip install "h5py>=[\d.]+"'):
-        read_h5(H5)
-
-
-def punch(results):
-    """Punch file text of FeResults."""
-    lines = []
-    for k, mode in enumerate(results.mode.tolist()):
-        eigenvalue = (2 * np.pi * results.frequency[k]) ** 2
-        lines += ["$TITLE   = T", "$SUBTITLE=", "$LABEL   =", "$GRID POINT FORCE BALANCE", "$REAL OUTPUT"]
-        lines += ["$SUBCASE ID =           1", f"$EIGENVALUE ={eigenvalue:15.7E}  MODE ={mode:6d}"]
-        for node, element, kind, force in zip(
-            results.node, results.element, results.kind, results.force[k], strict=True
-        ):
-            lines.append(f"{node:10d}{element or '':>18}        {kind:8s}")
-            lines += ["-CONT-".ljust(18) + "".join(f"{x:18.6E}" for x in force[a : a + 3]) for a in (0, 3)]
-    return "".join(f"{line:<72}{number:8d}\n" for number, line in enumerate(lines, start=1))
-
-
-def test_punch_rows(tmp_path):
-    """A punch file gives the rows to its six digits, and the frequencies."""
-    wanted = tee().results
-    path = tmp_path / "a.pch"
-    path.write_text(punch(wanted))
-    found = read_punch(path)
-    for name in ("mode", "node", "element", "kind"):
-        assert np.array_equal(getattr(found, name), getattr(wanted, name))
-    assert np.allclose(found.force, wanted.force, rtol=1e-6, atol=0)
-    assert np.allclose(found.frequency, wanted.frequency, rtol=1e-6)
-    assert np.isnan(found.modal_mass).all()
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("$GRID POINT FORCE BALANCE", "$DISPLACEMENTS", "no block begins"),
-        ("$REAL OUTPUT", "$REAL-IMAGINARY OUTPUT", "complex"),
-        ("$REAL OUTPUT", "$POINT ID = 3", "SORT2"),
-        ("$SUBCASE ID", "$SUBCASE XX", "no line"),
-        ("-CONT-", "-XXXX-", "two -CONT- lines"),
-        ("E+0", "E*0", "is no number"),
-    ],
-)
-def test_punch_refusals(tmp_path, old, new, words):
-    """Every damage of the text is refused with its line."""
-    text = punch(tee().results)
-    path = tmp_path / "a.pch"
-    path.write_text(text.replace(old, new))
-    with pytest.raises(DataError, match=words):
-        read_punch(path)
-
-
-def test_punch_cut_short(tmp_path):
-    """A file cut in the middle, and one that is not there."""
-    path = tmp_path / "a.pch"
-    text = punch(tee().results)
-    path.write_text(text[: len(text) // 2])
-    with pytest.raises(DataError, match="line"):
-        read_punch(path)
-    with pytest.raises(DataError, match="cannot be read"):
-        read_punch(tmp_path / "none.pch")
-
-
-def test_punch_ids(tmp_path):
-    """A word where an id should stand is refused."""
-    text = punch(tee().results).splitlines(keepends=True)
-    text[7] = "     x" + text[7][6:]
-    path = tmp_path / "a.pch"
-    path.write_text("".join(text))
-    with pytest.raises(DataError, match="is no id"):
-        read_punch(path)
-
-
 def static_subcases(file):
     """Turn the three modes of the file into unit-load subcases 11 to 13, with loads at grids of their own."""
-    h5py = pytest.importorskip("h5py")
     change(file, "NASTRAN/RESULT/DOMAINS", "ANALYSIS", 1, slice(3, 6))
     change(file, "NASTRAN/RESULT/DOMAINS", "SUBCASE", [11, 12, 13], slice(3, 6))
     change(file, "NASTRAN/RESULT/DOMAINS", "MODE", 0, slice(3, 6))
@@ -302,7 +214,6 @@ def test_h5_without_summary(h5):
     assert np.isnan(found.frequency).all()
     rows = {row.check: row for row in audit(found, read_h5_model(H5)).rows}
     assert rows["frequencies"].light == "red"
-    h5py = pytest.importorskip("h5py")
     with h5py.File(path, "r+") as again:
         change(again, "NASTRAN/RESULT/DOMAINS", "TIME_FREQ_EIGR", [1.0, 4.0, 9.0], slice(3, 6))
     assert read_h5(path).frequency == pytest.approx(np.array([1, 2, 3]) / (2 * np.pi))
@@ -315,52 +226,3 @@ def test_h5_complex_forces(h5):
     file.close()
     with pytest.raises(DataError, match="complex"):
         read_h5(path)
-
-
-def test_punch_unit_loads(tmp_path):
-    """Static subcases with loads at grids of their own."""
-    path = tmp_path / "a.pch"
-    lines = []
-    for subcase, grid in ((3, 1), (8, 2)):
-        lines += ["$GRID POINT FORCE BALANCE", "$REAL OUTPUT", f"$SUBCASE ID = {subcase:11d}"]
-        for node, element, kind in ((grid, "", "APP-LOAD"), (1, 5, "QUAD4"), (2, 5, "QUAD4")):
-            lines.append(f"{node:10d}{element:>18}        {kind:8s}")
-            lines += ["-CONT-".ljust(18) + f"{subcase + k:18.6E}" * 3 for k in (0, 1)]
-    path.write_text("".join(f"{line:<72}\n" for line in lines))
-    found = read_punch(path)
-    assert (found.analysis, found.mode.tolist()) == ("static", [3, 8])
-    assert found.element.tolist() == [5, 5, 0, 0]
-    assert found.force[1, 0].tolist() == [8, 8, 8, 9, 9, 9]
-
-
-@pytest.mark.parametrize("line", ["$TIME       =   1.0", "$FREQUENCY =   2.0", "$LOAD FACTOR =  0.5"])
-def test_punch_of_other_solutions(tmp_path, line):
-    """Time steps, frequencies and load factors are no modes."""
-    path = tmp_path / "a.pch"
-    path.write_text(punch(tee().results).replace("$EIGENVALUE =", line + "\n$EIGENVALUE ="))
-    with pytest.raises(DataError, match=line[1:5].lower()):
-        read_punch(path)
-
-
-def test_punch_of_load_factors(tmp_path):
-    """Modes below 1 Hz only may be buckling shapes, which a punch file does not tell: a doubt, not a refusal."""
-    text = punch(replace(tee().results, frequency=np.array([0.1, 0.2, 0.3, 0.4, 0.5])))
-    path = tmp_path / "a.pch"
-    path.write_text(text)
-    assert "no mode is above 0.5 Hz" in read_punch(path).remarks[-1].what
-    path.write_text(punch(tee().results))
-    assert not read_punch(path).remarks
-    path.write_text(text.replace("MODE =     3", "MODE =      "))
-    with pytest.raises(DataError, match="the eigenvalue or the mode is no number"):
-        read_punch(path)
-
-
-def test_punch_without_frequencies(tmp_path):
-    """Eigenvalues of zero in all modes are none."""
-    text = punch(tee().results)
-    for k in range(5):
-        eigenvalue = (2 * np.pi * tee().results.frequency[k]) ** 2
-        text = text.replace(f"{eigenvalue:15.7E}", f"{0.0:15.7E}")
-    path = tmp_path / "a.pch"
-    path.write_text(text)
-    assert np.isnan(read_punch(path).frequency).all()
