@@ -70,7 +70,7 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
     stations, curve = model.stations, model.case.curve
     names = np.array([weld.name for weld in model.welds], dtype=object)
     yield_MPa = curve.yield_MPa if curve.mean_stress == "asme" else None
-    rated_of_weld = [model.curves[name] for name in model.curve_of_weld]
+    rated_of_weld = model.curve_of_weld
     rule = np.empty(len(station), dtype=object)
     exponent = np.empty(len(station))
     for i, at in enumerate(station):

@@ -93,7 +93,6 @@ def event_verdicts(
 
     spectra = segment_spectra(load.counted, body.case.spectrum.segment_s, load.moments.upper_hz)
     matrices = diagnosis_matrices(load.counted, spectra)
-    normal = [f for f, kind in zip(body.modes.frequency, body.modes.kind, strict=True) if kind == "normal"]
     shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
     one_ratio = _one_ratio_rules(points, assessed)
     for law in {id(rule.law): rule.law for rule in points.rule}.values():
@@ -110,7 +109,7 @@ def event_verdicts(
             kurtosis=here["kurtosis"].to_numpy(),
             top_cycle_share=attribution.top_cycle_share[at],
             samples_per_peak=here["samples_per_peak"].to_numpy(),
-            top_mode_hz=float(max(normal)) if normal else None,
+            top_mode_hz=load.top_mode_hz,
         )
         found.verdict[at] = np.array(VERDICTS, dtype=object)[diagnosis.verdict]
         found.reason[at] = [reason(diagnosis, i) for i in range(len(at))]

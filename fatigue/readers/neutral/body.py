@@ -41,6 +41,11 @@ class Modes:
     kind: tuple[str, ...]
     scale: NDArray[np.float64]
 
+    @property
+    def vibration_hz(self) -> NDArray[np.float64]:
+        """Frequencies of the normal modes [Hz]; rigid-body modes that the table takes for normal ones left out."""
+        return np.asarray(self.frequency[(np.array(self.kind) == "normal") & (self.frequency > LOWEST_HZ)])
+
 
 @dataclass(frozen=True, slots=True)
 class Weld:

@@ -1,4 +1,4 @@
-"""Records of events: what is refused, what is doubted, and what an event brings to every station."""
+"""Records of events: what is refused, what is warned of, and what an event brings to every station."""
 
 import pickle
 
@@ -89,7 +89,7 @@ def test_times_in_ms_are_refused_for_every_event(tmp_path):
     assert [p.code for p in error.value.problems] == ["long_step", "long_step"]
 
 
-def test_a_step_far_too_short_is_a_doubt(tmp_path):
+def test_a_step_far_too_short_is_a_warning(tmp_path):
     """Times in hours."""
     case = small_case()
     case.histories["sine"]["time_s"] /= 3600.0
@@ -97,7 +97,7 @@ def test_a_step_far_too_short_is_a_doubt(tmp_path):
     assert [w.where for w in warnings if w.code == "short_step"] == ["sine.csv: column time_s"]
 
 
-def test_few_segments_and_no_spectrum_are_doubts(tmp_path):
+def test_few_segments_and_no_spectrum_are_warnings(tmp_path):
     """Told with the numbers."""
     case = small_case(seconds=3.0)
     _, warnings = mission_plan(body_of(case, tmp_path))
@@ -113,6 +113,8 @@ def test_upper_frequency(tmp_path):
     assert top_mode_hz(body) == 12.0
     assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.005, 0.0)) == pytest.approx(18.0)
     assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.04, 0.0)) == pytest.approx(10.0)
+    case.modes["frequency_hz"] = 1e-4  # rigid-body modes under the name of normal ones
+    assert top_mode_hz(body_of(case, tmp_path / "rigid")) is None
     case.spectrum["upper_hz"] = 33.0
     assert upper_hz(body_of(case, tmp_path / "b"), ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.1, 0.0)) == 33.0
 

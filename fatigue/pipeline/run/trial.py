@@ -1,7 +1,7 @@
-"""What a job will take: its own pipeline, timed on one group of its welds under a piece of one of its records."""
+"""What a job will take: its own pipeline, timed on one group of its welds under the first chunk of one record."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -13,6 +13,7 @@ from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import GroupResult, assess_group
+from fatigue.pipeline.count.worst import worst_points
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
@@ -24,7 +25,8 @@ from fatigue.pipeline.mission.events import (
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.tables.register import worst_points
+from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.stations import Stations
 
 Result = TypeVar("Result")
 
@@ -70,6 +72,31 @@ class JobTime:
         return self.total - self.counting + self.counting_exact
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Trial:
+    """A group of welds under a mission of nothing but a chunk of one pass, as often as it takes for the pass."""
+
+    stations: Stations
+    curve_of_weld: Sequence[RatedCurve]
+    one: Pass
+    plan: Plan
+
+    def counted(self, chunk: EventLoad) -> GroupResult:
+        """Count every point."""
+        return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), None)
+
+    def screened(self, chunk: EventLoad, scratch: Path) -> GroupResult:
+        """Let bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
+        screening = screening_of(SHARE, True, [chunk], scratch, threads=1)
+        return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), screening)
+
+    def _plan_of(self, chunk: EventLoad) -> Plan:
+        chunks = self.one.samples * chunk.counted.step / max(chunk.duration, chunk.counted.step)  # in the pass
+        per_km = 1.0 / self.one.length if self.one.length is not None else self.one.passes_per_km
+        alone = replace(self.one, length=None, share=None, per_1000_km=1000.0 * per_km * chunks)
+        return replace(self.plan, passes=(alone,))
+
+
 def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
     """Estimate the processor time of ``fatigue assess`` with its default options, what is compiled already left out.
 
@@ -87,22 +114,23 @@ def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float,
     record = shortened_record(body, event, samples, scratch)
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
     with threadpool_limits(limits=1, user_api="blas"):
-        factor = _factor(body, event, record, model, one, plan)
+        trial = _Trial(model.stations, model.curve_of_weld, one, plan)
+        factor = _factor(body, event, record, trial)
         upsampled = factor * sum(p.samples for p in plan.passes)
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
         prepare_s, load = _timed(lambda: load_of(body, event, record, factor, single=single))
         _, short = _timed(lambda: load_of(body, event, less, factor, single=single))
-        exact, result = _of_length(load, short, lambda piece: _counted(model, piece, one, plan))
+        exact, result = _of_length(load, short, trial.counted)
         default = exact
         if single:
-            default, result = _of_length(load, short, lambda piece: _counted(model, piece, one, plan, scratch))
+            default, result = _of_length(load, short, lambda chunk: trial.screened(chunk, scratch))
 
     n = load.counted.q.shape[1]
     of_groups = stations / len(model.stations)
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
-    cycles = _kept_cycles(model, result, single=single) * of_groups * upsampled / n
+    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
@@ -114,30 +142,21 @@ def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float,
     )
 
 
-def _factor(body: Body, event: Event, record: ModalHistory, model: Model, one: Pass, plan: Plan) -> int:
+def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> int:
     """Factor by which records are upsampled; where that is automatic, what this record needs at these welds."""
     factor = body.case.counting.upsample
     if factor != "auto":
         return int(factor)
     load = load_of(body, event, record, 1, single=False)
-    samples_per_peak = _counted(model, load, one, plan).events[0].samples_per_peak
+    samples_per_peak = trial.counted(load).events[0].samples_per_peak
     fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))
     return int(min(LARGEST_UPSAMPLE, 2 ** max(0, np.ceil(np.log2(SAMPLES_PER_PEAK / fewest)))))
 
 
-def _counted(model: Model, load: EventLoad, one: Pass, plan: Plan, scratch: Path | None = None) -> GroupResult:
-    """Assess the group under a mission of nothing but a piece of a record; with a ``scratch`` folder, screen it."""
-    pieces = one.samples * load.counted.step / max(load.duration, load.counted.step)  # of the pass
-    per_km = 1.0 / one.length if one.length is not None else one.passes_per_km
-    alone = replace(one, length=None, share=None, per_1000_km=1000.0 * per_km * pieces)
-    screening = None if scratch is None else screening_of(SHARE, True, [load], scratch, threads=1)
-    return assess_group(model, [load], replace(plan, passes=(alone,)), screening)
-
-
-def _kept_cycles(model: Model, result: GroupResult, *, single: bool) -> float:
+def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:
     """Cycles of the worst points of a group that go into the table."""
     used_up, cycles = result.mission.utilisation, result.events[0].cycles
-    worst = [(p.station, p.face) for p in worst_points(model, result)]
+    worst = [(p.station, p.face) for p in worst_points(stations, result)]
     return sum(float(np.nan_to_num(cycles[at])) for at in worst if used_up[at] >= (SHARE if single else 0.0))
 
 
@@ -153,7 +172,7 @@ class _Cost:
 
 
 def _of_length(load: EventLoad, short: EventLoad, count: Callable[[EventLoad], Result]) -> tuple[_Cost, Result]:
-    """Time a group under a piece of a record and a shorter one; also what the longer gives."""
+    """Time a group under a chunk of a record and a shorter one; also what the longer gives."""
     count(short)  # compiles, or loads what was compiled before
     whole_s, result = _timed(lambda: count(load))
     part_s, _ = _timed(lambda: count(short))

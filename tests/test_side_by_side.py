@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from fatigue.pipeline.side_by_side import in_order, meanwhile
+from fatigue.side_by_side import in_order, meanwhile
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5, None])
