@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import missing_case, missing_case_of_result, missing_file, missing_foreign_file
+from fatigue.files.naming import missing_case, missing_case_of_result, missing_file, missing_foreign_file
 
 MOST_MODES = 100_000  # of one range
 

@@ -31,7 +31,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
       fatigue show result --weld W1_roof_bracket_neg --json
     """
     refuse_missing_result(folder)
-    from fatigue.naming import composed
+    from fatigue.files.naming import composed
     from fatigue.results.summary import result_summary
 
     found = result_summary(folder, top=top, only=[composed(weld) for weld in welds])

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem
-from fatigue.naming import missing_case_of_result
-from fatigue.results.store import sha256
+from fatigue.files.hashes import sha256
+from fatigue.files.naming import missing_case_of_result
 
 
 def way_to_case(case_file: Path, folder: Path) -> str:

@@ -2,7 +2,6 @@
 
 import base64
 import difflib
-import hashlib
 import json
 import platform
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from fatigue import __version__
 from fatigue.errors import DataError, Problem, given_names, given_path, refuse
+from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, TABLES, ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
@@ -244,12 +244,6 @@ def read_provenance(folder: Path | str) -> dict[str, Any]:
 def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:
     """Name, size and SHA-256 of every input file, so that a result can be traced to its inputs."""
     return [{"file": _relative(path, root), "bytes": path.stat().st_size, "sha256": sha256(path)} for path in paths]
-
-
-def sha256(path: Path | str) -> str:
-    """SHA-256 of a file's content."""
-    with Path(path).open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def software_versions() -> dict[str, str]:

@@ -8,6 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
+from fatigue.files.hashes import sha256
 from fatigue.results import (
     ASSESSED,
     TABLES,
@@ -17,7 +18,6 @@ from fatigue.results import (
     read_provenance,
     read_table,
     schema,
-    sha256,
     software_versions,
     store,
     table_writer,

@@ -9,10 +9,11 @@ import numpy as np
 import pyarrow as pa
 
 from fatigue.errors import CaseError, DataError, Problem
+from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
 from fatigue.readers.convert.audit.shell_rows import elastic_modes, without_drilling
 from fatigue.readers.convert.case_text import case_text
-from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, sha256, write_folder
+from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, write_folder
 from fatigue.readers.convert.inputs import audited, read_run, unknown_checks
 from fatigue.readers.convert.modal_basis import SimulationModes, common_modes, mode_masses, mode_scale
 from fatigue.readers.convert.options import ConvertOptions

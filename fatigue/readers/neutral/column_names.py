@@ -4,7 +4,7 @@ import difflib
 from collections.abc import Collection, Iterator
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.neutral.columns import Columns
 
 

@@ -7,7 +7,7 @@ import pyarrow as pa
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 
 
 def floats_of(column: pa.ChunkedArray) -> NDArray[Any] | None:

@@ -4,8 +4,8 @@ from collections.abc import Collection
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.known_formats import misplaced
-from fatigue.naming import missing_file
+from fatigue.files.misplaced import misplaced
+from fatigue.files.naming import missing_file
 from fatigue.readers.neutral.columns import DAMAGE, Columns, damaged
 from fatigue.readers.neutral.csv_columns import open_csv
 from fatigue.readers.neutral.parquet_columns import open_parquet

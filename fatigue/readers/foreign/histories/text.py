@@ -16,7 +16,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, check_values
 from fatigue.readers.foreign.histories.header import Header, header_frequencies, read_header
 from fatigue.readers.foreign.histories.rows import find_rows, read_values

@@ -9,7 +9,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.neutral.body import Modes
 from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.forces.in_place import in_place

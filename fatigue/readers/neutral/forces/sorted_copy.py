@@ -13,7 +13,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, refuse
-from fatigue.known_formats import misplaced
+from fatigue.files.misplaced import misplaced
 from fatigue.readers.neutral.columns import DAMAGE, Columns, damaged
 from fatigue.readers.neutral.csv_columns import csv_batches
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces

@@ -8,7 +8,7 @@ import pyarrow as pa
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.neutral.column_values import codes_of
 
 
