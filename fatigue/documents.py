@@ -27,7 +27,7 @@ from fatigue.results import (
     refuse_mixed,
     write_list,
 )
-from fatigue.results.folder import publish, staging_in
+from fatigue.results.publish import publish, staging_in
 from fatigue.stages import stage
 
 AGAIN = (PAGE, PICTURE)  # written again without being asked

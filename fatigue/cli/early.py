@@ -24,7 +24,7 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
 
         settle_folder(folder)
     if not (folder / "provenance.json").exists():
-        from fatigue.results.store import read_provenance
+        from fatigue.results.provenance import read_provenance
 
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():

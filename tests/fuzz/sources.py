@@ -25,7 +25,8 @@ from fatigue.readers.neutral.history import read_history
 from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.tables import open_table
 from fatigue.results import read_provenance, read_table
-from fatigue.results.store import schema, write_json
+from fatigue.results.json_records import write_json
+from fatigue.results.tables import schema
 from tests.fuzz import damage
 from tests.readers import neutral_tables as neutral
 from tests.readers.foreign.histories.test_foreign_history import MCF

@@ -1,4 +1,4 @@
-"""Parts of a result table that as a whole may not fit into memory: some of its rows, or one column of texts.
+"""Some rows of a result table that as a whole may not fit into memory, or one column of its texts.
 
 One row group is in memory at a time. Numbers of all rows, a column at a time, are what `read_table` is for.
 """
@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.results.columns import TABLES
-from fatigue.results.store import read_table, readable, table_path
+from fatigue.results.tables import read_table, readable, table_path
 
 
 def read_rows(
@@ -33,11 +33,11 @@ def read_rows(
         names = _wanted(file, columns)
         end = np.cumsum([0, *(file.metadata.row_group(i).num_rows for i in range(file.num_row_groups))])
         group = np.searchsorted(end, wanted, side="right") - 1
-        pieces = [file.schema_arrow.empty_table().select(names)]
+        groups = [file.schema_arrow.empty_table().select(names)]
         for number in np.unique(group):
-            piece = file.read_row_group(number, names)
-            pieces.append(piece.take(pa.array(wanted[group == number] - end[number])))
-    found = _plain(pa.concat_tables(pieces).unify_dictionaries())
+            whole = file.read_row_group(number, names)
+            groups.append(whole.take(pa.array(wanted[group == number] - end[number])))
+    found = _plain(pa.concat_tables(groups).unify_dictionaries())
     return found if (np.diff(rows) > 0).all() else found.take(pa.array(np.argsort(ascending)))
 
 
