@@ -5,10 +5,10 @@ from pathlib import Path
 
 import click
 
+from fatigue.cli.arguments import CASE, FOLDER, as_json, strict
 from fatigue.cli.early import refuse_missing_case
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import SHARE
-from fatigue.cli.options import CASE, FOLDER, as_json, strict
 from fatigue.cli.output import print_json, print_warnings
 from fatigue.cli.progress import narrated
 from fatigue.cli.verify import known_values

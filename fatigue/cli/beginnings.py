@@ -4,10 +4,10 @@ from pathlib import Path
 
 import click
 
+from fatigue.cli.arguments import FOLDER
 from fatigue.cli.early import refuse_existing
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO
-from fatigue.cli.options import FOLDER
 from fatigue.cli.output import print_json
 from fatigue.cli.progress import is_quiet, narrated
 from fatigue.stages import stage

@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from fatigue.cli.arguments import as_json
 from fatigue.cli.early import (
     missing_foreign,
     missing_tables,
@@ -17,7 +18,6 @@ from fatigue.cli.early import (
 )
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO
-from fatigue.cli.options import as_json
 from fatigue.cli.output import print_json
 from fatigue.cli.progress import is_quiet, narrated, narrating
 from fatigue.stages import stage

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import click
 
+from fatigue.cli.arguments import CASE, FOLDER, as_json
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO
-from fatigue.cli.options import CASE, FOLDER, as_json
 from fatigue.cli.output import print_json
 from fatigue.cli.progress import narrated
 from fatigue.cli.verify import known_values

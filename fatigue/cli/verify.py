@@ -6,9 +6,9 @@ from typing import Any
 
 import click
 
+from fatigue.cli.arguments import CASE, FOLDER, as_json
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.main import cli
-from fatigue.cli.options import CASE, FOLDER, as_json
 from fatigue.cli.output import print_json
 from fatigue.cli.progress import narrated
 from fatigue.stages import stage
