@@ -9,6 +9,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.readers.convert.joined_cuts import joined_cuts
+from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.read import read_model
 from fatigue.readers.neutral.register.register_file import open_register, register_text
@@ -18,34 +19,6 @@ from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace
 from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
-
-
-@dataclass(frozen=True, slots=True)
-class WeldSources:
-    """Where weld lines come from.
-
-    Attributes
-    ----------
-    node_lists : table of the columns ``weld, order, node``
-    sets : ids of node sets whose mesh edges are welds
-    markers : names of one-dimensional cards that lie on welds: PLOTEL, CBAR, CBEAM
-    detect : search the mesh; None: only if nothing is marked
-    candidates : assess flat changes of property and folds as well
-    register : an edited register that wins
-    """
-
-    node_lists: Path | None = None
-    sets: tuple[int, ...] = ()
-    markers: tuple[str, ...] = ()
-    detect: bool | None = None
-    candidates: bool = False
-    register: Path | None = None
-
-    def __post_init__(self) -> None:
-        """Take text for a path."""
-        for name in ("node_lists", "register"):
-            if (given := getattr(self, name)) is not None:
-                object.__setattr__(self, name, given_path(given, name))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

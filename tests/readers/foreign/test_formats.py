@@ -25,11 +25,6 @@ def test_no_two_formats_are_told_alike():
 @pytest.mark.parametrize("form", FORMATS, ids=lambda form: form.key)
 def test_an_entry_leads_to_its_readers(form):
     """Every function is there and takes what it is called with; a package that it needs has a version to install."""
-    parameters = {
-        FORCES: ["path", "subcase", "interface"],
-        MESH: ["path"],
-        COORDINATES: ["path", "columns", "time_column"],
-    }
     assert form.reads
     if form.extra is not None:
         pytest.importorskip(form.extra.package)

@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import CaseError
-from fatigue.readers.convert.modal_basis import mode_list
+from fatigue.readers.convert.mode_list import mode_list
 from fatigue.readers.neutral.body import read_mesh, read_modes, read_welds
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.verify.recount.inputs.tables import read_frame, read_rows_where
