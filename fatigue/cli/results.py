@@ -62,12 +62,10 @@ def report(
       fatigue report result --case body/case.toml
     """
     refuse_missing_result(folder, case_file)
-    from fatigue.documents import AGAIN, CSV, missing_extras, write_documents
+    from fatigue.documents import AGAIN, CSV, write_documents
     from fatigue.results import PRINT, WORKBOOK
 
     wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
-    for problem in missing_extras(wanted).values():
-        log.warning("%s Going on with the others.", problem)
     with narrated(quiet=options["quiet"]):
         done = write_documents(folder, wanted, case_file=case_file, verification=known_values, force=force)
     for path in done.written:

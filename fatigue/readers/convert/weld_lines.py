@@ -17,7 +17,7 @@ from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of,
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace
-from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
+from fatigue.weld.detection import CANDIDATES, WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
 
 
@@ -66,7 +66,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     doubts = _element_doubts(model)
     rows, failed = [], {}
     for cut in cuts:
-        is_weld = cut.kind not in ("flat", "fold") or sources.candidates
+        is_weld = cut.kind not in CANDIDATES or sources.candidates
         rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
         failed[cut.name] = _doubt(cut, doubts)
     edited = open_register(sources.register, strict=False) if sources.register else None

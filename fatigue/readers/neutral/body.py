@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.weld.line import LineStack, WeldLine
-from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
+from fatigue.weld.line_check import check_line, line_warnings, unfit_lines, warned_lines
 
 Surface: TypeAlias = Literal["top", "bottom", "both"]
 KINDS = ("normal", "interface", "rigid")
@@ -226,7 +226,7 @@ def checked_lines(lines: LineStack, file: str) -> list[Problem]:
             except DataError as error:
                 problems += error.problems
         if not problems:
-            for i in doubtful_lines(some):
+            for i in warned_lines(some):
                 warnings += line_warnings(some[i], _place(file, some[i]))
     refuse(DataError, problems)
     return warnings
