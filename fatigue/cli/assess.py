@@ -7,11 +7,11 @@ import click
 
 from fatigue.cli.arguments import CASE, FOLDER, as_json, strict
 from fatigue.cli.early import refuse_missing_case
+from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import SHARE
 from fatigue.cli.output import print_json, print_warnings
 from fatigue.cli.progress import narrated
-from fatigue.cli.verify import known_values
 
 
 @cli.command()

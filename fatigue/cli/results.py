@@ -7,11 +7,11 @@ import click
 
 from fatigue.cli.arguments import CASE, FOLDER, as_json
 from fatigue.cli.early import refuse_missing_result
+from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO
 from fatigue.cli.output import print_json
 from fatigue.cli.progress import narrated
-from fatigue.cli.verify import known_values
 from fatigue.errors import DataError, refuse
 
 log = logging.getLogger(__name__)

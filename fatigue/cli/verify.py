@@ -1,8 +1,6 @@
-"""The command that checks the program and recounts results; its known values stand in every report."""
+"""The command that checks the program, and recounts results."""
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -66,12 +64,3 @@ def verify(
         click.echo(found.as_text())
     if not found.passed:
         raise SystemExit(4)
-
-
-def known_values() -> Sequence[Mapping[str, Any]]:
-    """Compute the known values that the report shows beside what they should be."""
-    from fatigue.verify.table import verification_table
-
-    stage("computing the known values")
-    checks: Sequence[Mapping[str, Any]] = verification_table().as_record()["checks"]
-    return checks
