@@ -31,7 +31,7 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
 
 
 def load_case(path: Path | str) -> Case:
-    """Read and check a case file; the files it names are not opened.
+    """Case of a case file, read and checked; the files it names are not opened.
 
     Raises
     ------
@@ -58,12 +58,12 @@ def load_case(path: Path | str) -> Case:
 
 
 def given_case(case: Case | Path | str) -> Case:
-    """Return the case, read from its file where that is given.
+    """The case itself, or the case of the file that is given.
 
     Raises
     ------
     CaseError
-        as `load_case`
+        as ``load_case``
     """
     return case if isinstance(case, Case) else load_case(case)
 
