@@ -7,15 +7,13 @@ import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from fatigue.errors import CaseError, Problem
-from fatigue.files.misplaced import misplaced
-from fatigue.files.naming import composed, control_characters, missing_case
+from fatigue.errors import Problem
+from fatigue.files.naming import composed, control_characters
 
 SHARE_TOLERANCE = 1e-6  # of the sum of all shares
 
@@ -39,27 +37,6 @@ def clash(key: str, what: str, remedy: str) -> Problem:
 def absent(key: str, what: str, remedy: str) -> Problem:
     """Refusal of a table without a key that its other keys call for."""
     return Problem("missing_key", key, what, remedy)
-
-
-def read_text(path: Path) -> str:
-    """Read a text file as UTF-8, with or without byte order mark."""
-    try:
-        return path.read_bytes().decode("utf-8-sig")
-    except (FileNotFoundError, IsADirectoryError):
-        problem = missing_case(path)
-    except OSError as error:
-        problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
-    except UnicodeDecodeError as error:
-        if (other := misplaced(path, path.name, text=False)) is not None:
-            raise CaseError(other) from None
-        line = error.object[: error.start].count(b"\n") + 1
-        problem = Problem(
-            "not_utf8",
-            f"{path.name}: line {line}",
-            f"the byte {error.object[error.start]:#04x} is not UTF-8 text",
-            "Save the file as UTF-8",
-        )
-    raise CaseError(problem)
 
 
 def syntax_problem(text: str, error: tomllib.TOMLDecodeError) -> Problem:
