@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.results.belonging import DOCUMENTS, LIST, is_derived
+from fatigue.results.belonging import DOCUMENTS, LIST, PAGE, PICTURE, is_derived
 from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
 from fatigue.results.provenance import PROVENANCE, read_provenance
 
 LOG = "fatigue.log"
-OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.html", LIST, LOG, PROVENANCE)
+OUTPUTS = (*(f"{table}.parquet" for table in TABLES), PICTURE, PAGE, LIST, LOG, PROVENANCE)
 DERIVED = tuple(dict.fromkeys((*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST)))
 STATE = ".fatigue-state"  # of an interrupted run
 _CASE_OF_STATE = "case"
