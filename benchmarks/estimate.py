@@ -1,7 +1,7 @@
 """What `fatigue check` foretells against what `fatigue assess` takes: ``python -m benchmarks.estimate [rounds]``.
 
 Processor time of all threads, because others may load the machine; the best of some rounds of each. Everything is
-compiled before. The constants of `fatigue.pipeline.trial` come from here.
+compiled before. The constants of `fatigue.pipeline.run.trial` come from here.
 """
 
 import json

@@ -16,25 +16,26 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.events import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import Counted, Work, input_paths, inputs_of, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
-from fatigue.pipeline.side_by_side import meanwhile
 from fatigue.pipeline.solve.body import Body, read_body
-from fatigue.pipeline.solve.model import toe_faces
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.tables.cycles import CycleWriter, kept_point
+from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
 from fatigue.pipeline.tables.provenance import provenance_record
-from fatigue.pipeline.tables.register import WorstPoint, excluded_rows, weld_rows, worst_points
+from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
-from fatigue.pipeline.tables.warnings import Doubts
+from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
-from fatigue.results.folder import publish, refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.publish import publish
+from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
 
@@ -127,22 +128,22 @@ def assess(
             else:
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
-            done.doubts.add((*body.warnings, *record_warnings))
+            done.warnings.add((*body.warnings, *record_warnings))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
             with result_tables(unpublished, key) as tables, closing(assessed):
-                cycles = CycleWriter(tables["cycles"], work.loads, case.curve)
+                cycles = CycleWriter(tables["cycles"], work.loads)
                 for group in assessed:
                     worst = write_group(tables, group, work)
-                    cycles.add([kept_point(group.model, point) for point in cycles_kept_of(worst, group, work)])
+                    cycles.add(points_kept_of(worst, group, work))
                     done.add(group, work, worst)
                     del group  # not to be held until the next one is there
                     give_back()
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            done.doubts.add(sampling_warnings(body, done))
-            warnings = done.doubts.listed()
+            done.warnings.add(sampling_warnings(body, done))
+            warnings = done.warnings.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
             write_list(unpublished, write_documents(unpublished, case, verification) if report else [], key)
@@ -176,7 +177,7 @@ class Tally:
     """What adds up while groups of welds stream by.
 
     ``stations`` are counted by the tier that settled them, ``samples_per_peak`` is the smallest of each event,
-    ``doubts`` are the warnings, those about the welds in the order of their groups.
+    ``warnings`` has those about the welds in the order of their groups.
     """
 
     total: int
@@ -185,7 +186,7 @@ class Tally:
     reused: int = 0
     fulfilled: bool = True
     stations: dict[str, int] = field(default_factory=dict)
-    doubts: Doubts = field(default_factory=Doubts)
+    warnings: WarningSummary = field(default_factory=WarningSummary)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
@@ -197,7 +198,7 @@ class Tally:
         for number, tier in enumerate(TIERS):
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
-        self.doubts.add(group.model.warnings)
+        self.warnings.add(group.model.warnings)
         for passed, event in zip(work.plan.passes, result.events, strict=True):
             fewest = float(np.nanmin(event.samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
@@ -207,22 +208,22 @@ class Tally:
 def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
     """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld."""
     model, result, plan = group.model, group.result, work.plan
-    stations, welds = model.stations, [weld.name for weld in model.welds]
-    worst, screened = worst_points(model, result), np.repeat(result.tier[:, None], 2, axis=1)
-    tables["nodes"].write(node_rows(stations, result.mission, toe_faces(model), screened, plan, welds))
-    events = result.events
+    stations, events = model.stations, result.events
+    worst = worst_points(stations, result)
+    tables["nodes"].write(node_rows(stations, result.mission, result.tier, plan))
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
-        tables["damage"].write(damage_rows(stations, events, plan, welds, some))
-        tables["structural_stress"].write(stress_rows(stations, model.modes.mode, welds, some))
+        tables["damage"].write(damage_rows(stations, events, plan, some))
+        tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
     tables["welds"].write(weld_rows(model, plan, result.mission, worst))
     return worst
 
 
-def cycles_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[WorstPoint]:
+def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:
     """Choose the worst points of a group whose cycles go into ``cycles.parquet``."""
-    used_up = group.result.mission.utilisation
-    return [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
+    stations, curve_of_weld, used_up = group.model.stations, group.model.curve_of_weld, group.result.mission.utilisation
+    matter = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
+    return [kept_point(stations, curve_of_weld, point) for point in matter]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

@@ -10,17 +10,17 @@ from typing import Any
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
 from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.run.trial import JobTime, job_time
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
-from fatigue.pipeline.tables.warnings import Doubts
-from fatigue.pipeline.trial import JobTime, job_time
+from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.stages import stage
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CheckedCase:
-    """Sizes of a case that passed every check, and the doubts that remain.
+    """Sizes of a case that passed every check, and the warnings about it.
 
     Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded, ``candidates`` are
     candidates; ``samples`` are stress samples of one face: stations times kept samples, over all events.
@@ -85,8 +85,8 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     begin = time.process_time()
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
-    doubts = Doubts()
-    doubts.add((*body.warnings, *record_warnings))
+    warnings = WarningSummary()
+    warnings.add((*body.warnings, *record_warnings))
     parts = stations = 0
     stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
@@ -95,7 +95,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
             model = solve_group(groups, number)
             parts += len(model.lines)
             stations += len(model.stations)
-            doubts.add(model.warnings)
+            warnings.add(model.warnings)
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
@@ -115,7 +115,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         estimated_s=estimate.total,
         estimated_exact_s=estimate.total_exact,
         estimate=estimate,
-        warnings=doubts.listed(),
+        warnings=warnings.listed(),
     )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import missing_case, missing_file, missing_foreign_file
+from fatigue.files.naming import missing_case, missing_case_of_result, missing_file, missing_foreign_file
 
 
 def refuse_missing_case(path: Path) -> None:
@@ -21,14 +21,11 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
 
         settle_folder(folder)
     if not (folder / "provenance.json").exists():
-        from fatigue.results.store import read_provenance
+        from fatigue.results.provenance import read_provenance
 
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():
-        what, remedy = "there is no such file", "Correct the path after --case"
-        if case_file.is_dir():
-            what, remedy = "this is a folder", "Give the path of the case.toml in it"
-        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+        raise DataError(missing_case_of_result(case_file))
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:

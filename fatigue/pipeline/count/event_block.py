@@ -19,7 +19,7 @@ from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import RawEnds, Shapes, faces
 from fatigue.quotient import quotient
-from fatigue.spectrum.trust import VERDICTS, diagnose
+from fatigue.spectrum.trust import VERDICTS, judge
 
 _SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before they are counted: 32 MB
 _LONGEST_ROW = 250_000  # samples of a record of which 16 rows at a time are worth a matrix product
@@ -102,14 +102,14 @@ def count_event(
 
 def judged(event: EventBlock, shapes: Shapes, load: EventLoad, estimate: Estimate) -> EventBlock:
     """Judge by what was counted whether the estimate may be trusted at each point of a block."""
-    if load.diagnosis is None:
+    if load.trust is None:
         return event
     law, stress = shapes.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
     same_ratio, damage = event.damage_same_ratio.reshape(-1), event.damage.reshape(-1)
-    found = diagnose(
+    found = judge(
         stress.reshape(-1, stress.shape[-1]),
         estimate.moments.reshape(len(estimate.moments), -1),
-        load.diagnosis,
+        load.trust,
         slope=float(law.slopes[0]),
         dirlik_ratio=quotient(estimate.dirlik.reshape(-1), same_ratio),
         tb_ratio=quotient(estimate.tb.reshape(-1), same_ratio),

@@ -13,8 +13,8 @@ from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.piece import Piece, Rules, counted_at, estimated
 from fatigue.pipeline.count.settle import Screening, settle
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.model import Model, toe_faces
-from fatigue.pipeline.solve.stations import shapes_of
+from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.stations import Stations, shapes_of
 
 _OF_EVENT = tuple(f.name for f in fields(EventBlock) if f.name not in ("verdict", "histogram"))
 _OF_MISSION = tuple(f.name for f in fields(MissionBlock) if f.name not in ("governing", "verdict"))
@@ -56,25 +56,29 @@ class GroupResult:
         return MissionBlock(**numbers, governing=self.governing, verdict=self.verdict)
 
 
-def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening: Screening | None) -> GroupResult:
+def assess_group(
+    stations: Stations,
+    curve_of_weld: Sequence[RatedCurve],
+    loads: Sequence[EventLoad],
+    plan: Plan,
+    screening: Screening | None,
+) -> GroupResult:
     """Count every event at every station of a group of welds, or at those that screening leaves to be counted.
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    stations, toe = model.stations, toe_faces(model)
-    curve_of = np.array(model.curve_of_weld)[stations.weld]
-    curve = model.case.curve
+    curve_of = np.array([rated.curve.name for rated in curve_of_weld])[stations.weld]
     result = _no_result(len(loads), len(stations))
-    for name in dict.fromkeys(curve_of.tolist()):
+    for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)
-        shapes = shapes_of(stations, rows, model.curves[name], curve.thickness_rule)
-        rules = Rules(curve.yield_MPa, curve.mean_stress == "asme", _weld_names(model, rows))
+        shapes = shapes_of(stations, rows, rated)
+        rules = Rules(rated.yield_MPa, rated.mean_stress, _weld_names(stations, rows))
         if screening is None:
             pieces = counted_at(np.arange(len(rows)), shapes, loads, estimated(shapes, loads, rules), plan, rules)
         else:
-            pieces = settle(shapes, stations.weld[rows], toe[rows], loads, plan, screening, rules)
+            pieces = settle(shapes, stations.weld[rows], stations.toe[rows], loads, plan, screening, rules)
         for piece in pieces:
             _put(piece, rows[piece.rows], result)
     return result
@@ -109,6 +113,6 @@ def _put(piece: Piece, rows: NDArray[np.intp], result: GroupResult) -> None:
     result.tier[rows] = piece.tier
 
 
-def _weld_names(model: Model, rows: NDArray[np.intp]) -> str:
-    names = sorted({model.welds[i].name for i in model.stations.weld[rows]})
+def _weld_names(stations: Stations, rows: NDArray[np.intp]) -> str:
+    names = sorted({stations.welds[i].name for i in stations.weld[rows]})
     return f"welds {names[0]} to {names[-1]}"

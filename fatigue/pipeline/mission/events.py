@@ -15,11 +15,11 @@ from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory, first_kept, kept
 from fatigue.pipeline.mission.event_load import EventLoad, prepare_event
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
-from fatigue.pipeline.side_by_side import in_order
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
 from fatigue.readers.neutral.history import TimeGrid, check_history, read_history
+from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import (
     Spectra,
     has_spectrum,
@@ -40,7 +40,7 @@ HELD_BYTES = 16e6  # of all records together, as they are in their files; the lo
 
 
 def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
-    """Read and check every record of the mission; return its passes per km and the doubts about the records.
+    """Read and check every record of the mission; return its passes per km and the warnings about the records.
 
     The records are read on some threads, by default one per processor core, and a column of each is in memory.
     """
@@ -143,9 +143,9 @@ def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
 
 
 def top_mode_hz(body: Body) -> float | None:
-    """Highest frequency of a normal mode [Hz]; None where there is none above 0."""
-    frequencies = zip(body.modes.frequency, body.modes.kind, strict=True)
-    return max((float(f) for f, kind in frequencies if kind == "normal" and f > 0.0), default=None)
+    """Highest frequency of a normal mode [Hz]; None where no mode vibrates."""
+    vibration_hz = body.modes.vibration_hz
+    return float(vibration_hz.max()) if vibration_hz.size else None
 
 
 def upper_hz(body: Body, history: ModalHistory) -> float:
@@ -171,11 +171,11 @@ def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
 
 
 def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
-    """Read and check the record of an event: its passes and the doubts about it, or what is wrong with it."""
+    """Read and check the record of an event: its passes and the warnings about it, or what is wrong with it."""
     case = body.case
     path = case.resolve(event.history)
     try:
-        grid, doubts = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
+        grid, warnings = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
         refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
         samples = _kept_samples(case, event, grid)
     except FatigueError as error:
@@ -187,8 +187,8 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueEr
         share=event.share,
         per_1000_km=event.per_1000_km,
     )
-    doubts += step_warnings(grid, body.modes, path.name, event.name)
-    return one, doubts + _record_warnings(body, event, samples, grid.step)
+    warnings += step_warnings(grid, body.modes, path.name, event.name)
+    return one, warnings + _record_warnings(body, event, samples, grid.step)
 
 
 def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:

@@ -9,7 +9,7 @@ does not vibrate may leave them out: its step is short all the same.
 import numpy as np
 
 from fatigue.errors import Problem
-from fatigue.readers.neutral.body import LOWEST_HZ, Modes
+from fatigue.readers.neutral.body import Modes
 from fatigue.readers.neutral.history import TimeGrid
 
 FEWEST_SAMPLES = 100  # shorter records are load cases typed in by hand, their times may be anything
@@ -29,7 +29,7 @@ def step_problems(grid: TimeGrid, modes: Modes, file: str, event: str) -> list[P
 
 
 def step_warnings(grid: TimeGrid, modes: Modes, file: str, event: str) -> list[Problem]:
-    """Doubt steps that leave out all vibration, or are far shorter than any needs; where ``step_problems`` has none."""
+    """Warn of a step that leaves out all vibration or is far shorter than it needs; see ``step_problems`` first."""
     slowest, fastest = _vibration_hz(grid, modes)
     if grid.step * slowest > 1.0:
         remedy = "Check that time_s is in s, and sample the simulation more finely unless the body is quasi-static"
@@ -48,14 +48,11 @@ def step_warnings(grid: TimeGrid, modes: Modes, file: str, event: str) -> list[P
 
 
 def _vibration_hz(grid: TimeGrid, modes: Modes) -> tuple[float, float]:
-    """Frequency of the slowest and of the fastest normal mode [Hz]; 0 and infinity where they are not to be judged by.
-
-    Rigid-body modes that the table takes for normal ones are none.
-    """
-    vibrating = modes.frequency[(np.array(modes.kind) == "normal") & (modes.frequency > LOWEST_HZ)]
-    if grid.samples < FEWEST_SAMPLES or not vibrating.size:
+    """Frequencies of the slowest and the fastest normal mode [Hz]; 0 and infinity where nothing is judged by them."""
+    vibration_hz = modes.vibration_hz
+    if grid.samples < FEWEST_SAMPLES or not vibration_hz.size:
         return 0.0, np.inf
-    return float(vibrating.min()), float(vibrating.max())
+    return float(vibration_hz.min()), float(vibration_hz.max())
 
 
 def _too_long(grid: TimeGrid, slowest: float, file: str, event: str, remedy: str) -> Problem:

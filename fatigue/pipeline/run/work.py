@@ -13,11 +13,11 @@ from fatigue.pipeline.count.settle import Screening
 from fatigue.pipeline.mission.event_load import EventLoad, fast_record
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.run.checkpoint import state_key
-from fatigue.pipeline.side_by_side import in_order
 from fatigue.pipeline.solve.body import conversion_file, register_file
 from fatigue.pipeline.solve.model import Model, solve_group
-from fatigue.pipeline.solve.weld_groups import GROUPS, LARGEST_GROUP, PORTION, SMALLEST_GROUP, WeldGroups
+from fatigue.pipeline.solve.weld_groups import BLOCK, GROUPS, LARGEST_GROUP, SMALLEST_GROUP, WeldGroups
 from fatigue.results import input_register, software_versions
+from fatigue.side_by_side import in_order
 
 log = logging.getLogger(__name__)
 
@@ -53,7 +53,7 @@ class Work:
     def group(self, number: int) -> tuple[Model, GroupResult]:
         """Solve one group of welds and assess it."""
         model = solve_group(self.groups, number)
-        return model, assess_group(model, self.loads, self.plan, self.screening)
+        return model, assess_group(model.stations, model.curve_of_weld, self.loads, self.plan, self.screening)
 
 
 def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, threads: int | None) -> Work:
@@ -96,7 +96,7 @@ def inputs_of(case: Case) -> list[dict[str, str]]:
 
 def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:
     """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
-    cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP, PORTION)
+    cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP, BLOCK)
     return state_key(
         {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(counted)}
     )

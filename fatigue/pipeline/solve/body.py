@@ -12,9 +12,10 @@ from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.body import Mesh, Modes, Weld, checked_lines, read_lines, read_mesh, read_modes, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
 from fatigue.readers.neutral.register.conversion import convert_record
+from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.register.registered import Registered, registered, unregistered
 from fatigue.readers.neutral.register.registered_lines import Joints, registered_lines, unconfirmed_thickness
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, open_register
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.weld.line_units import unit_problems, unit_warnings
 
@@ -27,7 +28,7 @@ class Body:
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
     in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
     the balance check and pictures; ``conversion`` is what `fatigue convert` recorded, its audit included; ``warnings``
-    are the doubts about these files.
+    are the warnings about these files.
     """
 
     case: Case
@@ -48,9 +49,9 @@ class Body:
         """Rows of the register that are not assessed."""
         return self.register.left_out
 
-    def curve_of(self, weld: Weld) -> str:
-        """Key of the curve of a weld: its own, else that of the case."""
-        return weld.curve or self.case.curve.name
+    def curve_of(self, weld: Weld) -> RatedCurve:
+        """Find the curve of a weld: its own, else the one of the case."""
+        return self.curves[weld.curve or self.case.curve.name]
 
 
 def read_body(case: Case, *, strict: bool) -> Body:
@@ -65,22 +66,22 @@ def read_body(case: Case, *, strict: bool) -> Body:
     known_curves = curves_of_case(case)
     modes, warnings = read_modes(case.resolve(files.modes), files.ignore_modes, strict=strict)
     register = register_file(case)
-    in_tables, doubts = read_welds(case.resolve(files.welds), None if register else known_curves, strict=strict)
-    warnings += doubts
+    in_tables, of_welds = read_welds(case.resolve(files.welds), None if register else known_curves, strict=strict)
+    warnings += of_welds
     plan = unregistered(in_tables)
     if register:
         conversion = convert_record(conversion_file(case))
         plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
     warnings += plan.warnings
     curves = rated_curves(case, known_curves, plan.welds)
-    welds, lines, joints, doubts = _lines_on_disk(case, in_tables, plan, strict=strict)
-    warnings += doubts
+    welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, strict=strict)
+    warnings += of_lines
     give_back()
     mesh: Mesh | None = None
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
-        mesh, doubts = read_mesh(case.resolve(files.nodes), elements, strict=strict)
-        warnings += doubts
+        mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
+        warnings += of_mesh
     record = conversion_file(case)
     return Body(
         case=case,
@@ -103,15 +104,15 @@ def _lines_on_disk(
 ) -> tuple[tuple[Weld, ...], LineFile, Joints, list[Problem]]:
     """Read and check the lines of all welds to assess; in memory they are together only here."""
     path = case.resolve(case.body.weld_nodes)
-    lines, doubts = read_lines(path, in_tables, plan.names, strict=strict)
+    lines, warnings = read_lines(path, in_tables, plan.names, strict=strict)
     welds: tuple[Weld, ...] = plan.welds
     joints: Joints = {}
     if plan.file:
-        doubts += unconfirmed_thickness(lines, plan)
+        warnings += unconfirmed_thickness(lines, plan)
         welds, lines, joints = registered_lines(lines, plan, summed=case.body.nodal_forces is not None)
-    doubts += checked_lines(lines, path.name)
+    warnings += checked_lines(lines, path.name)
     refuse(DataError, unit_problems(lines, case.body.weld_nodes))
-    return welds, line_file(lines), joints, doubts + unit_warnings(lines, case.body.weld_nodes)
+    return welds, line_file(lines), joints, warnings + unit_warnings(lines, case.body.weld_nodes)
 
 
 def register_file(case: Case) -> Path | None:

@@ -1,6 +1,6 @@
 """Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
@@ -14,7 +14,7 @@ from fatigue.errors import NumericalError, Problem
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import Stations, joined, stations_of
-from fatigue.pipeline.solve.weld_groups import WeldGroups, forces_of_portion, one_group
+from fatigue.pipeline.solve.weld_groups import WeldGroups, forces_of_block, one_group
 from fatigue.readers.neutral.body import Modes, Weld
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.line import LineStack, line_of_node, stacked
@@ -26,12 +26,11 @@ from fatigue.weld.structural_stress import StructuralStress, assess_line, line_s
 class Model:
     """Some welds of a body, or all of them, ready for events.
 
-    ``lines`` are the line parts of ``welds`` in their order, ``stations`` their nodes, solved, as one table, its
-    ``weld`` an index into ``welds``; ``warnings`` are the doubts about these welds' forces and lines.
+    ``lines`` are the line parts of ``welds`` in their order, ``stations`` their nodes, solved, as one table;
+    ``warnings`` are those about the forces and lines of these welds.
     """
 
     body: Body
-    welds: tuple[Weld, ...]
     lines: LineStack
     stations: Stations
     warnings: tuple[Problem, ...]
@@ -47,13 +46,13 @@ class Model:
         return self.body.modes
 
     @property
-    def curves(self) -> Mapping[str, RatedCurve]:
-        """The curves of the body."""
-        return self.body.curves
+    def welds(self) -> tuple[Weld, ...]:
+        """The welds."""
+        return self.stations.welds
 
     @property
-    def curve_of_weld(self) -> list[str]:
-        """Key of the curve of every weld."""
+    def curve_of_weld(self) -> list[RatedCurve]:
+        """The curve of every weld."""
         return [self.body.curve_of(weld) for weld in self.welds]
 
 
@@ -77,24 +76,23 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     """
     body = groups.body
     welds = body.welds[groups.groups[number]]
-    names = [weld.name for weld in welds]
     stacks: list[LineStack] = []
     parts: list[Stations] = []
     warnings: list[Problem] = []
-    for portion in groups.portions_of[number]:
-        lines, forces, of_forces = forces_of_portion(groups, portion)
-        stations, of_lines = _solved(lines, forces, names, body.case.body.weld_nodes)
+    for block in groups.blocks_of[number]:
+        lines, forces, of_forces = forces_of_block(groups, block)
+        stations, of_lines = _solved(lines, forces, welds, body.case.body.weld_nodes)
         stacks.append(lines)
         parts.append(stations)
         warnings += of_forces + of_lines
     together = stacks[0] if len(stacks) == 1 else stacked([line for stack in stacks for line in stack])
-    return Model(body, welds, together, joined(parts), tuple(warnings))
+    return Model(body, together, joined(parts), tuple(warnings))
 
 
 def _solved(
-    lines: LineStack, forces: NDArray[np.floating], welds: Sequence[str], file: str
+    lines: LineStack, forces: NDArray[np.floating], welds: Sequence[Weld], file: str
 ) -> tuple[Stations, list[Problem]]:
-    """Solve some lines under their nodal forces (n, m, 6), and tell the doubts about them."""
+    """Solve some lines under their nodal forces (n, m, 6), and tell the warnings about them."""
     load = line_load(lines, forces)
     with np.errstate(over="ignore", invalid="ignore"):
         solved = line_stress(lines, load)
@@ -108,12 +106,6 @@ def _solved(
         warnings += edge_type_warnings(line, forces[nodes], where) if i in jumpy else []
         warnings += _end_warnings(line.node[solved.unresolved[nodes]], where)
     return stations_of(lines, solved, welds), warnings
-
-
-def toe_faces(model: Model) -> NDArray[np.bool_]:
-    """Mark the faces that carry a weld toe: (n, 2)."""
-    faces = {"top": (True, False), "bottom": (False, True), "both": (True, True)}
-    return np.array([faces[weld.surface] for weld in model.welds])[model.stations.weld]
 
 
 def _refuse_overflow(lines: LineStack, solved: StructuralStress, forces: NDArray[np.floating]) -> None:

@@ -3,19 +3,30 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.life.curves import DamageLaw, SNCurve, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.damage import ThicknessRule, size_factor
 from fatigue.readers.neutral.body import Weld
 
 
 @dataclass(frozen=True, slots=True)
 class RatedCurve:
-    """A curve as this assessment uses it."""
+    """A curve as this assessment uses it: at its survival level, with its extension and its rules."""
 
     curve: SNCurve
     survival: str
     law: DamageLaw
+    thickness_rule: ThicknessRule
+    yield_MPa: float | None  # noqa: N815
+    mean_stress: bool
+
+    def size(self, thickness: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Factor of plates of some thickness [mm] on the range, see ``size_factor``."""
+        return size_factor(thickness, self.curve, self.thickness_rule)
 
 
 def curves_of_case(case: Case) -> dict[str, SNCurve]:
@@ -85,6 +96,13 @@ def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld
         except CaseError as error:
             problems += [replace(p, where=f"{case.path.name}: {p.where}") for p in error.problems]
             continue
-        rated[name] = RatedCurve(curve, survival_level(curve, case.curve.survival), law)
+        rated[name] = RatedCurve(
+            curve=curve,
+            survival=survival_level(curve, case.curve.survival),
+            law=law,
+            thickness_rule=case.curve.thickness_rule,
+            yield_MPa=case.curve.yield_MPa,
+            mean_stress=case.curve.mean_stress == "asme",
+        )
     refuse(CaseError, problems)
     return rated

@@ -1,4 +1,4 @@
-"""The welds of a body in groups and portions, and the forces of each portion: so memory does not grow with the body."""
+"""The welds of a body in groups and blocks, and the forces of each block: memory does not grow with the body."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,26 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.pipeline.side_by_side import in_order
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.body import Mesh, Modes
-from fatigue.readers.neutral.forces.check import NotRegular
-from fatigue.readers.neutral.forces.pieces import ForcePieces
-from fatigue.readers.neutral.forces.tables import (
-    check_nodal_forces,
-    read_element_forces,
-    read_nodal_forces,
-    read_weld_elements,
-)
+from fatigue.readers.neutral.forces.by_group import ForcesByGroup
+from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
+from fatigue.readers.neutral.forces.nodal_forces import check_nodal_forces, read_nodal_forces
+from fatigue.readers.neutral.forces.regular_check import NotRegular
 from fatigue.readers.neutral.register.registered_lines import registered_sides
 from fatigue.readers.neutral.spare_memory import give_back
+from fatigue.side_by_side import in_order
 from fatigue.weld.element_forces import BALANCE_RED, ElementForces, balance, side_forces
 from fatigue.weld.line import LineStack, WeldLine, stacked
 from fatigue.weld.line_geometry import split_at_kinks
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
-PORTION = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
+BLOCK = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
 IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
@@ -37,7 +33,7 @@ IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest 
 class SideForces:
     """Element forces of the assessed sides of all welds, in memory as a whole: some 60 bytes for each row of the file.
 
-    ``elements`` are those of each weld's side; ``warnings`` the doubts about both files.
+    ``elements`` are those of each weld's side; ``warnings`` the warnings about both files.
     """
 
     file: str
@@ -50,16 +46,16 @@ class SideForces:
 class WeldGroups:
     """The welds of a body in groups that are assessed one at a time, so that memory does not grow with the body.
 
-    ``portions`` of a group, slices of welds like ``groups``, are read and solved one at a time; ``portions_of`` are
-    those of each group. ``forces`` are the nodal forces portion by portion, or the element forces, which do grow with
+    ``blocks`` of a group, slices of welds like ``groups``, are read and solved one at a time; ``blocks_of`` are
+    those of each group. ``forces`` are the nodal forces block by block, or the element forces, which do grow with
     the body.
     """
 
     body: Body
     groups: tuple[slice, ...]
-    portions: tuple[slice, ...]
-    portions_of: tuple[range, ...]
-    forces: ForcePieces | SideForces
+    blocks: tuple[slice, ...]
+    blocks_of: tuple[range, ...]
+    forces: ForcesByGroup | SideForces
 
     def __len__(self) -> int:
         """Count the groups."""
@@ -77,11 +73,11 @@ def weld_groups(body: Body, scratch: Path) -> WeldGroups:
     """
     last = body.lines.begin[1:] - 1
     group, place = np.divmod(last, min(LARGEST_GROUP, max(SMALLEST_GROUP, (int(last[-1]) + 1) // GROUPS)))
-    return _open_groups(body, group, place // PORTION, scratch)
+    return _open_groups(body, group, place // BLOCK, scratch)
 
 
 def one_group(body: Body, scratch: Path) -> WeldGroups:
-    """Open the forces of all welds as one group of one portion, for small bodies; otherwise like ``weld_groups``."""
+    """Open the forces of all welds as one group of one block, for small bodies; otherwise like ``weld_groups``."""
     together = np.zeros(len(body.welds))
     return _open_groups(body, together, together, scratch)
 
@@ -93,22 +89,22 @@ def check_forces(groups: WeldGroups, threads: int | None) -> None:
 
     Raises
     ------
-    DataError : the mistakes of the first portion of a group that has any
+    DataError : the mistakes of the first block of a group that has any
     """
     if not _are_regular(groups, threads):
-        in_order(partial(_check_portion, groups), range(len(groups.portions)), threads)
+        in_order(partial(_check_block, groups), range(len(groups.blocks)), threads)
     give_back()
 
 
-def forces_of_portion(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
-    """Read the forces of a portion of a group: its line parts, the (n, m, 6) forces, and the doubts about them.
+def forces_of_block(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
+    """Read the forces of a block of a group: its line parts, the (n, m, 6) forces, and the warnings about them.
 
     Raises
     ------
     DataError : forces are missing, given twice or not finite
     """
     body, files = groups.body, groups.body.case.body
-    lines = body.lines.lines(groups.portions[number])
+    lines = body.lines.lines(groups.blocks[number])
     if isinstance(groups.forces, SideForces):
         parts, summed = _sums_of_sides(groups.forces, lines, body.modes)
         return parts, summed, list(groups.forces.warnings) if number == 0 else []
@@ -116,7 +112,7 @@ def forces_of_portion(groups: WeldGroups, number: int) -> tuple[LineStack, NDArr
     forces, warnings = read_nodal_forces(
         table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
-    of_file = {"unknown_column"} if number else set()  # told with the first portion
+    of_file = {"unknown_column"} if number else set()  # told with the first block
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
 
 
@@ -134,9 +130,9 @@ def _are_regular(groups: WeldGroups, threads: int | None) -> bool:
         return False
 
 
-def _check_portion(groups: WeldGroups, number: int) -> None:
-    """Check the forces of a portion of a group; of element forces only the sums are left to be checked."""
-    body, lines = groups.body, groups.body.lines.lines(groups.portions[number])
+def _check_block(groups: WeldGroups, number: int) -> None:
+    """Check the forces of a block of a group; of element forces only the sums are left to be checked."""
+    body, lines = groups.body, groups.body.lines.lines(groups.blocks[number])
     if isinstance(groups.forces, SideForces):
         _sums_of_sides(groups.forces, lines, body.modes)
     else:
@@ -144,23 +140,23 @@ def _check_portion(groups: WeldGroups, number: int) -> None:
         check_nodal_forces(groups.forces.table(number), lines, body.modes, ignored, strict=body.strict)
 
 
-def _open_groups(body: Body, group: NDArray[np.number], portion: NDArray[np.number], scratch: Path) -> WeldGroups:
-    """Open the forces of a body whose welds have these numbers of group and portion of the group, ascending."""
-    of_portions = _runs((np.diff(group) != 0) | (np.diff(portion) != 0))
-    of_groups = _runs(np.diff(group) != 0)
-    first = np.searchsorted([run.start for run in of_portions], [*(run.start for run in of_groups), len(body.welds)])
-    portions_of = tuple(range(a, b) for a, b in pairwise(first.tolist()))
+def _open_groups(body: Body, group: NDArray[np.number], block: NDArray[np.number], scratch: Path) -> WeldGroups:
+    """Open the forces of a body whose welds have these numbers of group and block of the group, ascending."""
+    of_blocks = _slices((np.diff(group) != 0) | (np.diff(block) != 0))
+    of_groups = _slices(np.diff(group) != 0)
+    first = np.searchsorted([some.start for some in of_blocks], [*(some.start for some in of_groups), len(body.welds)])
+    blocks_of = tuple(range(a, b) for a, b in pairwise(first.tolist()))
     path = body.case.body.nodal_forces
     if path is None:
-        return WeldGroups(body, of_groups, of_portions, portions_of, _side_forces(body))
-    names = [body.lines.weld[run] for run in of_portions]
+        return WeldGroups(body, of_groups, of_blocks, blocks_of, _side_forces(body))
+    names = [body.lines.weld[some] for some in of_blocks]
     in_file = {weld.name: source for weld, (source,) in zip(body.welds, body.register.sources, strict=True)}
     skipped = {weld.name for weld in body.in_tables} - set(in_file.values())
-    forces = ForcePieces(body.case.resolve(path), names, scratch, in_file, skipped)
-    return WeldGroups(body, of_groups, of_portions, portions_of, forces)
+    forces = ForcesByGroup(body.case.resolve(path), names, scratch, in_file, skipped)
+    return WeldGroups(body, of_groups, of_blocks, blocks_of, forces)
 
 
-def _runs(changes: NDArray[np.bool_]) -> tuple[slice, ...]:
+def _slices(changes: NDArray[np.bool_]) -> tuple[slice, ...]:
     """Cut a sequence where it changes from one element to the next."""
     return tuple(slice(a, b) for a, b in pairwise([0, *(np.flatnonzero(changes) + 1).tolist(), changes.size + 1]))
 
@@ -175,9 +171,9 @@ def _side_forces(body: Body) -> SideForces:
         path, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
     weld_elements, needed = case.resolve(files.weld_elements), body.register.names
-    of_tables, doubts = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
+    of_tables, of_elements = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
     sides = registered_sides(of_tables, forces, body.register, body.joints)
-    warnings += doubts + _checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh)
+    warnings += of_elements + _checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh)
     return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
 
 

@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Curve
 from fatigue.life.counting.rainflow import rainflow
-from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor, size_factor
+from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor
 from fatigue.life.records.history import stress_history
+from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
-from fatigue.pipeline.tables.register import WorstPoint
+from fatigue.pipeline.solve.stations import Stations
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
 
@@ -24,7 +23,7 @@ _SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KeptPoint:
-    """A point whose cycles are kept, without the model it is from.
+    """A point whose cycles are kept, without the stations it is one of.
 
     ``membrane`` and ``bending`` (m,) are its stress shapes, of the top face [MPa per unit modal coordinate];
     ``thickness`` [mm] that of its plate.
@@ -44,8 +43,8 @@ class KeptPoint:
 class CycleWriter:
     """Writes the cycles of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
 
-    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], curve: Curve) -> None:
-        self._table, self._loads, self._curve = table, loads, curve
+    def __init__(self, table: TableWriter, loads: Sequence[EventLoad]) -> None:
+        self._table, self._loads = table, loads
         self._waiting: list[KeptPoint] = []
 
     def add(self, points: Sequence[KeptPoint]) -> None:
@@ -62,15 +61,15 @@ class CycleWriter:
 
     def _write(self, points: Sequence[KeptPoint]) -> None:
         for load in self._loads:
-            for rows in point_cycles(points, load, self._curve):
+            for rows in point_cycles(points, load):
                 self._table.write(rows)
 
 
-def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
-    """Take what the cycles of a point need from the model of its group of welds."""
-    stations, treated, at, weld = model.stations, model.stations.treated, point.station, model.welds[point.weld]
+def kept_point(stations: Stations, curve_of_weld: Sequence[RatedCurve], point: WorstPoint) -> KeptPoint:
+    """Take what the cycles of a point need from the stations of its group of welds."""
+    treated, at = stations.treated, point.station
     return KeptPoint(
-        weld=weld.name,
+        weld=stations.welds[point.weld].name,
         part=int(stations.part[at]),
         node=int(stations.node[at]),
         order=int(stations.order[at]),
@@ -78,11 +77,11 @@ def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
         thickness=float(stations.thickness[at]),
         membrane=treated.membrane[at].copy(),
         bending=treated.bending[at].copy(),
-        rated=model.curves[model.body.curve_of(weld)],
+        rated=curve_of_weld[point.weld],
     )
 
 
-def point_cycles(points: Sequence[KeptPoint], load: EventLoad, curve: Curve) -> Iterator[dict[str, Any]]:
+def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[str, Any]]:
     """Count one event at some points and keep every cycle, with the stress ranges between its own two instants.
 
     Gives the rows of ``cycles.parquet`` of one point after the other, in their order.
@@ -93,15 +92,11 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad, curve: Curve) -> 
         shapes = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
         membrane, bending = np.split(stress_history(shapes, load.counted.q), 2)
         for i, point in enumerate(some):
-            yield _cycle_rows(point, load, curve, membrane[i], bending[i])
+            yield _cycle_rows(point, load, membrane[i], bending[i])
 
 
 def _cycle_rows(
-    point: KeptPoint,
-    load: EventLoad,
-    curve: Curve,
-    membrane: NDArray[np.float64],
-    bending: NDArray[np.float64],
+    point: KeptPoint, load: EventLoad, membrane: NDArray[np.float64], bending: NDArray[np.float64]
 ) -> dict[str, Any]:
     """Count at one point with these stress histories (t,) [MPa]."""
     rated = point.rated
@@ -110,11 +105,11 @@ def _cycle_rows(
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
     r = bending_ratio(dm, db)
-    size = size_factor(np.array([point.thickness]), rated.curve, curve.thickness_rule)
+    size = rated.size(np.array([point.thickness]))
     dS = cycles.range * size / (ratio_factor(r) if rated.curve.applies == "dS" else 1.0)
-    if curve.mean_stress == "asme" and curve.yield_MPa is not None:
+    if rated.mean_stress and rated.yield_MPa is not None:
         low = np.minimum(stress[cycles.start], stress[cycles.end])
-        dS = dS / mean_stress_factor(low, low + cycles.range, curve.yield_MPa)
+        dS = dS / mean_stress_factor(low, low + cycles.range, rated.yield_MPa)
 
     n = len(cycles.range)
     step, start = load.counted.step, load.counted.start

@@ -1,4 +1,4 @@
-"""Where every number of a result comes from: inputs, versions, curves, rules and doubts, as one record."""
+"""Where every number of a result comes from: inputs, versions, curves, rules and warnings, as one record."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict

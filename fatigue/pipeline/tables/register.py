@@ -1,81 +1,48 @@
-"""The weld register: every weld with its worst point, which alone decides its verdict."""
+"""The weld register as a table: every weld with its worst point, and the lines that are not assessed."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.count.group import GroupResult
 from fatigue.pipeline.count.mission_block import MissionBlock
-from fatigue.pipeline.solve.model import Model, toe_faces
+from fatigue.pipeline.count.worst import EQUAL, WorstPoint
+from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
 
-EQUAL = 1.0 - 1e-12  # what is so close to the worst point is as bad: only the order of sums differs
-
-
-@dataclass(frozen=True, slots=True)
-class WorstPoint:
-    """The toe point of a weld with the shortest life: index of weld, station and face."""
-
-    weld: int
-    station: int
-    face: int
-
-
-def worst_points(model: Model, result: GroupResult) -> tuple[WorstPoint, ...]:
-    """Find the worst toe point of every weld; the first along the line where several are equal.
-
-    A point that a bound has settled is never worse than the worst one that was counted.
-    """
-    counted = (result.tier == 0)[:, None]
-    utilisation = np.where(counted & toe_faces(model), result.mission.utilisation, -1.0)
-    worst = []
-    for weld, (first, end) in enumerate(pairwise(_first_stations(model))):
-        of_weld = utilisation[first:end]
-        at, face = divmod(int((of_weld >= EQUAL * of_weld.max()).argmax()), 2)
-        worst.append(WorstPoint(weld, first + at, face))
-    return tuple(worst)
-
-
-def _first_stations(model: Model) -> list[int]:
-    """First station of every weld, and the number of stations."""
-    found: list[int] = np.searchsorted(model.stations.weld, np.arange(len(model.welds) + 1)).tolist()
-    return found
-
 
 def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[WorstPoint]) -> dict[str, Any]:
     """Rows of ``welds.parquet``: every weld of the case."""
-    first = _first_stations(model)
-    part_of_weld = model.stations.weld[model.lines.begin[:-1]]
+    stations, welds, at = model.stations, model.welds, [(p.station, p.face) for p in worst]
+    first = stations.first
+    part_of_weld = stations.weld[model.lines.begin[:-1]]
     part_lengths = lengths(model.lines)
-    stations, at = model.stations, [(p.station, p.face) for p in worst]
     life = np.array([mission.life_km[i] for i in at])
     events = [*(p.event for p in plan.passes), None]
-    of_toes = np.where(toe_faces(model), mission.utilisation, -1.0).max(axis=1)
+    of_toes = np.where(stations.toe, mission.utilisation, -1.0).max(axis=1)
     largest = np.maximum.reduceat(of_toes, first[:-1])  # or a bound of it
     proven = [bool(EQUAL * largest[p.weld] <= mission.utilisation[p.station, p.face]) for p in worst]
-    curves = [model.curves[name] for name in model.curve_of_weld]
+    curves = model.curve_of_weld
     return {
-        "weld": [weld.name for weld in model.welds],
-        "status": ["assessed"] * len(model.welds),
-        "reason": [""] * len(model.welds),
-        "description": [weld.description for weld in model.welds],
-        "closed": [weld.closed for weld in model.welds],
+        "weld": stations.names,
+        "status": ["assessed"] * len(welds),
+        "reason": [""] * len(welds),
+        "description": [weld.description for weld in welds],
+        "closed": [weld.closed for weld in welds],
         "parts": np.bincount(part_of_weld),
         "nodes": [np.unique(stations.node[a:b]).size for a, b in pairwise(first)],
         "length_mm": np.bincount(part_of_weld, part_lengths),
         "thickness_min_mm": np.minimum.reduceat(stations.thickness, first[:-1]),
         "thickness_max_mm": np.maximum.reduceat(stations.thickness, first[:-1]),
-        "surface": [weld.surface for weld in model.welds],
+        "surface": [weld.surface for weld in welds],
         "curve": [rated.curve.name for rated in curves],
         "survival": [rated.survival for rated in curves],
-        "end_length_mm": [np.nan if weld.end_length is None else weld.end_length for weld in model.welds],
+        "end_length_mm": [np.nan if weld.end_length is None else weld.end_length for weld in welds],
         "life_km": life,
         "life_years": life / plan.km_per_year,
         "utilisation": [mission.utilisation[i] for i in at],

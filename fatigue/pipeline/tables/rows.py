@@ -17,13 +17,11 @@ from fatigue.spectrum.trust import VERDICTS
 FACES = ("top", "bottom")
 
 
-def point_columns(
-    stations: Stations, welds: Sequence[str], repeat: int = 1, some: slice = slice(None)
-) -> dict[str, Any]:
+def point_columns(stations: Stations, repeat: int = 1, some: slice = slice(None)) -> dict[str, Any]:
     """Key columns of the points of some stations, top before bottom, each ``repeat`` times."""
     weld = stations.weld[some]
     return {
-        "weld": coded(np.repeat(weld, 2 * repeat), welds),
+        "weld": coded(np.repeat(weld, 2 * repeat), stations.names),
         "part": np.repeat(stations.part[some], 2 * repeat),
         "node": np.repeat(stations.node[some], 2 * repeat),
         "order": np.repeat(stations.order[some], 2 * repeat),
@@ -31,18 +29,11 @@ def point_columns(
     }
 
 
-def node_rows(
-    stations: Stations,
-    block: MissionBlock,
-    toe: NDArray[np.bool_],
-    screened: NDArray[np.integer],
-    plan: Plan,
-    welds: Sequence[str],
-) -> dict[str, Any]:
-    """Rows of ``nodes.parquet``; ``toe`` and ``screened``, an index into `TIERS`, are (n, 2) as all of ``block``."""
+def node_rows(stations: Stations, block: MissionBlock, tier: NDArray[np.integer], plan: Plan) -> dict[str, Any]:
+    """Rows of ``nodes.parquet``; ``tier`` (n,) is an index into `TIERS`."""
     return {
-        **point_columns(stations, welds),
-        "toe": toe.ravel(),
+        **point_columns(stations),
+        "toe": stations.toe.ravel(),
         "arc_length_mm": np.repeat(stations.arc_length, 2),
         "x_mm": np.repeat(stations.xyz[:, 0], 2),
         "y_mm": np.repeat(stations.xyz[:, 1], 2),
@@ -71,13 +62,11 @@ def node_rows(
         "life_km_raw_end": block.life_km_raw_end.ravel(),
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
-        "screened": coded(screened.ravel(), TIERS),
+        "screened": coded(np.repeat(tier, 2), TIERS),
     }
 
 
-def damage_rows(
-    stations: Stations, parts: Sequence[EventBlock], plan: Plan, welds: Sequence[str], some: slice
-) -> dict[str, Any]:
+def damage_rows(stations: Stations, parts: Sequence[EventBlock], plan: Plan, some: slice) -> dict[str, Any]:
     """Rows of ``damage.parquet`` of some stations: every event of every point, unweighted."""
     length = np.array([np.nan if p.length is None else p.length for p in plan.passes])
 
@@ -87,7 +76,7 @@ def damage_rows(
     damage, same_ratio = per_pass("damage"), per_pass("damage_same_ratio")
     dirlik, tb, cycles = per_pass("damage_dirlik"), per_pass("damage_tb"), per_pass("cycles")
     return {
-        **point_columns(stations, welds, repeat=len(parts), some=some),
+        **point_columns(stations, repeat=len(parts), some=some),
         "event": coded(np.tile(np.arange(len(parts)), damage.size // len(parts)), [p.event for p in plan.passes]),
         "damage_per_km": (damage / length).ravel(),
         "damage_per_pass": damage.ravel(),
@@ -111,12 +100,12 @@ def damage_rows(
     }
 
 
-def stress_rows(stations: Stations, modes: NDArray[np.int64], welds: Sequence[str], some: slice) -> Mapping[str, Any]:
+def stress_rows(stations: Stations, modes: NDArray[np.int64], some: slice) -> Mapping[str, Any]:
     """Rows of ``structural_stress.parquet`` of some stations: the five components of every mode."""
     changed = np.isin(np.arange(len(stations))[some], stations.raw_rows)
     of_changed = np.isin(stations.raw_rows, np.arange(len(stations))[some])
     columns: dict[str, Any] = {
-        "weld": coded(np.repeat(stations.weld[some], len(modes)), welds),
+        "weld": coded(np.repeat(stations.weld[some], len(modes)), stations.names),
         "part": np.repeat(stations.part[some], len(modes)),
         "order": np.repeat(stations.order[some], len(modes)),
         "node": np.repeat(stations.node[some], len(modes)),

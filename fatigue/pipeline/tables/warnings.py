@@ -16,8 +16,8 @@ _OF_A_WELD = ": weld "  # between file and weld in the place of a warning
 
 
 @dataclass(slots=True, eq=False)
-class Doubts:
-    """Warnings in the order in which they come.
+class WarningSummary:
+    """The warnings of a job, in the order in which they come.
 
     ``in_full`` are the first ``MOST_IN_FULL`` of each code, ``counts`` are those of all, and ``places`` names those of
     the others: by code and by what they begin with, the file as a rule.

@@ -32,7 +32,8 @@ from fatigue.readers.convert.weld_forces import (
 from fatigue.readers.convert.weld_lines import FoundWelds, find_welds, no_welds
 from fatigue.readers.foreign.fe.model import in_mm
 from fatigue.readers.neutral.register.conversion import command_line
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons, register_text
+from fatigue.readers.neutral.register.register_file import register_text
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
 

@@ -12,18 +12,12 @@ from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.read import read_model
-from fatigue.readers.neutral.register.weld_register import (
-    RegisterRow,
-    kind_of,
-    merged,
-    open_register,
-    proposed,
-    register_text,
-)
+from fatigue.readers.neutral.register.register_file import open_register, register_text
+from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of, merged, proposed
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace
-from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
+from fatigue.weld.detection import CANDIDATES, WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
 
 
@@ -72,7 +66,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     elements = _unconfirmed_elements(model)
     rows, unconfirmed = [], {}
     for cut in cuts:
-        is_weld = cut.kind not in ("flat", "fold") or sources.candidates
+        is_weld = cut.kind not in CANDIDATES or sources.candidates
         rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
         unconfirmed[cut.name] = _unconfirmed(cut, elements)
     edited = open_register(sources.register, strict=False) if sources.register else None

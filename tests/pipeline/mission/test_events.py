@@ -1,4 +1,4 @@
-"""Records of events: what is refused, what is doubted, and what an event brings to every station."""
+"""Records of events: what is refused, what is warned of, and what an event brings to every station."""
 
 import pickle
 
@@ -89,7 +89,7 @@ def test_times_in_ms_are_refused_for_every_event(tmp_path):
     assert [p.code for p in error.value.problems] == ["long_step", "long_step"]
 
 
-def test_a_step_far_too_short_is_a_doubt(tmp_path):
+def test_a_step_far_too_short_is_a_warning(tmp_path):
     """Times in hours."""
     case = small_case()
     case.histories["sine"]["time_s"] /= 3600.0
@@ -97,7 +97,7 @@ def test_a_step_far_too_short_is_a_doubt(tmp_path):
     assert [w.where for w in warnings if w.code == "short_step"] == ["sine.csv: column time_s"]
 
 
-def test_few_segments_and_no_spectrum_are_doubts(tmp_path):
+def test_few_segments_and_no_spectrum_are_warnings(tmp_path):
     """Told with the numbers."""
     case = small_case(seconds=3.0)
     _, warnings = mission_plan(body_of(case, tmp_path))
@@ -113,6 +113,8 @@ def test_upper_frequency(tmp_path):
     assert top_mode_hz(body) == 12.0
     assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.005, 0.0)) == pytest.approx(18.0)
     assert upper_hz(body, ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.04, 0.0)) == pytest.approx(10.0)
+    case.modes["frequency_hz"] = 1e-4  # rigid-body modes under the name of normal ones
+    assert top_mode_hz(body_of(case, tmp_path / "rigid")) is None
     case.spectrum["upper_hz"] = 33.0
     assert upper_hz(body_of(case, tmp_path / "b"), ModalHistory("e", np.array([1]), np.zeros((1, 9)), 0.1, 0.0)) == 33.0
 
@@ -145,7 +147,7 @@ def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
 
 @pytest.mark.parametrize("upsample", [1, 2, "auto"])
 def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypatch, upsample):
-    """Statistics, spectra and diagnosis to 1e-12, for the fast kernel too; the counted samples exactly."""
+    """Statistics, spectra and trust to 1e-12, for the fast kernel too; the counted samples exactly."""
     case = small_case()
     case.counting["upsample"] = upsample
     body = body_of(case, tmp_path / "case")
@@ -169,10 +171,9 @@ def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypat
         pairs = [(a.mean, b.mean), (a.covariance, b.covariance)]
         if a.moments is not None:
             pairs += [(a.moments.matrix, b.moments.matrix)]
-            pairs += [(getattr(a.diagnosis.record, x), getattr(b.diagnosis.record, x)) for x in ("slow", "lines")]
+            pairs += [(getattr(a.trust.record, x), getattr(b.trust.record, x)) for x in ("slow", "lines")]
             pairs += [
-                (x.forms[: x.periods + 1], y.forms[: y.periods + 1])
-                for x, y in [(a.diagnosis.periods, b.diagnosis.periods)]
+                (x.forms[: x.periods + 1], y.forms[: y.periods + 1]) for x, y in [(a.trust.periods, b.trust.periods)]
             ]
         for mine, theirs in pairs:
             close = 1e-6 if mine.dtype == np.float32 else 1e-12

@@ -1,4 +1,4 @@
-"""Times that cannot be s are refused, those that hardly are doubted, and what is simulated passes."""
+"""Times that cannot be s are refused, of those that hardly are there is a warning, and what is simulated passes."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ def test_a_record_in_ms_names_file_event_values_and_remedies():
 
 
 def test_a_stiff_body_may_be_simulated_without_its_vibration():
-    """A bracket of 300 Hz, sampled at 100 Hz: doubted, not refused; the same in ms is refused."""
+    """A bracket of 300 Hz, sampled at 100 Hz: a warning, not refused; the same in ms is refused."""
     assert said(step_problems, 0.01, modes(300.0)) == []
     (line,) = said(step_warnings, 0.01, modes(300.0))
     assert line == (
@@ -83,7 +83,7 @@ def test_a_rigid_body_mode_without_kind_does_not_hide_the_others():
 
 @given(st.lists(st.floats(0.1, 1e3), min_size=1), st.floats(1.0, 200.0))
 def test_sampled_as_simulations_are_it_passes(hz, samples_per_period):
-    """One to 200 samples in a period of the fastest mode of a body: neither refused nor doubted."""
+    """One to 200 samples in a period of the fastest mode of a body: neither refused nor warned of."""
     some, step = modes(*hz), 0.999 / max(hz) / samples_per_period
     assert said(step_problems, step, some) == said(step_warnings, step, some) == []
 

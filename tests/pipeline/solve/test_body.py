@@ -58,7 +58,7 @@ def test_a_thickness_that_is_not_in_mm_is_refused(tmp_path, factor, message):
 
 
 def test_an_unusual_thickness_is_a_warning_of_the_body(tmp_path):
-    """Inches are possible mm: the case is read, and the doubt travels with it."""
+    """Inches are possible mm: the case is read, and the warning travels with it."""
     case = small_case()
     case.weld_nodes.loc[case.weld_nodes.weld == "B", "thickness_mm"] /= 25.4
     body = read_body(load_case(case.write(tmp_path)), strict=False)

@@ -89,10 +89,10 @@ def refusal(folder):
 def test_a_thickness_that_is_not_confirmed_is_told(body, tmp_path):
     """It does not act, and that is said with both values; as it was written, rounded or empty it is nothing to tell."""
     edited(body.out, {"thickness_mm": "12"}, {"thickness_mm": "8.001"}, {"thickness_mm": ""})
-    (doubt,) = [w for w in check_case(case_of(body.out)).warnings if w.code == "unconfirmed_thickness"]
+    (warning,) = [w for w in check_case(case_of(body.out)).warnings if w.code == "unconfirmed_thickness"]
     name = rows_of(body.out)[0]["weld"]
-    assert str(doubt).startswith(f"{REGISTER}: row 1 ({name}), column thickness_mm: 12 mm is not confirmed")
-    assert "8 mm of the tables. Write true under confirmed" in str(doubt)
+    assert str(warning).startswith(f"{REGISTER}: row 1 ({name}), column thickness_mm: 12 mm is not confirmed")
+    assert "8 mm of the tables. Write true under confirmed" in str(warning)
     edited(body.out, {"confirmed": "true"})
     assert not [w for w in check_case(case_of(body.out)).warnings if w.code == "unconfirmed_thickness"]
 

@@ -31,12 +31,12 @@ def test_shapes_of_some_stations(model):
     """Treated stress, with size factor and law of the curve."""
     treated = model.stations.treated
     for name, rows in (("master-aluminium", np.array([0, 3])), ("iiw-aluminium-40", np.array([13]))):
-        shapes = shapes_of(model.stations, rows, model.curves[name], "actual")
+        shapes = shapes_of(model.stations, rows, model.body.curves[name])
         assert np.array_equal(shapes.bending, treated.bending[rows])
         assert np.array_equal(shapes.at(np.array([len(rows) - 1])).membrane, treated.membrane[rows[-1:]])
         assert shapes.uses_bending_ratio == (name == "master-aluminium")
         assert shapes.size == pytest.approx(8.0 ** (1.6 / 7.2) if shapes.uses_bending_ratio else 1.0)
-        assert shapes.law is model.curves[name].law
+        assert shapes.law is model.body.curves[name].law
 
 
 def with_raw(model, changed):
@@ -56,7 +56,7 @@ def with_raw(model, changed):
         at_corner=stations.at_corner,
         unresolved=np.zeros(len(stations), dtype=np.bool_),
     )
-    return stations_of(model.lines, solved, [weld.name for weld in model.welds]), membrane
+    return stations_of(model.lines, solved, model.welds), membrane
 
 
 def test_the_raw_stress_is_kept_where_the_end_treatment_changed_it(model):
@@ -70,7 +70,7 @@ def test_the_raw_stress_is_kept_where_the_end_treatment_changed_it(model):
 def test_shapes_know_the_ends_as_they_are_without_treatment(model):
     """Those among the rows asked for, and again among some of them."""
     stations, raw = with_raw(model, {0: 2.0, 6: 3.0, 7: 4.0})
-    shapes = shapes_of(stations, np.array([0, 3, 6, 7, 9]), model.curves["master-aluminium"], "actual")
+    shapes = shapes_of(stations, np.array([0, 3, 6, 7, 9]), model.body.curves["master-aluminium"])
     assert shapes.raw_ends.rows.tolist() == [0, 2, 3]
     assert np.array_equal(shapes.raw_ends.membrane, raw[[0, 6, 7]])
     some = shapes.at(np.array([1, 3, 4]))

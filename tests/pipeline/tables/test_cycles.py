@@ -8,9 +8,9 @@ import pytest
 from fatigue.case import load_case
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.records.history import ModalHistory
+from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.solve.model import read_model
 from fatigue.pipeline.tables import cycles
-from fatigue.pipeline.tables.register import WorstPoint
 from tests.small_case import small_case
 
 POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
@@ -18,7 +18,7 @@ POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
 
 def kept(model):
     """What the cycles of the points need."""
-    return [cycles.kept_point(model, point) for point in POINTS]
+    return [cycles.kept_point(model.stations, model.curve_of_weld, point) for point in POINTS]
 
 
 class OnlySlices:
@@ -52,7 +52,7 @@ def test_cycles_are_those_of_each_point_alone(model, load, monkeypatch, samples_
     """In the order of the points, whatever number of them is recovered at once."""
     monkeypatch.setattr(cycles, "_SAMPLES_AT_ONCE", samples_at_once)
     treated, q = model.stations.treated, load.counted.q[:, :].astype(float)
-    found = list(cycles.point_cycles(kept(model), load, model.case.curve))
+    found = list(cycles.point_cycles(kept(model), load))
     for point, rows in zip(POINTS, found, strict=True):
         membrane, bending = (1.5 * s[point.station] @ q for s in (treated.membrane, treated.bending))
         stress = membrane + bending if point.face == 0 else membrane - bending
@@ -65,7 +65,7 @@ def test_cycles_are_those_of_each_point_alone(model, load, monkeypatch, samples_
 
 def test_rows_name_their_point(model, load):
     """Weld, node, face and event are the same in all rows of a point."""
-    for point, rows in zip(POINTS, cycles.point_cycles(kept(model), load, model.case.curve), strict=True):
+    for point, rows in zip(POINTS, cycles.point_cycles(kept(model), load), strict=True):
         assert rows["weld"].unique().to_pylist() == ["AB"[point.weld]]
         assert rows["surface"].unique().to_pylist() == [("top", "bottom")[point.face]]
         assert rows["event"].unique().to_pylist() == ["run"]
@@ -77,14 +77,14 @@ def test_points_are_written_many_at_a_time_and_all(model, load, monkeypatch, num
     """However they come in, in their order; a record is read once for as many as belong together."""
     at_once, found = [], []
 
-    def rows_of(points, load, curve):
+    def rows_of(points, load):
         at_once.append(len(points))
-        return cycles_of(points, load, curve)
+        return cycles_of(points, load)
 
     cycles_of = cycles.point_cycles
     monkeypatch.setattr(cycles, "point_cycles", rows_of)
     points = (kept(model) * number_of_points)[:number_of_points]
-    writer = cycles.CycleWriter(SimpleNamespace(write=found.append), [load], model.case.curve)
+    writer = cycles.CycleWriter(SimpleNamespace(write=found.append), [load])
     for point in points:
         writer.add([point])
     writer.flush()

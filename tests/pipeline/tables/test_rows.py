@@ -19,7 +19,6 @@ from fatigue.spectrum.trust import VERDICTS
 from tests.small_case import small_case
 
 PLAN = Plan((Pass("run", 100, 2.0, 1.0, None), Pass("lift", 2, None, None, 3.0)), 1e6, 2e5, 1.0)
-WELDS = ["A", "B"]
 
 
 @pytest.fixture(scope="module")
@@ -49,10 +48,9 @@ def test_points_come_station_by_station_top_before_bottom(model, tmp_path):
     governing[3, 1], verdict[3, 1] = -1, 4
     block = numbered(MissionBlock, n, 0.5, governing=governing, verdict=verdict)
     block.shear_ratio[2, 0] = np.nan
-    screened = np.zeros((n, 2), dtype=np.int8)
-    screened[5] = 2
-    toe = np.tile([True, False], (n, 1))
-    nodes = written(tmp_path, "nodes", node_rows(model.stations, block, toe, screened, PLAN, WELDS))
+    tier = np.zeros(n, dtype=np.int8)
+    tier[5] = 2
+    nodes = written(tmp_path, "nodes", node_rows(model.stations, block, tier, PLAN))
 
     assert list(nodes["weld"]) == ["A"] * 14 + ["B"] * 14
     assert list(nodes["surface"]) == ["top", "bottom"] * n
@@ -71,7 +69,7 @@ def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path)
     n = len(model.stations)
     verdict = {"verdict": np.zeros((n, 2), dtype=np.int8)}
     events = [numbered(EventBlock, n, first, **verdict) for first in (0.25, 5000.25)]
-    damage = written(tmp_path, "damage", damage_rows(model.stations, events, PLAN, WELDS, slice(None)))
+    damage = written(tmp_path, "damage", damage_rows(model.stations, events, PLAN, slice(None)))
 
     assert list(damage["event"]) == ["run", "lift"] * (2 * n)
     assert list(damage["surface"][:4]) == ["top", "top", "bottom", "bottom"]
@@ -82,13 +80,13 @@ def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path)
     assert list(run["cycles_per_km"]) == list(events[0].cycles.ravel() / 2.0)
     assert lift["cycles_per_km"].isna().all()
 
-    part = written(tmp_path / "part", "damage", damage_rows(model.stations, events, PLAN, WELDS, slice(5, 9)))
+    part = written(tmp_path / "part", "damage", damage_rows(model.stations, events, PLAN, slice(5, 9)))
     pd.testing.assert_frame_equal(part, damage[4 * 5 : 4 * 9].reset_index(drop=True))
 
 
 def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path):
     """All five components as solved and with the ends treated."""
-    rows = written(tmp_path, "structural_stress", stress_rows(model.stations, model.modes.mode, WELDS, slice(None)))
+    rows = written(tmp_path, "structural_stress", stress_rows(model.stations, model.modes.mode, slice(None)))
     assert list(rows["mode"]) == [1, 2, 7] * len(model.stations)
     assert list(rows["order"]) == list(np.repeat(model.stations.order, 3))
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
@@ -96,7 +94,5 @@ def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path
         raw = getattr(model.stations.treated, component).copy()
         raw[model.stations.raw_rows] = getattr(model.stations.raw, component)
         assert list(rows[f"{component}_raw_MPa"]) == list(raw.ravel())
-    part = written(
-        tmp_path / "part", "structural_stress", stress_rows(model.stations, model.modes.mode, WELDS, slice(5, 9))
-    )
+    part = written(tmp_path / "part", "structural_stress", stress_rows(model.stations, model.modes.mode, slice(5, 9)))
     pd.testing.assert_frame_equal(part, rows[15:27].reset_index(drop=True))

@@ -6,19 +6,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fatigue.errors import Problem
-from fatigue.pipeline.tables.warnings import MOST_IN_FULL, Doubts
+from fatigue.pipeline.tables.warnings import MOST_IN_FULL, WarningSummary
 
 
 def listed(*warnings):
     """List warnings taken in one by one."""
-    doubts = Doubts()
+    summary = WarningSummary()
     for warning in warnings:
-        doubts.add([warning])
-    return doubts.listed()
+        summary.add([warning])
+    return summary.listed()
 
 
 def coarse(weld, file="nodes.csv"):
-    """Doubt the ends of a weld."""
+    """Warn of the ends of a weld."""
     return Problem("end_unresolved", f"{file}: weld {weld}", "the edge is long", "Refine it")
 
 
@@ -46,18 +46,18 @@ def test_one_more_sums_up_the_others_of_a_kind():
 def test_places_are_gathered_by_file():
     """Welds, columns, and what names no file."""
     places = ["a.csv: weld X", "b.csv: column c", "a.csv: weld Y", "b.csv: column d", "event 'run'", "event 'stop'"]
-    *_, summed = listed(*(Problem("doubt", place, "what", "Do it") for place in ["here"] * MOST_IN_FULL + places))
+    *_, summed = listed(*(Problem("some_code", place, "what", "Do it") for place in ["here"] * MOST_IN_FULL + places))
     assert summed.where == "a.csv: weld X, Y; b.csv: column c, column d; event 'run', event 'stop'"
 
 
 warnings = st.builds(coarse, st.integers(0, 99).map("W{}".format), st.sampled_from(["n.csv", "f.csv"]))
 
 
-@given(st.lists(st.one_of(warnings, st.just(Problem("doubt", "here", "what", "Do it"))), max_size=200))
+@given(st.lists(st.one_of(warnings, st.just(Problem("some_code", "here", "what", "Do it"))), max_size=200))
 def test_every_warning_is_counted_and_every_weld_named(some):
     """By kind; no more entries than fit a page; the same however they are handed over."""
     found = listed(*some)
-    at_once = Doubts()
+    at_once = WarningSummary()
     at_once.add(some)
     assert found == at_once.listed()
     numbers = Counter()

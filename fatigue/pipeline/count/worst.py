@@ -1,0 +1,35 @@
+"""The worst point of every weld of a group, which alone decides its verdict."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from fatigue.pipeline.count.group import GroupResult
+from fatigue.pipeline.solve.stations import Stations
+
+EQUAL = 1.0 - 1e-12  # what is so close to the worst point is as bad: only the order of sums differs
+
+
+@dataclass(frozen=True, slots=True)
+class WorstPoint:
+    """The toe point of a weld with the shortest life: index of weld, station and face."""
+
+    weld: int
+    station: int
+    face: int
+
+
+def worst_points(stations: Stations, result: GroupResult) -> tuple[WorstPoint, ...]:
+    """Find the worst toe point of every weld; the first along the line where several are equal.
+
+    A point that a bound has settled is never worse than the worst one that was counted.
+    """
+    counted = (result.tier == 0)[:, None]
+    utilisation = np.where(counted & stations.toe, result.mission.utilisation, -1.0)
+    worst = []
+    for weld, (first, end) in enumerate(pairwise(stations.first.tolist())):
+        of_weld = utilisation[first:end]
+        at, face = divmod(int((of_weld >= EQUAL * of_weld.max()).argmax()), 2)
+        worst.append(WorstPoint(weld, first + at, face))
+    return tuple(worst)

@@ -1,0 +1,192 @@
+"""What a job will take: its own pipeline, timed on one group of its welds under the first chunk of one record."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from fatigue.case import Event
+from fatigue.life.mission import Pass, Plan
+from fatigue.life.records.history import ModalHistory
+from fatigue.pipeline.count.group import GroupResult, assess_group
+from fatigue.pipeline.count.worst import worst_points
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.events import (
+    DOUBLE_PRECISION_SAMPLES,
+    LARGEST_UPSAMPLE,
+    SAMPLES_PER_PEAK,
+    load_of,
+    shortened_record,
+)
+from fatigue.pipeline.run.work import SHARE, screening_of
+from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.stations import Stations
+
+Result = TypeVar("Result")
+
+TRIAL_SAMPLES = 1.6e7  # of stress, one face, that are counted for the trial: below a second
+LONGEST_TRIAL, SHORTEST_TRIAL = 16_384, 2048  # samples of the record
+ROUNDS = 3  # of which the best counts
+
+# Processor time [s] of what is not timed, measured by `python -m benchmarks.estimate`
+START = 2.0  # imports and the known values
+SETTLED_LATE = 1.5  # bounds of several events settle fewer points than those of one
+CELL, CYCLE = 0.12e-6, 0.5e-6  # written in a table; counted and written
+DETAIL, PAGE = 0.19, 0.6  # a weld shown in detail, the rest of the page
+MOST_DETAILED = 40
+STATION_ON_PAGE = 5e-5
+COLUMNS = {"nodes": 36, "damage": 24, "structural_stress": 16}
+
+
+@dataclass(frozen=True, slots=True)
+class JobTime:
+    """Processor time [s] of an assessment by what it is spent on; on n idle cores all but the first and last shrink.
+
+    ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
+    ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
+    points by default.
+    """
+
+    start: float
+    events: float
+    counting: float
+    counting_exact: float
+    tables: float
+    report: float
+    screened: bool
+
+    @property
+    def total(self) -> float:
+        """All of it, with default options."""
+        return self.start + self.events + self.counting + self.tables + self.report
+
+    @property
+    def total_exact(self) -> float:
+        """All of it, with every point counted."""
+        return self.total - self.counting + self.counting_exact
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Trial:
+    """A group of welds under a mission of nothing but a chunk of one pass, as often as it takes for the pass."""
+
+    stations: Stations
+    curve_of_weld: Sequence[RatedCurve]
+    one: Pass
+    plan: Plan
+
+    def counted(self, chunk: EventLoad) -> GroupResult:
+        """Count every point."""
+        return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), None)
+
+    def screened(self, chunk: EventLoad, scratch: Path) -> GroupResult:
+        """Let bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
+        screening = screening_of(SHARE, True, [chunk], scratch, threads=1)
+        return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), screening)
+
+    def _plan_of(self, chunk: EventLoad) -> Plan:
+        chunks = self.one.samples * chunk.counted.step / max(chunk.duration, chunk.counted.step)  # in the pass
+        per_km = 1.0 / self.one.length if self.one.length is not None else self.one.passes_per_km
+        alone = replace(self.one, length=None, share=None, per_1000_km=1000.0 * per_km * chunks)
+        return replace(self.plan, passes=(alone,))
+
+
+def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
+    """Estimate the processor time of ``fatigue assess`` with its default options, what is compiled already left out.
+
+    Parameters
+    ----------
+    body, plan : the job
+    model : one group of its welds, solved
+    stations : of all welds
+    read_s : processor time that reading and checking the case took [s]
+    scratch : a folder for what memory cannot hold
+    """
+    longest = int(np.argmax([one.samples for one in plan.passes]))
+    event, one = body.case.mission.event[longest], plan.passes[longest]
+    samples = min(one.samples, max(SHORTEST_TRIAL, min(LONGEST_TRIAL, int(TRIAL_SAMPLES / len(model.stations)))))
+    record = shortened_record(body, event, samples, scratch)
+    less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
+    with threadpool_limits(limits=1, user_api="blas"):
+        trial = _Trial(model.stations, model.curve_of_weld, one, plan)
+        factor = _factor(body, event, record, trial)
+        upsampled = factor * sum(p.samples for p in plan.passes)
+        single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
+        prepare_s, load = _timed(lambda: load_of(body, event, record, factor, single=single))
+        _, short = _timed(lambda: load_of(body, event, less, factor, single=single))
+        exact, result = _of_length(load, short, trial.counted)
+        default = exact
+        if single:
+            default, result = _of_length(load, short, lambda chunk: trial.screened(chunk, scratch))
+
+    n = load.counted.q.shape[1]
+    of_groups = stations / len(model.stations)
+    events = len(plan.passes)
+    cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
+    cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
+    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
+    return JobTime(
+        start=START + read_s,
+        events=prepare_s * upsampled / n,
+        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled),
+        counting_exact=of_groups * exact.of(events, upsampled),
+        tables=CELL * cells + CYCLE * cycles,
+        report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
+        screened=single,
+    )
+
+
+def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> int:
+    """Factor by which records are upsampled; where that is automatic, what this record needs at these welds."""
+    factor = body.case.counting.upsample
+    if factor != "auto":
+        return int(factor)
+    load = load_of(body, event, record, 1, single=False)
+    samples_per_peak = trial.counted(load).events[0].samples_per_peak
+    fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))
+    return int(min(LARGEST_UPSAMPLE, 2 ** max(0, np.ceil(np.log2(SAMPLES_PER_PEAK / fewest)))))
+
+
+def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:
+    """Cycles of the worst points of a group that go into the table."""
+    used_up, cycles = result.mission.utilisation, result.events[0].cycles
+    worst = [(p.station, p.face) for p in worst_points(stations, result)]
+    return sum(float(np.nan_to_num(cycles[at])) for at in worst if used_up[at] >= (SHARE if single else 0.0))
+
+
+@dataclass(frozen=True, slots=True)
+class _Cost:
+    """Time of a group [s]: for each event, and for each sample of a record."""
+
+    event: float
+    sample: float
+
+    def of(self, events: int, samples: int) -> float:
+        return events * self.event + samples * self.sample
+
+
+def _of_length(load: EventLoad, short: EventLoad, count: Callable[[EventLoad], Result]) -> tuple[_Cost, Result]:
+    """Time a group under a chunk of a record and a shorter one; also what the longer gives."""
+    count(short)  # compiles, or loads what was compiled before
+    whole_s, result = _timed(lambda: count(load))
+    part_s, _ = _timed(lambda: count(short))
+    n, n_short = load.counted.q.shape[1], short.counted.q.shape[1]
+    sample = max(0.0, whole_s - part_s) / max(1, n - n_short)
+    return _Cost(max(0.0, part_s - sample * n_short), sample), result
+
+
+def _timed(do: Callable[[], Result]) -> tuple[float, Result]:
+    """Processor time of this thread for one call [s], the best of some, and what it gives."""
+    best, result = np.inf, None
+    for _ in range(ROUNDS):
+        begin = time.thread_time()
+        result = do()
+        best = min(best, time.thread_time() - begin)
+    assert result is not None
+    return float(best), result
