@@ -31,7 +31,7 @@ from fatigue.results.json_records import write_json
 from fatigue.results.tables import schema
 from tests.fuzz import damage
 from tests.readers import neutral_tables as neutral
-from tests.readers.foreign.histories.test_foreign_history import MCF
+from tests.readers.foreign.histories.test_mcf import MCF
 from tests.readers.op2_writer import modal_op2
 
 Columns = dict[str, Any]

@@ -13,7 +13,7 @@ from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.results import read_table
 from fatigue.results.tables import schema
 from tests.fuzz.sources import punch, small_run
-from tests.readers.foreign.histories.test_foreign_history import MCF
+from tests.readers.foreign.histories.test_mcf import MCF
 
 HEAD = "weld,line,status,reason,description"
 
