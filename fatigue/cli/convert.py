@@ -76,7 +76,7 @@ def _record(done: "Conversion") -> dict[str, Any]:
         "welds_assessed": done.assessed,
         "welds_listed": len(done.welds),
         "not_assessed": [{"lines": number, "reason": reason} for number, reason in reasons(done.welds)],
-        "remarks": [str(problem) for problem in done.remarks],
+        "remarks": [str(problem) for problem in done.warnings],
     }
 
 
@@ -90,7 +90,7 @@ def _print(done: "Conversion") -> None:
         value = "" if row.value is None else f" {row.value:.3g}"
         remedy = f" {row.remedy}." if row.remedy and row.light != "green" else ""
         click.echo(f"{light}  {row.check}:{value} {row.finding}.{remedy}")
-    for problem in done.remarks:
+    for problem in done.warnings:
         click.echo(f"note   {problem}")
     click.echo(
         f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed"

@@ -61,7 +61,7 @@ def welds(
         raise DataError(Problem("no_welds", str(mesh), what, f"Give a part of a name, such as {found.rows[0].weld}"))
     if vtp is not None:
         write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
-    for problem in found.remarks:
+    for problem in found.warnings:
         click.echo(f"note: {problem}", err=True)
     if as_json:
         of_the_file = ("number", "others")

@@ -23,15 +23,15 @@ FINDINGS = ("traceback", "hang", "warning", "message", "nan", "structure")
 
 @dataclass(frozen=True)
 class Sound:
-    """What a sound file gives, and the remarks that come with it."""
+    """What a sound file gives, and the warnings that come with it."""
 
     columns: Columns
-    remarks: frozenset[str]
+    warned: frozenset[str]
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one damaged file: one of ``FINDINGS``, or refused, remarked, same, values, ids, fewer, more."""
+    """What became of one damaged file: one of ``FINDINGS``, or refused, warned, same, values, ids, fewer, more."""
 
     number: int
     source: str
@@ -46,8 +46,8 @@ class Hang(Exception):
 
 def sound(source: Source, folder: Path) -> Sound:
     """Read the sound file."""
-    columns, remarks = source.read(_written(source, source.files[source.file], folder))
-    return Sound(columns, _codes(remarks))
+    columns, told = source.read(_written(source, source.files[source.file], folder))
+    return Sound(columns, _codes(told))
 
 
 def damaged(source: Source, seed: int, number: int) -> tuple[str, bytes]:
@@ -67,7 +67,7 @@ def judged(source: Source, expected: Sound, seed: int, number: int, folder: Path
     path = _written(source, data, folder)
     kind, detail = _read(source, expected, name, path)
     if kind != "same" and data == source.files[source.file]:
-        kind, detail = ("same", "") if kind in ("refused", "remarked") else (kind, detail)
+        kind, detail = ("same", "") if kind in ("refused", "warned") else (kind, detail)
     return Outcome(number, source.name, name, kind, detail)
 
 
@@ -75,7 +75,7 @@ def _read(source: Source, expected: Sound, name: str, path: Path) -> tuple[str, 
     with warnings.catch_warnings(record=True) as raised, _time_limit():
         warnings.simplefilter("always")
         try:
-            columns, remarks = source.read(path)
+            columns, told = source.read(path)
         except FatigueError as error:
             kind, detail = _refused(error)
         except Hang:
@@ -83,7 +83,7 @@ def _read(source: Source, expected: Sound, name: str, path: Path) -> tuple[str, 
         except Exception:
             kind, detail = "traceback", traceback.format_exc()[-900:]
         else:
-            kind, detail = _silent(source, expected, name, columns, _codes(remarks))
+            kind, detail = _silent(source, expected, name, columns, _codes(told))
     if raised and kind not in ("hang", "traceback"):
         return "warning", f"{raised[0].filename}:{raised[0].lineno} {raised[0].message}"
     return kind, detail
@@ -97,11 +97,11 @@ def _refused(error: FatigueError) -> tuple[str, str]:
     return "refused", str(error)[:200]
 
 
-def _silent(source: Source, expected: Sound, name: str, columns: Columns, remarks: frozenset[str]) -> tuple[str, str]:
+def _silent(source: Source, expected: Sound, name: str, columns: Columns, warned: frozenset[str]) -> tuple[str, str]:
     """Say whether what was read without a refusal differs, and whether it may."""
     kind, detail = compared(expected.columns, columns)
-    if kind != "same" and remarks - expected.remarks:
-        return "remarked", detail
+    if kind != "same" and warned - expected.warned:
+        return "warned", detail
     if kind in ("fewer", "more") and (source.structure or not _can_change_counts(name)):
         return "structure", f"{kind}: {detail}"
     return kind, detail
@@ -136,8 +136,8 @@ def _can_change_counts(name: str) -> bool:
     return any(kind not in ("number", "flip", "field_changed", "line_joined", "saved_anew") for kind in name.split("+"))
 
 
-def _codes(remarks: tuple[Problem, ...]) -> frozenset[str]:
-    return frozenset(f"{p.code} {p.what}" for p in remarks)
+def _codes(told: tuple[Problem, ...]) -> frozenset[str]:
+    return frozenset(f"{p.code} {p.what}" for p in told)
 
 
 def _written(source: Source, data: bytes, folder: Path) -> Path:

@@ -16,7 +16,9 @@ from fatigue.readers.convert.folder import read_record
 from fatigue.readers.convert.modal_basis import common_modes
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.foreign.histories.matching import matched
+from fatigue.readers.foreign.histories.time_grid import uniform
 from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_welds
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
@@ -29,7 +31,7 @@ from fatigue.results.json_records import write_json
 from fatigue.results.tables import schema
 from tests.fuzz import damage
 from tests.readers import neutral_tables as neutral
-from tests.readers.foreign.histories.test_foreign_history import MCF
+from tests.readers.foreign.histories.test_mcf import MCF
 from tests.readers.op2_writer import modal_op2
 
 Columns = dict[str, Any]
@@ -64,7 +66,7 @@ def _results(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     columns = {name: getattr(found, name) for name in names}
     rows = found.of_element  # loads and totals may differ between modes, and count nowhere
     columns |= {name: columns[name][rows] for name in ("node", "element", "kind")} | {"force": found.force[:, rows]}
-    return columns | optional, (*found.remarks, *without)
+    return columns | optional, (*found.warnings, *without)
 
 
 def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
@@ -79,8 +81,8 @@ def _model(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     columns |= {f"set {k}": np.array([str(v)]) for k, v in found.node_sets.items()} | {
         f"of {k}": v for k, v in found.marker_edges.items()
     }
-    doubts = [f"{k} {v}" for k, v in (found.section_doubt | found.element_doubt).items()]
-    return columns, (*found.remarks, *(Problem("doubt", "", doubt, "") for doubt in doubts))
+    doubts = [f"{k} {v}" for k, v in (found.unconfirmed_sections | found.unconfirmed_elements).items()]
+    return columns, (*found.warnings, *(Problem("doubt", "", doubt, "") for doubt in doubts))
 
 
 def _coordinates(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
@@ -89,7 +91,7 @@ def _coordinates(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     found = uniform(matched(found, run.mode, run.frequency, "id"), None)
     common_modes(run, [found], path, ())
     columns = {"mode": found.mode, "?frequency": found.frequency, "time": found.time, "q": found.q}
-    return columns | {"name": np.array(found.name)}, found.remarks
+    return columns | {"name": np.array(found.name)}, found.warnings
 
 
 def _history(path: Path) -> tuple[Columns, tuple[Problem, ...]]:

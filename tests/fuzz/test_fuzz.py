@@ -21,7 +21,7 @@ def every(tmp_path_factory) -> list[Source]:
 
 
 def test_no_damage_crashes_or_goes_unseen(every, tmp_path):
-    """Every reader refuses, remarks, or reads what a text without a checksum cannot tell from the sound one."""
+    """Every reader refuses, warns, or reads what a text without a checksum cannot tell from the sound one."""
     bad = []
     for source in every:
         expected = sound(source, tmp_path / "sound")

@@ -13,7 +13,7 @@ from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.results import read_table
 from fatigue.results.tables import schema
 from tests.fuzz.sources import punch, small_run
-from tests.readers.foreign.histories.test_foreign_history import MCF
+from tests.readers.foreign.histories.test_mcf import MCF
 
 HEAD = "weld,line,status,reason,description"
 
@@ -44,9 +44,9 @@ def test_a_header_line_of_an_mcf_that_is_not_understood(tmp_path):
     path.write_text(MCF.replace("Frequency:", "Frxquency:"))
     found = read_coordinates(path, None, None)
     assert np.isnan(found.frequency).all()
-    assert [remark.code for remark in found.remarks] == ["unread_line"] * 2
+    assert [warning.code for warning in found.warnings] == ["unread_line"] * 2
     path.write_text(MCF)
-    assert not read_coordinates(path, None, None).remarks
+    assert not read_coordinates(path, None, None).warnings
 
 
 @pytest.mark.parametrize("heading", ["$GRID POINT FORCE BA ANCE", "$LABEL   = $GRID POINT FORCE BALANCE", "$"])
@@ -87,10 +87,10 @@ def test_elements_of_an_hdf5_model_that_are_no_table(tmp_path):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "m.h5"
     path.write_bytes(Path("data/nastran/modes_elements.h5").read_bytes())
-    assert "5 'CQUAD4'" not in str(read_model(path).remarks)
+    assert "5 'CQUAD4'" not in str(read_model(path).warnings)
     with h5py.File(path, "r+") as file:
         file.move("NASTRAN/INPUT/ELEMENT/CQUAD4", "NASTRAN/INPUT/ELEMENT/CQUAD6")
-    assert "5 'CQUAD6'" in str(read_model(path).remarks)
+    assert "5 'CQUAD6'" in str(read_model(path).warnings)
     with h5py.File(path, "r+") as file:
         file.create_group("NASTRAN/INPUT/ELEMENT/CQUAD4")
     with pytest.raises(DataError, match="CQUAD4 is no table"):

@@ -5,7 +5,11 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
+from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.neutral.register.weld_register import REGISTER
+
+CASE = "case.toml"
 
 _HEAD = """\
 # Written by fatigue convert. Check the lines marked EDIT: the files could not tell them.
@@ -60,31 +64,24 @@ _NO_EVENT = """
 
 
 def case_text(
-    title: str,
-    convention: str,
-    ignore_modes: Sequence[int],
-    curve: str,
-    events: Sequence[tuple[str, str]],
-    speed_km_h: float,
-    target_km: float,
+    options: ConvertOptions, convention: Convention, ignore_modes: Sequence[int], events: Sequence[tuple[str, str]]
 ) -> str:
     """Text of a case with one event for each (name, file), all with the same share and speed."""
     head = _HEAD.format(
-        title=json.dumps(title),
+        title=json.dumps(options.title or options.mesh.stem),
         convention=convention,
         ignore=list(ignore_modes),
-        curve=curve,
-        target=float(target_km),
-        per_year=float(target_km) / 30,
+        curve=options.curve,
+        target=float(options.target_km),
+        per_year=float(options.target_km) / 30,
     )
     if not events:
         return head + _NO_EVENT
-    shares = [1.0 / len(events)] * len(events)
-    parts = [
-        _EVENT.format(name=json.dumps(name), history=json.dumps(file), speed=float(speed_km_h), share=share)
-        for (name, file), share in zip(events, shares, strict=True)
-    ]
-    return head + "".join(parts)
+    speed, share = float(options.speed_km_h), 1.0 / len(events)
+    return head + "".join(
+        _EVENT.format(name=json.dumps(name), history=json.dumps(file), speed=speed, share=share)
+        for name, file in events
+    )
 
 
 def register_named(case_file: Path) -> str:

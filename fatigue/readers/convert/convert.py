@@ -1,37 +1,35 @@
 """Foreign files in, a folder of neutral files with a first ``case.toml`` out."""
 
-import math
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
 import pyarrow as pa
 
 from fatigue.errors import CaseError, DataError, Problem
-from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
-from fatigue.readers.convert.audit.shell_rows import elastic_modes, without_drilling
-from fatigue.readers.convert.case_text import case_text
+from fatigue.readers.convert.audit.shell_rows import without_drilling
+from fatigue.readers.convert.case_text import CASE, case_text
 from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, write_folder
-from fatigue.readers.convert.inputs import audited, read_run, unknown_checks
-from fatigue.readers.convert.modal_basis import SimulationModes, common_modes, mode_masses, mode_scale
-from fatigue.readers.convert.option_fields import words_of
-from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.convert.record import lines_of_welds
-from fatigue.readers.convert.tables import elements_table, forces_table, history_table, nodes_table, weld_tables
-from fatigue.readers.convert.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
+from fatigue.readers.convert.inputs import audited, read_inputs, unknown_checks
+from fatigue.readers.convert.modal_basis import common_modes, coordinate_units
+from fatigue.readers.convert.neutral_tables import (
+    elements_table,
+    event_tables,
+    forces_table,
+    modes_table,
+    nodes_table,
+    weld_tables,
+)
+from fatigue.readers.convert.options import ConvertOptions, WeldSources
+from fatigue.readers.convert.record import conversion_record
+from fatigue.readers.convert.weld_forces import neutral_forces, rows_at_welds, to_mid_surface, with_forces_only
 from fatigue.readers.convert.weld_lines import FoundWelds, find_welds, no_welds
 from fatigue.readers.foreign.fe.model import in_mm
-from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.body import LOWEST_HZ
-from fatigue.readers.neutral.register.conversion import COMMAND, LINES, command_line
+from fatigue.readers.neutral.register.conversion import command_line
 from fatigue.readers.neutral.register.register_file import register_text
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
-
-CASE = "case.toml"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +39,7 @@ class Conversion:
     folder: Path
     audit: Audit
     welds: tuple[RegisterRow, ...]
-    remarks: tuple[Problem, ...]
+    warnings: tuple[Problem, ...]
     modes: int
     force_rows: int
     nodes: int
@@ -63,31 +61,27 @@ def convert(options: ConvertOptions) -> Conversion:
     """
     units = unit_system(options.force_units, "force units")
     history_units = unit_system(options.coordinate_units, "coordinate units")
-    run = read_run(options)
-    judged = audited(run, options)
+    inputs = read_inputs(options)
+    judged = audited(inputs, options)
     convention = options.convention or judged.convention
     if convention is None:
         raise CaseError(
             Problem("no_convention", str(options.forces), "the files do not prove the sign of the forces", "State it")
         )
-    model, histories = run.model, run.histories
-    results, remarks = common_modes(run.results, histories, options.forces, run.interface_modes)
+    results, left_out = common_modes(inputs.results, inputs.histories, options.forces, inputs.interface_modes)
     stage("finding weld lines")
-    metric = in_mm(model, units.length)
-    register = options.welds.register or (options.out / REGISTER if (options.out / REGISTER).exists() else None)
-    found = find_welds(metric, replace(options.welds, register=register))
-    found = with_forces_only(found, results)
+    metric = in_mm(inputs.model, units.length)
+    found = with_forces_only(find_welds(metric, _weld_sources(options)), results)
     if not found.assessed():
         raise DataError(_nothing_to_assess(found, options.mesh))
     stage("turning forces into neutral ones, and writing")
-    force = neutral_forces(results, model, units, options.normalisation)
-    elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
-    rows = np.flatnonzero(np.isin(results.element, elements) & results.of_element)
+    force = neutral_forces(results, inputs.model, units, options.normalisation)
     if judged.grounded_drilling:
-        force = without_drilling(force, results, model)
+        force = without_drilling(force, results, inputs.model)
+    rows = rows_at_welds(found, results)
     force = to_mid_surface(force, results, metric, rows)
     files: dict[str, pa.Table | str] = {
-        "modes.csv": _modes_table(results, run.interface_modes, run.simulated),
+        "modes.csv": modes_table(results, inputs.interface_modes, inputs.simulated),
         "nodes.parquet": nodes_table(metric),
         "elements.parquet": elements_table(metric),
         "element_forces.parquet": forces_table(results, force, rows),
@@ -95,48 +89,38 @@ def convert(options: ConvertOptions) -> Conversion:
         REGISTER: register_text(found.rows),
     }
     factor = coordinate_units(results, history_units, options.normalisation)
-    events = []
-    for history in histories:
-        name = _unused(f"q_{_slug(Path(history.source).stem)}.parquet", files)
-        files[name] = history_table(history, results.mode, factor)
-        events.append((Path(history.source).stem, name))
-    unused = sorted({int(m) for h in histories for m in h.mode} - set(results.mode.tolist()))
-    files[CASE] = case_text(
-        options.title or f"{options.mesh.stem}",
-        convention,
-        unused,
-        options.curve,
-        events,
-        options.speed_km_h,
-        options.target_km,
-    )
+    events = event_tables(inputs.histories, results.mode, factor)
+    ignored = {int(mode) for history in inputs.histories for mode in history.mode} - set(results.mode.tolist())
+    files |= {name: table for (_, name), table in events.items()}
+    files[CASE] = case_text(options, convention, sorted(ignored), list(events))
     kept = {}
     if options.keep_case and (options.out / CASE).is_file():
         kept = {name: known for name, known in recorded_files(options.out).items() if name == CASE}
         del files[CASE]
     if not options.force:
         check_folder(options.out, [*files, RECORD], REGISTER)
-    doubts = (*unknown_checks(judged, options), *results.remarks, *model.remarks)
-    doubts += (*found.remarks, *remarks, *run.remarks)
-    record = {
-        "inputs": {str(p): sha256(p) for p in run.inputs(options)},
-        "convention": convention,
-        "audit": [_plain(asdict(row)) for row in judged.rows],
-        "remarks": [str(p) for p in doubts],
-        LINES: lines_of_welds(found.rows),
-        COMMAND: words_of(options),
-    }
+    warnings = (
+        *(*unknown_checks(judged, options), *results.warnings, *inputs.model.warnings),
+        *(*found.warnings, *left_out, *inputs.warnings),
+    )
+    record = conversion_record(options, inputs.files(options), convention, judged, warnings, found.rows)
     write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,
         audit=judged,
         welds=found.rows,
-        remarks=doubts,
+        warnings=warnings,
         modes=results.mode.size,
         force_rows=rows.size * results.mode.size,
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
         files=(*files, RECORD),
     )
+
+
+def _weld_sources(options: ConvertOptions) -> WeldSources:
+    """Take the register of an earlier conversion into the folder where none is given."""
+    own = options.out / REGISTER
+    return replace(options.welds, register=options.welds.register or (own if own.exists() else None))
 
 
 def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
@@ -148,38 +132,3 @@ def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
     how = f"`{command_line(['fatigue', 'welds', str(mesh), '-o', REGISTER])}` writes it, --register reads it"
     remedy = f"Remove the reasons, or set the status of some in the register ({how})"
     return Problem("no_welds", str(mesh), what, remedy)
-
-
-def _modes_table(results: FeResults, interface_modes: Sequence[int], table: SimulationModes) -> pa.Table:
-    is_static = results.analysis == "static"
-    interface = np.isin(results.mode, np.array(interface_modes, np.int64))
-    rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
-    kind = np.where(interface | is_static, "interface", np.where(rigid, "rigid", "normal"))
-    mass, simulated = mode_masses(results, table)
-    return pa.table(
-        {
-            "mode": results.mode,
-            "frequency_hz": np.nan_to_num(results.frequency),
-            "modal_mass": np.where(np.isfinite(simulated), simulated, mass),
-            "kind": kind.tolist(),
-            "scale": mode_scale(results, table),
-        }
-    )
-
-
-def _slug(name: str) -> str:
-    return "".join(c if c.isalnum() or c in "-_." else "_" for c in name).lower() or "event"
-
-
-def _unused(name: str, files: dict[str, pa.Table | str]) -> str:
-    """Return the name, with a number if two events have the same."""
-    stem, number = name.removesuffix(".parquet"), 2
-    while name in files:
-        name, number = f"{stem}_{number}.parquet", number + 1
-    return name
-
-
-def _plain(row: dict[str, object]) -> dict[str, object]:
-    """Audit row for JSON, which knows no NaN and no infinity."""
-    value = row["value"]
-    return {**row, "value": value if isinstance(value, float) and math.isfinite(value) else None}

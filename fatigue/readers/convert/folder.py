@@ -25,7 +25,7 @@ TABLES = (
 
 
 def read_record(path: Path) -> dict[str, Any]:
-    """Read what a conversion recorded: inputs with hashes, sign convention, audit, remarks.
+    """Read what a conversion recorded: inputs with hashes, sign convention, audit, warnings.
 
     Raises
     ------

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.convert.audit.audit import Audit, AuditRow, audit
+from fatigue.readers.convert.audit.audit import Audit, audit
+from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.displacement.check import displacement_row
 from fatigue.readers.convert.displacement.record import read_displacement
 from fatigue.readers.convert.modal_basis import (
@@ -26,7 +27,9 @@ from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.convert.unit_loads import with_unit_loads
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform, with_own_frequencies
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.foreign.histories.matching import matched, with_own_frequencies
+from fatigue.readers.foreign.histories.time_grid import uniform
 from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
@@ -35,7 +38,7 @@ FREQUENCIES = "frequency match"  # the check of the audit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ForeignRun:
+class ForeignInputs:
     """FE run and simulation as their files tell them, in the files' own units.
 
     Attributes
@@ -44,7 +47,7 @@ class ForeignRun:
     interface_modes : modes named as such, and unit loads of files of their own
     histories : modal coordinates of every event, their modes those of ``results``
     simulated : frequency [Hz] and modal mass of the simulation's modes, by mode of the FE run
-    remarks : doubts about the simulation's modes and coordinates
+    warnings : about the simulation's modes and coordinates
     """
 
     results: FeResults
@@ -52,16 +55,16 @@ class ForeignRun:
     interface_modes: tuple[int, ...]
     histories: tuple[ForeignHistory, ...]
     simulated: SimulationModes
-    remarks: tuple[Problem, ...]
+    warnings: tuple[Problem, ...]
 
-    def inputs(self, options: ConvertOptions) -> tuple[Path, ...]:
+    def files(self, options: ConvertOptions) -> tuple[Path, ...]:
         """Files that were read."""
         displacements = (asked.file for asked in options.displacements)
         fe = (options.forces, options.mesh, *self.model.included, *options.unit_loads)
         return (*fe, *options.coordinates, *displacements)
 
 
-def read_run(options: ConvertOptions) -> ForeignRun:
+def read_inputs(options: ConvertOptions) -> ForeignInputs:
     """Read forces, mesh and coordinates.
 
     Raises
@@ -78,18 +81,18 @@ def read_run(options: ConvertOptions) -> ForeignRun:
     interface_modes = (*named, *sorted(beside))
     numbers = set(results.mode.tolist())
     results = without_modes(results, options.ignore_modes)
-    table, remarks = simulation_modes(options.simulation_modes)
+    table, warnings = simulation_modes(options.simulation_modes)
     stage("reading modes and coordinates (%d files)", len(options.coordinates))
     read = [_history(path, options, results, table) for path in options.coordinates]
     simulated = {fe: table[mode] for _, own in read for fe, mode in own.items() if mode in table} if read else table
     numbers |= {fe for _, own in read for fe in own}
-    remarks += assumed_masses(results, simulated) + _ignored_nowhere(options, numbers)
+    warnings += assumed_masses(results, simulated) + _ignored_nowhere(options, numbers)
     histories = tuple(history for history, _ in read)
-    of_histories = [remark for history in histories for remark in history.remarks]
-    return ForeignRun(results, model, interface_modes, histories, simulated, (*remarks, *of_histories))
+    of_histories = [warning for history in histories for warning in history.warnings]
+    return ForeignInputs(results, model, interface_modes, histories, simulated, (*warnings, *of_histories))
 
 
-def audited(run: ForeignRun, options: ConvertOptions) -> Audit:
+def audited(read: ForeignInputs, options: ConvertOptions) -> Audit:
     """Judge what was read.
 
     Raises
@@ -97,20 +100,20 @@ def audited(run: ForeignRun, options: ConvertOptions) -> Audit:
     DataError : a red light that is not accepted, coordinates whose frequencies fit other modes
     """
     stage("auditing")
-    frequencies = simulated_frequencies(run.histories, run.simulated)
-    judged = audit(run.results, run.model, options.convention, run.interface_modes, frequencies)
-    judged = replace(judged, rows=(*judged.rows, *_displacement_rows(run, options)))
+    frequencies = simulated_frequencies(read.histories, read.simulated)
+    judged = audit(read.results, read.model, options.convention, read.interface_modes, frequencies)
+    judged = replace(judged, rows=(*judged.rows, *_displacement_rows(read, options)))
     refuse(
         DataError,
         [
             Problem("audit", f"{options.forces}, {row.check}", row.finding, row.remedy or "Correct the input")
-            for row in judged.rows
-            if row.light == "red" and row.check not in options.accept
+            for row in judged.red
+            if row.check not in options.accept
         ],
     )
     if FREQUENCIES not in options.accept:
-        for history in run.histories:
-            with_own_frequencies(history, run.results.mode, run.results.frequency)
+        for history in read.histories:
+            with_own_frequencies(history, read.results.mode, read.results.frequency)
     return judged
 
 
@@ -124,14 +127,14 @@ def unknown_checks(judged: Audit, options: ConvertOptions) -> list[Problem]:
     ]
 
 
-def _displacement_rows(run: ForeignRun, options: ConvertOptions) -> Iterator[AuditRow]:
+def _displacement_rows(read: ForeignInputs, options: ConvertOptions) -> Iterator[AuditRow]:
     """Compare the displacements given with mode shapes times coordinates."""
     units = unit_system(options.force_units, "force units")
-    own, scale = unit_system(options.coordinate_units, "coordinate units"), mode_scale(run.results, run.simulated)
+    own, scale = unit_system(options.coordinate_units, "coordinate units"), mode_scale(read.results, read.simulated)
     records = [read_displacement(asked.file, own.length) for asked in options.displacements]
     for asked, record in zip(options.displacements, records, strict=True):
         yield displacement_row(
-            asked, record, run.results, run.model, run.histories, scale, units, own, options.normalisation
+            asked, record, read.results, read.model, read.histories, scale, units, own, options.normalisation
         )
 
 
@@ -148,7 +151,7 @@ def _history(
     path: Path, options: ConvertOptions, results: FeResults, table: SimulationModes
 ) -> tuple[ForeignHistory, dict[int, int]]:
     """Read one event and match its columns with the modes of the forces; the simulation's number of every FE mode."""
-    columns, doubts = (None, []) if options.columns is None else column_map(options.columns)
+    columns, warnings = (None, []) if options.columns is None else column_map(options.columns)
     stated = read_coordinates(path, columns, options.time_column)
     if options.match == "order":
         stated = numbered(stated, table, options.simulation_modes or path)
@@ -160,7 +163,7 @@ def _history(
         with_own_frequencies(joined, results.mode, results.frequency)
         history = replace(history, mode=joined.mode)
     own = dict(zip(history.mode.tolist(), stated.mode.tolist(), strict=True))
-    history = replace(history, remarks=(*doubts, *history.remarks))
+    history = replace(history, warnings=(*warnings, *history.warnings))
     history = with_declared_units(history, options.coordinate_units, options.normalisation, results.analysis)
     keep = ~np.isin(history.mode, np.array(options.ignore_modes, np.int64))
     history = replace(

@@ -15,7 +15,7 @@ from fatigue.readers.foreign.histories.mode_frequencies import StatedFrequencies
 from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.coordinate_units import SYSTEM_UNITS, compared
-from fatigue.readers.units.systems import Normalisation
+from fatigue.readers.units.systems import Normalisation, UnitSystem
 
 Floats = NDArray[np.float64]
 SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency [Hz] and modal mass by mode
@@ -47,7 +47,7 @@ def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
 
 
 def column_map(path: Path) -> tuple[dict[str, int], list[Problem]]:
-    """Read the mode of each column by its name, from a table of the columns ``column, mode``; and doubts."""
+    """Read the mode of each column by its name, from a table of the columns ``column, mode``; and warnings."""
     table = open_table(path, texts=("column",))
     table.expect(("column", "mode"), (), strict=False)
     names, code = table.groups("column")
@@ -81,17 +81,17 @@ def with_declared_units(
 ) -> ForeignHistory:
     """Compare the unit and the normalisation a file states for its coordinates with those of the options.
 
-    Coordinates of load cases are multiples of the loads; what a file states of their unit is a doubt.
+    Coordinates of load cases are multiples of the loads; what a file states of their unit is a warning.
 
     Raises
     ------
     DataError : a contradiction, with the options that would remove it
     """
     problems: list[Problem] = []
-    doubts: list[Problem] = []
+    warnings: list[Problem] = []
     if analysis == "modal":
         if history.unit:
-            problems, doubts = compared(history.source, history.name, history.unit, system, normalisation)
+            problems, warnings = compared(history.source, history.name, history.unit, system, normalisation)
         own = SYSTEM_UNITS[system][0]
         if history.length and history.length != own:
             fitting = [
@@ -107,13 +107,13 @@ def with_declared_units(
             problems.append(Problem("normalisation", history.source, what, remedy))
     elif units := [unit for unit in dict.fromkeys(history.unit) if unit]:
         what = f"the coordinates of load cases are multiples of their loads; the file states {', '.join(units)}"
-        doubts.append(Problem("coordinate_unit", history.source, what, "Check that one is one load of the subcase"))
+        warnings.append(Problem("coordinate_unit", history.source, what, "Check that one is one load of the subcase"))
     refuse(DataError, problems)
-    return replace(history, remarks=(*history.remarks, *doubts))
+    return replace(history, warnings=(*history.warnings, *warnings))
 
 
 def simulation_modes(path: Path | None) -> tuple[SimulationModes, list[Problem]]:
-    """Read frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and doubts."""
+    """Read frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and warnings."""
     if path is None:
         return {}, []
     table = open_table(path)
@@ -154,7 +154,7 @@ def common_modes(
     results: FeResults, histories: Sequence[ForeignHistory], source: Path, interface_modes: Collection[int]
 ) -> tuple[FeResults, list[Problem]]:
     """Leave out rigid modes the simulation does not have; any other difference of the bases is refused."""
-    problems, remarks = [], []
+    problems, warnings = [], []
     have = set(results.mode.tolist())
     for history in histories:
         if extra := sorted(set(history.mode.tolist()) - have):
@@ -182,12 +182,12 @@ def common_modes(
                 )
             )
         if rigid:
-            remarks.append(
+            warnings.append(
                 Problem("rigid_left_out", str(source), f"rigid modes {_short(rigid)} are left out", "Nothing to do")
             )
             results = without_modes(results, rigid)
     refuse(DataError, problems)
-    return results, remarks
+    return results, warnings
 
 
 def _in_order(history: ForeignHistory, results: FeResults) -> str:
@@ -211,7 +211,7 @@ def _in_order(history: ForeignHistory, results: FeResults) -> str:
 
 def _left_out(results: FeResults) -> str:
     """Remind of static subcases that the force file has and that were not asked for."""
-    found = [remark.what for remark in results.remarks if remark.code == "static_left_out"]
+    found = [warning.what for warning in results.warnings if warning.code == "static_left_out"]
     return f"; {found[0]}, name them with --interface-modes if it is these" if found else ""
 
 
@@ -229,6 +229,12 @@ def mode_scale(results: FeResults, table: SimulationModes) -> Floats:
     """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
     mass, simulated = mode_masses(results, table)
     return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
+
+
+def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
+    """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
 
 
 def assumed_masses(results: FeResults, table: SimulationModes) -> list[Problem]:

@@ -35,7 +35,7 @@ def with_unit_loads(modes: FeResults, loads: FeResults) -> FeResults:
         force=rows.force,
         shape_node=shape_node,
         shape=shape,
-        remarks=(*modes.remarks, *loads.remarks),
+        warnings=(*modes.warnings, *loads.warnings),
         static_modes=(*modes.static_modes, *loads.mode.tolist()),
     )
 

@@ -30,13 +30,13 @@ class FoundWelds:
     cuts : by line name; named, faced and dimensioned as the register has it
     joined : by weld name, of lines that have one name and are one weld
     rows : the register
-    remarks : doubts
+    warnings : about mesh, lists and register
     """
 
     cuts: dict[str, WeldCut]
     joined: dict[str, WeldCut]
     rows: tuple[RegisterRow, ...]
-    remarks: tuple[Problem, ...]
+    warnings: tuple[Problem, ...]
 
     def assessed(self) -> list[tuple[RegisterRow, WeldCut]]:
         """Welds to assess, of joined lines the first row, with their cuts."""
@@ -55,7 +55,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     DataError : a marked line that is no line of mesh edges, an unknown set or marker, a bad register
     """
     topo = topology(model.mesh)
-    lists, list_doubts = _node_lists(sources.node_lists)
+    lists, list_warnings = _node_lists(sources.node_lists)
     marked = dict(_marked_edges(model, topo, sources, lists))
     cuts = trace(topo, marked)
     detect = not marked if sources.detect is None else sources.detect
@@ -63,22 +63,22 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
         found = {edge: key for edge, key in classify(topo).items() if edge not in marked}
         for kinds in (True, False):  # a line of candidates does not end one of welds
             cuts += trace(topo, {edge: key for edge, key in found.items() if (key[0] in WELDS) == kinds})
-    doubts = _element_doubts(model)
-    rows, failed = [], {}
+    elements = _unconfirmed_elements(model)
+    rows, unconfirmed = [], {}
     for cut in cuts:
         is_weld = cut.kind not in CANDIDATES or sources.candidates
         rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
-        failed[cut.name] = _doubt(cut, doubts)
+        unconfirmed[cut.name] = _unconfirmed(cut, elements)
     edited = open_register(sources.register, strict=False) if sources.register else None
-    rows, remarks = merged(rows, edited) if edited else (rows, [])
-    remarks = [*list_doubts, *remarks]
+    rows, warnings = merged(rows, edited) if edited else (rows, [])
+    warnings = [*list_warnings, *warnings]
     by_name = {cut.name: cut for cut in cuts}
-    final = [_settled(row, by_name.get(row.line), failed.get(row.line, "")) for row in rows]
+    final = [_settled(row, by_name.get(row.line), unconfirmed.get(row.line, "")) for row in rows]
     by_name = {row.line: _as_registered(by_name[row.line], row) for row in final if row.line in by_name}
     joined = joined_cuts(topo, final, by_name, sources.register)
     stacked = stacked_elements(model.mesh)
     if stacked.size:
-        remarks.append(
+        warnings.append(
             Problem(
                 "stacked_elements",
                 model.source,
@@ -86,7 +86,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
                 "Their edges look like welds; exclude them in the register",
             )
         )
-    return FoundWelds(by_name, joined, tuple(final), tuple(remarks))
+    return FoundWelds(by_name, joined, tuple(final), tuple(warnings))
 
 
 def list_welds(
@@ -115,7 +115,7 @@ def list_welds(
                 Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
             )
         out.write_text(register_text(found.rows), "utf-8")
-    return replace(found, remarks=(*model.remarks, *found.remarks))
+    return replace(found, warnings=(*model.warnings, *found.warnings))
 
 
 def no_welds(mesh: Path) -> Problem:
@@ -130,36 +130,36 @@ _CANDIDATE_REASON = {
 }
 
 
-def _element_doubts(model: FeModel) -> dict[int, str]:
-    """Why the thickness of an element cannot be used, by element id."""
+def _unconfirmed_elements(model: FeModel) -> dict[int, str]:
+    """Why the thickness of an element cannot be used unless it is confirmed, by element id."""
     mesh = model.mesh
-    doubts = {
-        int(e): model.section_doubt[int(p)]
+    found = {
+        int(e): model.unconfirmed_sections[int(p)]
         for e, p in zip(mesh.element, mesh.pid, strict=True)
-        if int(p) in model.section_doubt
+        if int(p) in model.unconfirmed_sections
     }
     for e in mesh.element[~(mesh.thickness > 0)]:
-        doubts.setdefault(int(e), f"element {e} has no thickness")
-    return doubts | dict(model.element_doubt)
+        found.setdefault(int(e), f"element {e} has no thickness")
+    return found | dict(model.unconfirmed_elements)
 
 
-def _doubt(cut: WeldCut, doubts: dict[int, str]) -> str:
-    """Say what is doubtful about the sections of a cut's elements: of each kind the first, and how many more."""
+def _unconfirmed(cut: WeldCut, elements: Mapping[int, str]) -> str:
+    """Say why the thickness of a cut has to be confirmed: the first element of each kind, and how many more."""
     kinds: dict[str, list[str]] = {}
-    for doubt in dict.fromkeys(doubts[e] for e in cut.elements.tolist() if e in doubts):
-        kinds.setdefault(kind_of(doubt), []).append(doubt)
+    for reason in dict.fromkeys(elements[e] for e in cut.elements.tolist() if e in elements):
+        kinds.setdefault(kind_of(reason), []).append(reason)
     return "; ".join(some[0] + (f" (and {len(some) - 1} more)" if len(some) > 1 else "") for some in kinds.values())
 
 
-def _settled(row: RegisterRow, cut: WeldCut | None, doubt: str) -> RegisterRow:
-    """Exclude what cannot be assessed: doubtful sections that are not confirmed, lines that make no sense."""
+def _settled(row: RegisterRow, cut: WeldCut | None, unconfirmed: str) -> RegisterRow:
+    """Exclude what cannot be assessed: a thickness that has to be confirmed and is not, a line that makes no sense."""
     if cut is None or row.status != "assess":
         return row
-    if doubt and not row.confirmed:
+    if unconfirmed and not row.confirmed:
         return replace(
             row,
             status="excluded",
-            reason=f"{doubt}; to assess it, enter thickness_mm, confirmed true and status assess",
+            reason=f"{unconfirmed}; to assess it, enter thickness_mm, confirmed true and status assess",
         )
     try:
         check_line(_as_registered(cut, row).line, row.line)
@@ -222,7 +222,7 @@ def _marked_edges(
 
 
 def _node_lists(path: Path | None) -> tuple[dict[str, list[int]], list[Problem]]:
-    """Nodes of every weld in order, a closed line repeats its first node at the end; and doubts about the table."""
+    """Nodes of every weld in order, a closed line repeats its first node at the end; and warnings about the table."""
     if path is None:
         return {}, []
     table = open_table(path, texts=("weld",))

@@ -396,7 +396,7 @@ def test_columns_of_the_user_survive_a_conversion(body):
         writer.writeheader()
         writer.writerows(rows)
     done = convert(body)
-    assert "unknown_column" in {problem.code for problem in done.remarks}
+    assert "unknown_column" in {problem.code for problem in done.warnings}
     assert {r["line"]: r["checked by"] for r in rows_of(body.out)} == {r["line"]: r["checked by"] for r in rows}
     assert [r["reason"] for r in rows_of(body.out) if r["status"] == "excluded"] == ["seen,\nsigned"]
     assert check_case(case_of(body.out), strict=False).excluded == 1

@@ -68,7 +68,7 @@ def test_neutral_forces_are_those_of_the_model(files):
         if not name.startswith("q_") and "." in name and name not in ("case.toml", "welds_register.csv", "convert.json")
     ]
     assert result.audit.convention == "on_node"
-    assert not result.audit.is_red
+    assert not result.audit.red
     assert len(lines) == 3
     for line in lines:
         found = side_forces((line,), sides[line.weld], forces, modes.mode, line.weld)[0]
@@ -273,7 +273,7 @@ def test_notes_and_files_of_the_deck_are_kept(files):
     part = files.mesh.parent / "part.inc"
     part.write_text("DEQATN  1       F(A,B)= A/B\n$ 5\nFORCE,1,2,3\n")
     files.mesh.write_text(files.mesh.read_text().replace("BEGIN BULK\n", "BEGIN BULK\nINCLUDE 'part.inc'\n"))
-    said = " ".join(str(r) for r in convert(files).remarks)
+    said = " ".join(str(r) for r in convert(files).warnings)
     record = json.loads((files.out / "convert.json").read_text())
     assert "1 DEQATN (part.inc, line 1), 1 FORCE (part.inc, line 3)" in said
     assert "1 DEQATN (part.inc, line 1)" in " ".join(record["remarks"])
@@ -296,7 +296,7 @@ def test_simulation_modes_scale_and_compare(files, tmp_path):
 def test_modes_to_ignore_that_nobody_has(files):
     """They are told; those of one side only are not."""
     renamed(files, "time,q_1,q_2,q_3,q_4,q_5")
-    told = [str(r) for r in convert(replace(files, ignore_modes=(1, 77))).remarks if r.code == "ignored_nowhere"]
+    told = [str(r) for r in convert(replace(files, ignore_modes=(1, 77))).warnings if r.code == "ignored_nowhere"]
     assert len(told) == 1
     assert told[0].startswith("--ignore-modes: neither the forces nor the coordinates have the modes 77.")
 
@@ -305,10 +305,10 @@ def test_masses_that_the_forces_do_not_state(files, tmp_path):
     """1 is assumed where the simulation's masses ask for them, and that is told."""
     table, f = tmp_path / "sim.csv", tee().frequency
     table.write_text("mode,frequency_hz,modal_mass\n" + "".join(f"{k},{f[k - 1]:.9g},4\n" for k in range(1, 6)))
-    told = [remark.code for remark in convert(replace(files, simulation_modes=table)).remarks]
+    told = [warning.code for warning in convert(replace(files, simulation_modes=table)).warnings]
     assert "assumed_mass" not in told
     files.forces.write_bytes(modal_op2(replace(tee().results, modal_mass=np.zeros(5)), word=8))
-    found = convert(replace(files, simulation_modes=table, force=True)).remarks
+    found = convert(replace(files, simulation_modes=table, force=True)).warnings
     assert any("states no generalised masses of the modes 1, 2, 3, 4, 5; 1 is assumed" in str(r) for r in found)
 
 
@@ -357,7 +357,7 @@ def test_units_that_agree(files, unit):
     """The unit of the options, or none, changes nothing."""
     renamed(files, ",".join(["time", *(f"q_{k} [{unit}]" for k in range(1, 6))]))
     result = convert(files)
-    assert not [remark for remark in result.remarks if remark.code == "coordinate_unit"]
+    assert not [warning for warning in result.warnings if warning.code == "coordinate_unit"]
     history, _ = read_history(files.out / "q_straight.parquet", "straight", np.arange(1, 6), (), strict=True)
     assert np.allclose(history.q[1], np.sin(2 * np.arange(200) / 100), atol=1e-6)
 
@@ -365,11 +365,11 @@ def test_units_that_agree(files, unit):
 def test_a_length_for_modes_of_unit_mass_is_a_doubt(files):
     """Many programs label any coordinate with a length: read as the options say, and told once."""
     renamed(files, ",".join(["time", *(f"q_{k} [mm]" for k in range(1, 6))]))
-    (remark,) = [remark for remark in convert(files).remarks if remark.code == "coordinate_unit"]
-    assert remark.where.endswith("column 'q_1 [mm]' and 4 more columns")
-    assert remark.what == "the file states mm, a length; --normalisation mass takes it as mm*sqrt(t)"
+    (warning,) = [warning for warning in convert(files).warnings if warning.code == "coordinate_unit"]
+    assert warning.where.endswith("column 'q_1 [mm]' and 4 more columns")
+    assert warning.what == "the file states mm, a length; --normalisation mass takes it as mm*sqrt(t)"
     result = convert(replace(files, normalisation="length", force=True))
-    assert not [remark for remark in result.remarks if remark.code == "coordinate_unit"]
+    assert not [warning for warning in result.warnings if warning.code == "coordinate_unit"]
 
 
 def test_time_in_milliseconds(files):
@@ -474,16 +474,16 @@ def test_frequencies_of_file_and_table_differ(files, tmp_path):
 
 
 def test_doubts_of_the_tables_are_told(files, tmp_path):
-    """An unknown column of a map or of the table of modes is a remark, as are doubts about the coordinates."""
+    """An unknown column of a map or of the table of modes is a warning, as are warnings about the coordinates."""
     columns, table, f = tmp_path / "columns.csv", tmp_path / "sim.csv", tee().frequency
     columns.write_text("column,mode,note\n" + "".join(f"q_{k},{k},x\n" for k in range(1, 6)))
     table.write_text("mode,frequency_hz,modal_mas\n" + "".join(f"{k},{f[k - 1]:.9g},4\n" for k in range(1, 6)))
     result = convert(replace(files, columns=columns, simulation_modes=table))
-    told = [str(remark) for remark in result.remarks]
+    told = [str(warning) for warning in result.warnings]
     recorded = json.loads((files.out / "convert.json").read_text())["remarks"]
     for words in ("columns.csv: column note: the column is unknown", "Rename it to 'modal_mass'"):
-        assert any(words in remark for remark in told)
-        assert any(words in remark for remark in recorded)
+        assert any(words in warning for warning in told)
+        assert any(words in warning for warning in recorded)
 
 
 def test_system_of_units_a_file_declares(files):
@@ -521,7 +521,7 @@ def test_columns_by_a_map_and_rigid_modes(files, tmp_path):
     columns.write_text("column,mode\na,1\nb,2\nd,4\ne,5\n")
     result = convert(replace(files, columns=columns))
     assert result.modes == 4
-    assert "rigid modes 3 are left out" in " ".join(str(r) for r in result.remarks)
+    assert "rigid modes 3 are left out" in " ".join(str(r) for r in result.warnings)
 
 
 def test_welds_without_forces_are_left_out(files):
@@ -589,7 +589,7 @@ def test_wing_box_from_inches(tmp_path):
 
 def test_a_check_to_accept_that_there_is_not(files):
     """A misspelt name accepts nothing: it is told with the names there are."""
-    said = [str(problem) for problem in convert(replace(files, accept=("grid total", "sign"))).remarks]
+    said = [str(problem) for problem in convert(replace(files, accept=("grid total", "sign"))).warnings]
     (line,) = [line for line in said if "--accept" in line]
     assert line.startswith("--accept 'grid total': the audit has no such check. Choose of completeness, ")
     assert "grid totals, " in line

@@ -10,7 +10,7 @@ from fatigue.cli import cli
 from fatigue.cli.options import asking_for
 from fatigue.readers.convert.option_fields import option_fields, words_of
 from fatigue.readers.convert.options import ConvertOptions, Displacement, WeldSources
-from fatigue.readers.foreign.histories.foreign_history import Match
+from fatigue.readers.foreign.histories.matching import Match
 from fatigue.readers.neutral.forces.convention import Convention
 
 FILES = ConvertOptions("a.op2", "a.bdf", "out")

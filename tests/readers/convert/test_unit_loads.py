@@ -7,7 +7,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.readers.convert.audit.audit import audit
-from fatigue.readers.convert.inputs import read_run
+from fatigue.readers.convert.inputs import read_inputs
 from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.convert.unit_loads import with_unit_loads
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
@@ -98,7 +98,7 @@ def test_unit_loads_of_their_own_file_may_be_named_as_interface_modes(tmp_path):
     )
     absent = "of the interface modes named, 1 have no forces, 99 the first"
     for named, told in (((21, 22, 23), []), ((21, 99), [absent])):
-        run = read_run(replace(options, interface_modes=named))
-        assert [r.what for r in run.results.remarks] == told
+        run = read_inputs(replace(options, interface_modes=named))
+        assert [r.what for r in run.results.warnings] == told
         assert sorted(run.interface_modes) == sorted({*named, *SUBCASES})
         assert run.results.mode.tolist() == [1, 2, 3, 4, 5, *SUBCASES]

@@ -54,7 +54,7 @@ def test_doubts_about_node_lists_are_told(mesh, tmp_path):
     table = tmp_path / "lines.csv"
     table.write_text("".join(f"{row}\n" for row in ["weld,order,node,colour", *_bracket("red")]))
     found = find_welds(read_bdf(mesh), WeldSources(node_lists=table))
-    assert "lines.csv: column colour: the column is unknown" in " ".join(map(str, found.remarks))
+    assert "lines.csv: column colour: the column is unknown" in " ".join(map(str, found.warnings))
 
 
 def _bracket(*more):
@@ -95,7 +95,7 @@ def test_register_of_lines_that_are_gone(mesh, tmp_path):
     out.write_text("weld,line,status\nmine,tee_1_2_p9a,assess\n")
     found = find_welds(read_bdf(mesh), WeldSources(register=out))
     assert [row.reason for row in found.rows if row.weld == "mine"] == ["the mesh has this line no more"]
-    assert found.remarks[0].code == "line_gone"
+    assert found.warnings[0].code == "line_gone"
 
 
 @pytest.mark.parametrize(

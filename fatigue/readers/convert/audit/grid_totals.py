@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.neutral.forces.convention import Convention
 
@@ -76,6 +77,49 @@ class _Total(NamedTuple):
     grid: int
     mode: int
     scale: float
+
+
+def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
+    """Compare the stated totals of every grid with its rows: where they follow, a checksum over every number."""
+    found = check_totals(results, convention)
+    if found is None:
+        return AuditRow(
+            "grid totals",
+            "amber",
+            None,
+            "the file states no totals to check the rows against",
+            "Rely on the element balance",
+        )
+    value = found.residual
+    if not found.is_in_balance and (found.is_met or not found.is_checksum):
+        return AuditRow(
+            "grid totals",
+            "red" if convention == "on_element" else "amber",
+            found.rest,
+            f"the solver states a rest of {found.rest:.2g} of the largest row at grid {found.rest_grid} in mode "
+            f"{found.rest_mode}: its forces on the elements do not balance loads and reactions",
+            "Look for elements that write no forces, inertia relief, modes that have not converged, reduced degrees of "
+            "freedom; in MYSTRAN for plates with offsets (ZOFFS), whose forces it recovers wrongly",
+        )
+    if found.is_met:
+        return AuditRow(
+            "grid totals", "green", value, f"the rows of every grid {found.rule} its total within {value:.2g}"
+        )
+    if not found.is_checksum:
+        return AuditRow(
+            "grid totals",
+            "amber",
+            None,
+            "the totals contain inertia forces that the file has no rows for (as MYSTRAN's): they are no check",
+            "Rely on the element balance",
+        )
+    return AuditRow(
+        "grid totals",
+        "red",
+        value,
+        f"the rows of grid {found.grid} in mode {found.mode} miss their stated total by {value:.2g} of the largest row",
+        "Copy the file again or repeat the run: a number is damaged, or rows are missing",
+    )
 
 
 def check_totals(results: FeResults, convention: Convention | None) -> TotalsCheck | None:

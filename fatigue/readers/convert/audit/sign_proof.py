@@ -5,7 +5,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.convert.audit.row import AuditRow
+from fatigue.readers.convert.audit.shell_rows import shell_rows, whole_rows
+from fatigue.readers.foreign.fe.model import FeModel
+from fatigue.readers.foreign.fe.results import REQUEST, FeResults
 from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.forces.convention import Convention
 
@@ -47,6 +50,26 @@ class _Works(NamedTuple):
         size = np.abs(self.work).sum(axis=1)
         is_clear = size > _CLEAR * self.terms.sum(axis=1)
         return np.asarray(is_clear & (np.abs(self.work.sum(axis=1)) <= _ONE_SIGN * size))
+
+
+def sign_row(results: FeResults, model: FeModel, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
+    """Compare the proven sign convention with the stated one."""
+    value, found, finding, contradiction, odd = prove_sign(
+        results, whole_rows(results, model), shell_rows(results, model)
+    )
+    if found is None:
+        remedy = "State the sign convention; prove it with the one-element tension patch" if stated is None else REQUEST
+        return AuditRow("sign", "amber", value, f"{finding}: the sign is not proven", remedy), stated
+    if stated is not None and found != stated:
+        remedy = f"State {found}, or give the mode shapes of the same run"
+        return AuditRow("sign", "red", value, f"{finding}: forces {found}, but {stated} is stated", remedy), found
+    if contradiction:
+        remedy = "Give forces and mode shapes of one run"
+        return AuditRow("sign", "red", value, f"{finding}: {contradiction}", remedy), found
+    if odd:
+        remedy = "Look at these elements: damaged forces look so, those under a strong preload may"
+        return AuditRow("sign", "amber", value, f"{finding}: forces {found}; {odd}", remedy), found
+    return AuditRow("sign", "green", value, f"{finding}: forces {found}"), found
 
 
 def prove_sign(results: FeResults, whole: NDArray[np.bool_], shells: NDArray[np.bool_]) -> SignProof:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.convert.audit.audit import AuditRow, Light
+from fatigue.readers.convert.audit.row import AuditRow, Light
 from fatigue.readers.convert.displacement.causes import EXPLAINED, Cause
 from fatigue.readers.convert.displacement.comparison import Comparison, best_fit
 from fatigue.readers.convert.displacement.side_by_side import EventComparison
@@ -48,7 +48,7 @@ def judged(name: str, found: EventComparison, causes: tuple[Cause, ...], lacking
     if causes and all(cause.kind in _OF_MODES for cause in causes):
         light = "red" if len(causes) == 1 or light == "red" else "amber"
     if light != "green":
-        finding, remedy = _doubt(c, found.misfit, causes, lacking)
+        finding, remedy = _likely_cause(c, found.misfit, causes, lacking)
     else:
         finding, remedy = _proof(c), ""
         constant = float(c.measured.mean() - c.weight @ c.q.mean(axis=1))
@@ -69,7 +69,7 @@ def _numbers(c: Comparison, misfit: float) -> str:
     return f"scale {scale:.4g}, correlation {correlation:.5g}, {error}"
 
 
-def _doubt(c: Comparison, misfit: float, causes: tuple[Cause, ...], lacking: Sequence[int]) -> tuple[str, str]:
+def _likely_cause(c: Comparison, misfit: float, causes: tuple[Cause, ...], lacking: Sequence[int]) -> tuple[str, str]:
     """Give the likely cause of a misfit and its remedy, or what is known where no single cause is certain."""
     if len(causes) == 1:
         return f"likely cause: {causes[0].text} (error then {causes[0].misfit:.2g})", causes[0].remedy

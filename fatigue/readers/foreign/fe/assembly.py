@@ -60,14 +60,14 @@ def assemble(
     """
     if not forces and not unusable:
         raise DataError(Problem("no_forces", source, "its table of grid point forces is empty", REQUEST))
-    chosen, remarks = _choose(source, forces, unusable, subcase, interface)
+    chosen, warnings = _choose(source, forces, unusable, subcase, interface)
     modal = {block.subcase for block in chosen if block.mode > 0}
     key = np.array([block.mode or block.subcase for block in chosen], np.int64)
     is_static = np.array([block.mode == 0 for block in chosen])
     known = _summary_of(summary, stated, modal)
     rows = common_rows(chosen)
     if absent := sorted(set(interface) - set(key.tolist())):
-        remarks.append(
+        warnings.append(
             Problem(
                 "no_such_interface",
                 source,
@@ -87,7 +87,7 @@ def assemble(
         )
     listed = set(known) or {mode for subcase_of, mode in stated if subcase_of in modal and mode}
     if modal and (silent := sorted(listed - modes)):
-        remarks.append(
+        warnings.append(
             Problem(
                 "modes_without_forces",
                 source,
@@ -96,7 +96,7 @@ def assemble(
             )
         )
     if not modal and subcase is None:
-        remarks += _subcases_without_forces(source, shapes, set(key.tolist()))
+        warnings += _subcases_without_forces(source, shapes, set(key.tolist()))
     beside = {} if known else _given(source, stated, [(block.subcase, block.mode) for block in chosen if block.mode])
     frequency, mass, eigenvalue = (np.full(key.size, np.nan) for _ in range(3))
     for k, block in enumerate(chosen):
@@ -106,7 +106,7 @@ def assemble(
         elif block.mode:
             eigenvalue[k] = beside.get((block.subcase, block.mode), np.nan)
             frequency[k] = frequency_of(eigenvalue[k])
-    remarks += _unstable(source, key, frequency, eigenvalue)
+    warnings += _unstable(source, key, frequency, eigenvalue)
     shape_node, shape = _shapes([(block.subcase, block.mode) for block in chosen], shapes)
     return FeResults(
         source=source,
@@ -121,7 +121,7 @@ def assemble(
         force=rows.force,
         shape_node=shape_node,
         shape=shape,
-        remarks=tuple(remarks),
+        warnings=tuple(warnings),
         static_modes=tuple(key[is_static].tolist()) if modal else (),
     )
 
@@ -158,7 +158,7 @@ def _choose(
 ) -> tuple[list[ForceBlock], list[Problem]]:
     """Blocks of the run asked for: all static subcases, or the modes of one subcase and the static ones named."""
     usable = sorted({block.subcase for block in blocks})
-    remarks = _superelements(source, unusable) if blocks else []
+    warnings = _superelements(source, unusable) if blocks else []
     if blocks:
         unusable = [other for other in unusable if other.problem.code != "superelement"]
     if subcase is not None:
@@ -178,7 +178,7 @@ def _choose(
     static = [block for block in blocks if block.mode == 0]
     beside = [block for block in static if _is_named(block, interface) and block.subcase not in modes]
     if modal:
-        remarks += _left_out(source, [block.subcase for block in static if block not in beside], modes)
+        warnings += _left_out(source, [block.subcase for block in static if block not in beside], modes)
     chosen = [*modal, *beside] if modal else static
     seen: set[Key] = set()
     for block in chosen:
@@ -193,7 +193,7 @@ def _choose(
                 )
             )
         seen.add((block.subcase, block.mode))
-    return chosen, remarks
+    return chosen, warnings
 
 
 def _is_named(block: ForceBlock, interface: Collection[int]) -> bool:

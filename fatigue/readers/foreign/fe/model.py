@@ -21,12 +21,12 @@ class FeModel:
     mesh : shells and all grids
     frame_node : (k,) grids whose displacement frame (CD) is not the basic one, ascending
     frame : (k, 3, 3) axes of their displacement frames, one in each row, in basic components
-    section_doubt : why the thickness of a property cannot be taken for the stress formulas, by property id
-    element_doubt : the same, by element id
+    unconfirmed_sections : why the thickness of a property has to be confirmed by hand, by property id
+    unconfirmed_elements : the same, by element id
     node_sets : node sets by their id
     marker_edges : pairs of grids joined by plot elements or bars, (p, 2), by card name ("PLOTEL", "CBAR", "CBEAM")
     other_cards : how many cards of elements other than shells there are, by name
-    remarks : doubts met while reading
+    warnings : met while reading
     included : files it was read from besides ``source``
     """
 
@@ -34,22 +34,22 @@ class FeModel:
     mesh: ShellMesh
     frame_node: NDArray[np.int64]
     frame: NDArray[np.float64]
-    section_doubt: Mapping[int, str] = field(default_factory=dict)
-    element_doubt: Mapping[int, str] = field(default_factory=dict)
+    unconfirmed_sections: Mapping[int, str] = field(default_factory=dict)
+    unconfirmed_elements: Mapping[int, str] = field(default_factory=dict)
     node_sets: Mapping[int, NDArray[np.int64]] = field(default_factory=dict)
     marker_edges: Mapping[str, NDArray[np.int64]] = field(default_factory=dict)
     other_cards: Mapping[str, int] = field(default_factory=dict)
-    remarks: tuple[Problem, ...] = ()
+    warnings: tuple[Problem, ...] = ()
     included: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A shell property: thickness, offset of the reference plane, and what makes the thickness doubtful."""
+    """A shell property: thickness, offset of the reference plane, and why the thickness has to be confirmed by hand."""
 
     thickness: float
     offset: float = 0.0
-    doubt: str = ""
+    unconfirmed: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class Shell:
     mids: tuple[int, ...] = ()
     thickness: float | None = None  # its own instead of the property's
     offset: float = 0.0
-    doubt: str = ""
+    unconfirmed: str = ""
 
 
 def shell_mesh(

@@ -40,7 +40,7 @@ class FeResults:
         row that is no element's, such as the load of another subcase
     shape_node : (n,) grids of the mode shapes, ascending, empty without eigenvectors
     shape : (m, n, 6) mode shapes, in the displacement frame of the node; zero for static modes without displacements
-    remarks : doubts met while reading
+    warnings : met while reading
     static_modes : modes that are static subcases beside modes of vibration
     """
 
@@ -56,7 +56,7 @@ class FeResults:
     force: NDArray[np.floating]
     shape_node: NDArray[np.int64]
     shape: NDArray[np.floating]
-    remarks: tuple[Problem, ...] = field(default=())
+    warnings: tuple[Problem, ...] = field(default=())
     static_modes: tuple[int, ...] = ()
 
     @property

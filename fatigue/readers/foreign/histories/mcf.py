@@ -72,7 +72,7 @@ def read_mcf(path: Path, columns: Mapping[str, int] | None = None, time_column: 
             np.ascontiguousarray(rows[:, 1:].T),
             resolution=None if frequencies is None else _resolution(head),
             normalisation=normalisation,
-            remarks=_not_understood(path, head[count.end() :]),
+            warnings=_not_understood(path, head[count.end() :]),
         )
     )
 

@@ -19,7 +19,8 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.naming import composed
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, check_values
 from fatigue.readers.foreign.histories.header import Header, header_frequencies, read_header
-from fatigue.readers.foreign.histories.rows import find_rows, read_values
+from fatigue.readers.foreign.histories.number_rows import find_rows
+from fatigue.readers.foreign.histories.row_values import read_values
 from fatigue.readers.foreign.histories.statements import (
     normalisation_in,
     stated_length,
@@ -134,7 +135,7 @@ def _history(
     time_column: str | None,
 ) -> ForeignHistory:
     """Pick time and modal coordinates out of a table (t, c)."""
-    channels, kept, remarks = _filled(path, header.channels, table)
+    channels, kept, warnings = _filled(path, header.channels, table)
     header = replace(header, channels=tuple(channels), names=tuple(tuple(n[k] for k in kept) for n in header.names))
     table = table[:, kept]
     if len(kept) < 2:
@@ -154,7 +155,7 @@ def _history(
             tuple(channels[k].name or f"column {k + 1}" for k in taken),
             seconds,
             np.ascontiguousarray(table[:, taken].T),
-            remarks,
+            warnings,
             unit=tuple(channels[k].unit for k in taken),
             resolution=resolution,
             lines=lines,
@@ -167,7 +168,7 @@ def _filled(
 ) -> tuple[list[Channel], list[int], tuple[Problem, ...]]:
     """Leave out columns without a name that hold nothing, as spreadsheets leave them, and counts of the rows."""
     count = np.arange(len(table))
-    timed, kept, remarks = any(c.is_time for c in channels), [], []
+    timed, kept, warnings = any(c.is_time for c in channels), [], []
     for k, own in enumerate(channels):
         empty = np.isnan(table[:, k]).all()
         if (own.name and not _COUNT_NAME.match(own.name)) or not (timed or (empty and not own.name)):
@@ -178,8 +179,8 @@ def _filled(
                 continue
             named = f"is named {own.name!r}" if own.name else "has no name"
             what = f"column {k + 1} {named} and counts the rows; it is left out"
-            remarks.append(Problem("row_count", str(path), what, "Export without it"))
-    return [channels[k] for k in kept], kept, tuple(remarks)
+            warnings.append(Problem("row_count", str(path), what, "Export without it"))
+    return [channels[k] for k in kept], kept, tuple(warnings)
 
 
 def _times(path: Path, header: Header, wanted: str | None) -> list[int]:

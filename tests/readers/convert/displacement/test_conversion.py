@@ -105,7 +105,7 @@ def test_a_wrong_one_stops_the_conversion(simulated, change, factor, words):
         convert(wrong)
     assert "tee.op2, displacement" in str(caught.value)
     assert not options.out.exists()
-    assert convert(replace(wrong, accept=("displacement",))).audit.is_red
+    assert convert(replace(wrong, accept=("displacement",))).audit.red
 
 
 def test_units_of_all_files_count(simulated, tmp_path):

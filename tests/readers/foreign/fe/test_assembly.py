@@ -152,8 +152,8 @@ def test_unstable_modes_are_told(tmp_path, table):
     two_modes(writer)
     (tmp_path / "a.op2").write_bytes(writer.close())
     found = read_op2(tmp_path / "a.op2")
-    (remark,) = [r for r in found.remarks if r.code == "unstable_mode"]
-    assert "1 modes have a negative eigenvalue, mode 2 the first (-2526.62)" in remark.what
+    (warning,) = [r for r in found.warnings if r.code == "unstable_mode"]
+    assert "1 modes have a negative eigenvalue, mode 2 the first (-2526.62)" in warning.what
 
 
 def test_own_words_of_forces_must_agree(tmp_path):
@@ -254,7 +254,7 @@ def test_unit_loads_beside_modes(tmp_path, model):
     path = both(tmp_path / "both.op2")
     alone = read_op2(path)
     assert (alone.analysis, alone.mode.tolist()) == ("modal", [1, 2, 3, 4, 5])
-    assert str(alone.remarks[0]).endswith(
+    assert str(alone.warnings[0]).endswith(
         "3 static subcases (21, 22, 23) are left out beside the modes. Name them as interface modes if they are unit "
         "loads of the modal basis."
     )
@@ -262,7 +262,7 @@ def test_unit_loads_beside_modes(tmp_path, model):
     assert found.mode.tolist() == [1, 2, 3, 4, 5, 21, 23]
     assert found.static_modes == (21, 23)
     assert np.array_equal(found.frequency, [*alone.frequency, np.nan, np.nan], equal_nan=True)
-    assert found.remarks[0].what.startswith("1 static subcases (22)")
+    assert found.warnings[0].what.startswith("1 static subcases (22)")
     assert found.shape.shape == (7, len(tee().model.xyz), 6)
     count = 4 * len(tee().model.quads)
     assert np.array_equal(found.force[:5, :count], alone.force[:, :count])
@@ -280,9 +280,9 @@ def test_unit_loads_without_forces_are_told(tmp_path):
         writer.table("OUGV1", [writer.identification(1, 1, 0, 8, subcase=case), writer.shape(rows)])
     writer.table("OGPFB1", [writer.identification(1, 19, 0, 10, subcase=22), writer.forces(unit_loads()[0].rows)])
     (tmp_path / "a.op2").write_bytes(writer.close())
-    (remark,) = read_op2(tmp_path / "a.op2").remarks
-    assert "1 static subcases have displacements and no grid point forces, subcase 21 the first" in remark.what
-    assert not read_op2(tmp_path / "a.op2", 22).remarks
+    (warning,) = read_op2(tmp_path / "a.op2").warnings
+    assert "1 static subcases have displacements and no grid point forces, subcase 21 the first" in warning.what
+    assert not read_op2(tmp_path / "a.op2", 22).warnings
 
 
 def test_shapes_in_any_order_of_grids(tmp_path, model):
@@ -301,10 +301,10 @@ def test_shapes_in_any_order_of_grids(tmp_path, model):
 
 
 def test_a_unit_load_with_the_number_of_a_mode(tmp_path):
-    """A subcase cannot be told from a mode of the same number: it stays out, and the remark says why."""
+    """A subcase cannot be told from a mode of the same number: it stays out, and the warning says why."""
     found = read_op2(both(tmp_path / "both.op2", (5, 21, 22)), interface=(5, 21, 22))
     assert found.mode.tolist() == [1, 2, 3, 4, 5, 21, 22]
-    assert "subcase 5 has the number of a mode and needs another" in found.remarks[0].remedy
+    assert "subcase 5 has the number of a mode and needs another" in found.warnings[0].remedy
 
 
 def test_coordinates_of_subcases_not_asked_for_remind_of_them(tmp_path):
@@ -327,7 +327,9 @@ def test_interface_modes_that_are_not_there(tmp_path):
     """Names of interface modes that are neither a mode nor a static subcase are told."""
     found = read_op2(both(tmp_path / "both.op2"), interface=(4, 21, 22, 23, 24, 25))
     assert found.mode.tolist() == [1, 2, 3, 4, 5, 21, 22, 23]
-    assert [remark.what for remark in found.remarks] == ["of the interface modes named, 2 have no forces, 24 the first"]
+    assert [warning.what for warning in found.warnings] == [
+        "of the interface modes named, 2 have no forces, 24 the first"
+    ]
 
 
 @pytest.mark.parametrize(("units", "length", "force"), [("mm-t-s", 1.0, 1.0), ("m-kg-s", 1000.0, 1.0)])

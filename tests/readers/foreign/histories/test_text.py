@@ -447,7 +447,7 @@ def test_pandas_tables(read):
     """An index without a name that counts the rows is left out and told; names over several rows are read."""
     history = read(",time,q_1\n0,0.0,5.0\n1,0.1,6.0\n2,0.2,7.0\n")
     assert (history.mode.tolist(), history.time.tolist()) == ([1], [0.0, 0.1, 0.2])
-    assert [str(remark).split(": ", 1)[1] for remark in history.remarks] == [
+    assert [str(warning).split(": ", 1)[1] for warning in history.warnings] == [
         "column 1 has no name and counts the rows; it is left out. Export without it."
     ]
     assert read(",time,q_1\n3,0.0,5.0\n1,0.1,6.0\n").mode.tolist() == [0, 1]

@@ -5,92 +5,21 @@ from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 
 from fatigue.errors import DataError, Problem
+from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.fields import FREE, ROW, Split, split_commas, split_line
 from fatigue.readers.foreign.nastran.deck.lines import Line, place
 from fatigue.readers.foreign.nastran.deck.notes import LeftOut
-from fatigue.readers.foreign.nastran.deck.numbers import integer, real
 from fatigue.readers.foreign.nastran.deck.replication import repeats, replicated
 
 _NAME = re.compile(r"[A-Z][A-Z0-9_]*\Z", re.ASCII)
 _WORDS = ("THRU", "BY", "EXCEPT", "ENDTHRU", "ALL", "YES", "NO", "SYM")  # may begin a line after one that goes on
 
 
-@dataclass(frozen=True, slots=True)
-class Card:
-    """One bulk data card: its upper-case name, its data fields (field 2 first), and the file and line it begins in."""
-
-    name: str
-    fields: tuple[str, ...]
-    source: str
-    line: int
-
-    @property
-    def where(self) -> str:
-        """Its place, for messages."""
-        return place(self.source, self.line)
-
-    def text(self, at: int) -> str:
-        """Field ``at``, empty if the card ends before."""
-        return self.fields[at] if at < len(self.fields) else ""
-
-    def integer(self, at: int, default: int | None = None) -> int:
-        """Whole number in field ``at``; an empty field takes the default."""
-        text = self.fields[at] if at < len(self.fields) else ""
-        if text.isdigit() and len(text) < 9 and text.isascii():  # nearly all of them
-            return int(text)
-        if (value := integer(text)) is not None:
-            return value
-        if not text and default is not None:
-            return default
-        raise self._bad(at, text, "a whole number")
-
-    def identity(self) -> int:
-        """Id of the card, a whole number above 0 in its first field."""
-        if (value := self.integer(0)) < 1:
-            raise self._bad(0, self.text(0), "a whole number above 0")
-        return value
-
-    def real(self, at: int, default: float | None = None) -> float:
-        """Real number in field ``at``, in any NASTRAN spelling such as ``2.9+7``; an empty field takes the default."""
-        text = self.fields[at] if at < len(self.fields) else ""
-        if not text and default is not None:
-            return default
-        try:
-            return real(text)
-        except ValueError as error:
-            raise self._bad(at, text.upper(), str(error)) from None
-
-    def no_more_than(self, count: int) -> None:
-        """Refuse data in fields that the card does not have.
-
-        Raises
-        ------
-        DataError : a field after the first ``count`` is not empty
-        """
-        for at in range(count, len(self.fields)):
-            if self.fields[at]:
-                raise DataError(
-                    Problem(
-                        "too_many_fields",
-                        self.where,
-                        f"{self.name} has {count} data fields, and a further one holds {self.fields[at]!r}",
-                        "Correct the card; a comma too many shifts its fields",
-                    )
-                )
-
-    def _bad(self, at: int, text: str, wanted: str) -> DataError:
-        found = f"is {text!r}, not {wanted}" if text else "is empty"
-        remedy = "Correct the card"
-        if "," in text:
-            remedy += f"; only a comma in the first {FREE} columns separates fields"
-        return DataError(Problem("bad_field", self.where, f"{self.name} field {at + 2} {found}", remedy))
-
-
 @dataclass(slots=True)
 class _Open:
     """A card that may go on, or stray continuation lines, without a name and kept as ``lines``.
 
-    ``announced`` is the mark of field 10; ``doubtful`` a number such as ``+1.`` in its place, which is data unless a
+    ``announced`` is the mark of field 10; ``unsure`` a number such as ``+1.`` in its place, which is data unless a
     continuation follows; ``flows`` tells that the last line ended in a comma, ``start`` and ``width`` where the fields
     of the last line begin and how many its form has. ``pattern`` is the replicating line that made the card.
     """
@@ -101,7 +30,7 @@ class _Open:
     wanted: bool
     fields: list[str] = field(default_factory=list)
     announced: str = ""
-    doubtful: str = ""
+    unsure: str = ""
     unread: str = ""
     flows: bool = False
     start: int = 0
@@ -111,14 +40,14 @@ class _Open:
 
     def card(self) -> Card:
         """Close the card."""
-        data = [*self.fields, self.doubtful] if self.doubtful else self.fields
+        data = [*self.fields, self.unsure] if self.unsure else self.fields
         return Card(self.name, tuple(data), self.source, self.line)
 
     def complete(self) -> None:
         """Fill the last line with empty fields, as a continuation begins a line of its own."""
         length = len(self.fields) - self.start
         self.fields += [""] * (max(self.width, -(-length // self.width) * self.width) - length)
-        self.doubtful = ""
+        self.unsure = ""
 
 
 @dataclass(slots=True)
@@ -233,7 +162,7 @@ def _stray(head: str, now: _Open | None, where: str) -> Problem | None:
 
 def _begin(now: _Open, split: Split) -> None:
     if now.wanted:
-        now.fields, now.width, now.doubtful, now.unread = split.data, split.width, split.doubtful, split.unread
+        now.fields, now.width, now.unsure, now.unread = split.data, split.width, split.unsure, split.unread
     now.announced, now.flows = split.mark, split.flows
 
 
@@ -243,7 +172,12 @@ def _go_on(now: _Open, split: Split, problems: list[Problem]) -> None:
         now.lines.append(split)
     elif now.wanted:
         now.complete()
-        now.start, now.width, now.doubtful, now.unread = len(now.fields), split.width, split.doubtful, split.unread
+        now.start, now.width, now.unsure, now.unread = (
+            len(now.fields),
+            split.width,
+            split.unsure,
+            split.unread,
+        )
         if split.width == ROW and now.start % ROW and any(split.data):
             where = place(now.source, now.line)
             what = f"a line of small fields follows half a line of large ones of this {now.name}"
@@ -260,7 +194,7 @@ def _flow(now: _Open, line: str) -> None:
         now.lines.append(split._replace(data=before.data + split.data, width=before.width))
     elif now.wanted:
         now.fields += split.data
-        now.doubtful = split.doubtful
+        now.unsure = split.unsure
     now.announced, now.flows = split.mark, split.flows
 
 

@@ -13,14 +13,14 @@ ROW = 8
 class Split(NamedTuple):
     """A line in fields: the data, the mark of field 10, and the number of data fields its form has in a line.
 
-    ``doubtful`` is a number such as ``+1.`` in the place of the mark, which is data unless a continuation follows;
+    ``unsure`` is a number such as ``+1.`` in the place of the mark, which is data unless a continuation follows;
     ``flows`` tells that the line ends in a comma; ``unread`` is text behind the data that is no mark.
     """
 
     data: list[str]
     mark: str
     width: int
-    doubtful: str = ""
+    unsure: str = ""
     flows: bool = False
     unread: str = ""
 
@@ -52,18 +52,18 @@ def split_commas(parts: list[str]) -> Split:
     flows = bool(body) and not body[-1]
     if flows:
         body.pop()
-    mark = doubtful = ""
+    mark = unsure = ""
     if body and _is_mark(body[-1]):
         mark, flows = body.pop().upper(), False
     elif len(body) == width + 1 and body[-1][:1] == "+" and not flows:
         mark = body.pop().upper()
-        doubtful = "" if mark[1:].isdigit() else mark
+        unsure = "" if mark[1:].isdigit() else mark
     at = width
     while at < len(body):
         if at + 1 < len(body) and _is_mark(body[at]) and (not body[at + 1] or _is_mark(body[at + 1])):
             del body[at : at + 2]
         at += width
-    return Split(body, mark, width, doubtful, flows)
+    return Split(body, mark, width, unsure, flows)
 
 
 def _is_mark(text: str) -> bool:

@@ -18,10 +18,10 @@ _VARIABLE = re.compile(r"\$\{(\w+)\}|\$(\w+)|%(\w+)%")
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """The file an INCLUDE means, and a doubt where two files could be meant."""
+    """The file an INCLUDE means, and a warning where two files could be meant."""
 
     path: Path
-    doubt: Problem | None = None
+    warning: Problem | None = None
 
 
 def is_include(line: str) -> bool:
@@ -151,7 +151,7 @@ def _in_any_case(path: Path) -> Path | None:
 
 
 def _two_files(found: list[Path], name: str, where: str) -> Problem | None:
-    """Doubt where the file beside the including file and the one beside the root deck differ."""
+    """Warning where the file beside the including file and the one beside the root deck differ."""
     if len(found) < 2 or found[0].samefile(found[1]) or found[0].read_bytes() == found[1].read_bytes():
         return None
     return Problem(

@@ -34,11 +34,11 @@ def is_deck(head: str) -> bool:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Deck:
-    """A NASTRAN input file with its INCLUDEs: lines before BEGIN BULK, bulk data lines, doubts, and included files."""
+    """A NASTRAN input file with its INCLUDEs: lines before BEGIN BULK, bulk data lines, warnings and included files."""
 
     control: list[Line]
     bulk: list[Line]
-    remarks: tuple[Problem, ...] = ()
+    warnings: tuple[Problem, ...] = ()
     included: tuple[Path, ...] = ()
 
 
@@ -50,7 +50,7 @@ class _Reading:
     begins: bool  # the root deck itself has BEGIN BULK
     in_control: bool = True
     beside: tuple[str, int] | None = None  # first line of a block beside the model, and how many followed
-    remarks: list[Problem] = field(default_factory=list)
+    warnings: list[Problem] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
     included: dict[Path, None] = field(default_factory=dict)
 
@@ -91,7 +91,7 @@ def read_deck(path: Path) -> Deck:
     if reading.in_control:
         reading.problems += _without_begin(bulk)
     refuse(DataError, reading.problems[:10])
-    return Deck(control, bulk, tuple(reading.remarks), tuple(reading.included))
+    return Deck(control, bulk, tuple(reading.warnings), tuple(reading.included))
 
 
 def _without_begin(lines: list[Line]) -> list[Problem]:
@@ -132,7 +132,7 @@ def _note_beside(reading: _Reading) -> None:
         where, count = reading.beside
         what = f"the block that begins here is no part of the model; its {count} lines are left out"
         remedy = "Nothing to do if its shells carry no weld to assess"
-        reading.remarks.append(Problem("block_left_out", where, what, remedy, count))
+        reading.warnings.append(Problem("block_left_out", where, what, remedy, count))
 
 
 def _after_end(lines: Iterator[Line], source: str, number: int, reading: _Reading) -> None:
@@ -146,7 +146,7 @@ def _after_end(lines: Iterator[Line], source: str, number: int, reading: _Readin
     count += len(reading.problems) - before  # INCLUDEs of files that are not there
     del reading.problems[before:]
     if count:
-        reading.remarks.append(
+        reading.warnings.append(
             Problem(
                 "after_enddata",
                 place(source, number),
@@ -171,22 +171,22 @@ def _lines(path: Path, text: str, parents: tuple[Path, ...], reading: _Reading) 
 
 
 def _included(path: Path, number: int, name: str, parents: tuple[Path, ...], reading: _Reading) -> Iterator[Line]:
-    """Lines of an included file; one that only the control sections miss is a remark."""
+    """Lines of an included file; one that only the control sections miss is a warning."""
     where = place(str(path), number)
     try:
         found = find_include(name, path, reading.root, where)
         text = _text(found.path, where)
     except DataError as error:
         if reading.in_control and reading.begins:
-            reading.remarks += [
+            reading.warnings += [
                 Problem("control_include", p.where, f"{p.what}; its control statements are left out", p.remedy)
                 for p in error.problems
             ]
         else:
             reading.problems += error.problems
         return
-    if found.doubt:
-        reading.remarks.append(found.doubt)
+    if found.warning:
+        reading.warnings.append(found.warning)
     parents = (*parents, path.resolve())
     if found.path.resolve() in parents or len(parents) > _DEEPEST:
         raise DataError(Problem("include_loop", where, f"the file {found.path} includes itself", "Remove the INCLUDE"))

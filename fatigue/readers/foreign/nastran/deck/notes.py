@@ -1,4 +1,4 @@
-"""What a NASTRAN deck holds that its model does not: counted while reading, told in remarks."""
+"""What a NASTRAN deck holds that its model does not: counted while reading, told in warnings."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -30,12 +30,12 @@ class LeftOut:
         else:
             self.count[name], self.first[name] = 1, place(source, number)
 
-    def remarks(self, source: str) -> list[Problem]:
+    def warnings(self, source: str) -> list[Problem]:
         """Tell what was left out of the deck ``source``, each kind with its number and its first place."""
-        remarks = []
+        warnings = []
         if self.unread:
             what = f"{self.unread} lines hold text behind column 72 that is no continuation mark; it is not read"
-            remarks.append(
+            warnings.append(
                 Problem("unread_text", self.first_unread, what, "Nothing to do if it is no data", self.unread)
             )
         shells = [name for name in sorted(self.count) if name.startswith(_SHELL_NAMES)]
@@ -43,7 +43,7 @@ class LeftOut:
             listed = ", ".join(f"{self.count[name]} {name}" for name in shells)
             what = f"cards that may be shells are not read: {listed}; no weld is found at them"
             remedy = "Write plates as CQUAD4, CTRIA3 and the like; nothing to do for other elements"
-            remarks.append(Problem("unread_shells", self.first[shells[0]], what, remedy, len(shells)))
+            warnings.append(Problem("unread_shells", self.first[shells[0]], what, remedy, len(shells)))
         if self.count:
             folder = f"{Path(source).parent}/"
             listed = ", ".join(
@@ -52,8 +52,8 @@ class LeftOut:
             )
             what = f"cards that weld lines do not need are left out, number, name and first place: {listed}"
             remedy = "Nothing to do, unless a name is misspelt"
-            remarks.append(Problem("cards_left_out", source, what, remedy, sum(self.count.values())))
-        return remarks
+            warnings.append(Problem("cards_left_out", source, what, remedy, sum(self.count.values())))
+        return warnings
 
 
 @dataclass(slots=True)
@@ -68,7 +68,7 @@ class Twice:
         self.first = self.first if self.count else (f"{name} {number}", where)
         self.count[name] += 1
 
-    def remarks(self) -> list[Problem]:
+    def warnings(self) -> list[Problem]:
         """Tell how many there are, by name."""
         if not self.count:
             return []

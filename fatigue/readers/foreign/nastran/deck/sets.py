@@ -3,7 +3,7 @@
 import re
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.lines import Line, place
 
 _SET = re.compile(r"SET\s+(\d{1,9})\s*=\s*(.*)\Z", re.ASCII | re.DOTALL)
@@ -14,11 +14,11 @@ _NODES = ("GRID", "POINT", "NODE")
 def case_sets(lines: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
     """Read the integer SETs of case control, ``SET 5 = 1, 2 THRU 9 EXCEPT 6, 20``; other sets are left out.
 
-    Returns the sets, and a remark for each id that subcases define differently (the last holds).
+    Returns the sets, and a warning for each id that subcases define differently (the last holds).
     """
     text, where = "", ""
     sets: dict[int, list[int]] = {}
-    remarks = []
+    warnings = []
     for source, number, raw in lines:
         line = raw.strip()
         where = where if text else place(source, number)
@@ -30,19 +30,19 @@ def case_sets(lines: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
             if members is not None:
                 key = int(found[1])
                 if key in sets and sorted(sets[key]) != sorted(members):
-                    remarks.append(_redefined(key, where))
+                    warnings.append(_redefined(key, where))
                 sets[key] = members
         text = ""
-    return sets, remarks
+    return sets, warnings
 
 
 def joined_sets(on_cards: dict[int, list[int]], control: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
     """Join the sets of bulk data and of case control, and tell which ids are defined differently; case control wins."""
-    sets, remarks = case_sets(control)
+    sets, warnings = case_sets(control)
     for key in sorted(on_cards.keys() & sets.keys()):
         if sorted(on_cards[key]) != sorted(sets[key]):
-            remarks.append(_redefined(key, f"{control[0][0]}, case control"))
-    return on_cards | sets, remarks
+            warnings.append(_redefined(key, f"{control[0][0]}, case control"))
+    return on_cards | sets, warnings
 
 
 def _redefined(key: int, where: str) -> Problem:
@@ -54,7 +54,7 @@ def _redefined(key: int, where: str) -> Problem:
 def set_on_card(sets: dict[int, list[int]], card: Card) -> list[Problem]:
     """Keep the grids of a SET1, SET3 or SET card; sets of anything else are left out.
 
-    Returns a remark where the set cannot be read or its id has other members already (the last holds).
+    Returns a warning where the set cannot be read or its id has other members already (the last holds).
     """
     if card.name == "SET1":
         words = card.fields[1:]
@@ -72,9 +72,9 @@ def set_on_card(sets: dict[int, list[int]], card: Card) -> list[Problem]:
     if members is None:
         what = f"{card.name} {key} is no list of grids; it is left out"
         return [Problem("no_set", card.where, what, "Write ids, THRU and EXCEPT")]
-    remarks = [_redefined(key, card.where)] if key in sets and sorted(sets[key]) != sorted(members) else []
+    warnings = [_redefined(key, card.where)] if key in sets and sorted(sets[key]) != sorted(members) else []
     sets[key] = members
-    return remarks
+    return warnings
 
 
 def set_members(words: list[str]) -> list[int] | None:

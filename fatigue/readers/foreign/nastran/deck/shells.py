@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.model import Section, Shell
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 
 _THICKNESS_SPREAD = 0.01
 _FULL_BENDING = 1.0  # 12 I / T^3 of a homogeneous plate
@@ -50,7 +50,7 @@ class Property:
 
 
 def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
-    """Decode a shell; unequal corner thicknesses are averaged and make the thickness doubtful.
+    """Decode a shell; unequal corner thicknesses are averaged and have to be confirmed.
 
     Raises
     ------
@@ -64,13 +64,13 @@ def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
     prop = properties.get(pid, Property(Section(np.nan)))
     base = prop.section.thickness
     given = [card.real(layout.thickness + k, np.nan) for k in range(n)] if len(card.fields) > layout.thickness else []
-    thickness, doubt = None, ""
+    thickness, unconfirmed = None, ""
     if not all(isnan(t) for t in given):
         scale = base if card.integer(layout.flag, 0) == 1 else 1.0
         corner = [base if isnan(t) else t * scale for t in given]
         thickness = float(np.mean(corner))
         if not np.ptp(corner) <= _THICKNESS_SPREAD * thickness:
-            doubt = f"{card.name} {card.text(0)} has unequal corner thicknesses"
+            unconfirmed = f"{card.name} {card.text(0)} has unequal corner thicknesses"
     return Shell(
         element,
         pid,
@@ -78,7 +78,7 @@ def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
         tuple([card.integer(2 + n + k, 0) for k in range(layout.mids)]),
         thickness,
         _offset(card, layout.offset, prop, base if thickness is None else thickness),
-        doubt,
+        unconfirmed,
     )
 
 
@@ -96,13 +96,13 @@ def pshell(card: Card) -> Property:
     ratio = card.real(4, _FULL_BENDING)
     thickness = card.real(2, 0.0)
     if not membrane or (bending not in (membrane, -1)) or card.integer(10, 0):
-        doubt = f"PSHELL {card.text(0)} has materials of its own for membrane and bending"
+        unconfirmed = f"PSHELL {card.text(0)} has materials of its own for membrane and bending"
     elif abs(ratio - _FULL_BENDING) > 1e-6:
-        doubt = f"PSHELL {card.text(0)} has the bending stiffness 12 I / T^3 = {ratio:g} of another section"
+        unconfirmed = f"PSHELL {card.text(0)} has the bending stiffness 12 I / T^3 = {ratio:g} of another section"
     else:
-        doubt = ""
+        unconfirmed = ""
     _checked(card, thickness)
-    return Property(Section(thickness or np.nan, 0.0, doubt), card)
+    return Property(Section(thickness or np.nan, 0.0, unconfirmed), card)
 
 
 def pcomp(card: Card) -> Property:

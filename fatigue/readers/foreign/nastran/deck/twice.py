@@ -3,7 +3,7 @@
 import re
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 
 _DIGITS = re.compile(r"[+-]?(\d*)\.?(\d*)(?:[ED]?([+-]?\d+))?\Z", re.IGNORECASE | re.ASCII)
 _FULL = 6  # characters; a shorter number was not cut to fit its field

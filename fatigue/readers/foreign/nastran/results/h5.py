@@ -94,7 +94,7 @@ def read_h5_model(path: Path) -> FeModel:
     with _open(path) as read:
         grid = read("NASTRAN/INPUT/NODE/GRID")
         cards = _frame_cards(read)
-        sections, doubts = _sections(read)
+        sections, unconfirmed = _sections(read)
         shells = [shell for name in _SHELLS for shell in _shells(name, read(f"{_ELEMENTS}/{name}", required=False))]
         plotel = read(f"{_ELEMENTS}/PLOTEL", required=False)
         row_of = {int(n): k for k, n in enumerate(grid["ID"])}
@@ -117,15 +117,15 @@ def read_h5_model(path: Path) -> FeModel:
         turned = sorted(node for node, k in row_of.items() if grid[k]["CD"])
         axes = [frames.axes_at(int(grid[row_of[n]]["CD"]), xyz[n]) for n in turned]
     for pid in {shell.pid for shell in shells} - sections.keys():
-        doubts[pid] = f"property {pid} is not a PSHELL or PCOMP of this model"
+        unconfirmed[pid] = f"property {pid} is not a PSHELL or PCOMP of this model"
     return FeModel(
         source=source,
         mesh=shell_mesh(source, xyz, shells, sections),
         frame_node=np.array(turned, np.int64),
         frame=np.array(axes).reshape(-1, 3, 3),
-        section_doubt=doubts,
-        element_doubt={shell.element: shell.doubt for shell in shells if shell.doubt},
-        remarks=_other_elements(path),
+        unconfirmed_sections=unconfirmed,
+        unconfirmed_elements={shell.element: shell.unconfirmed for shell in shells if shell.unconfirmed},
+        warnings=_other_elements(path),
         marker_edges={"PLOTEL": plotel["G"].astype(np.int64)} if len(plotel) else {},
     )
 
@@ -242,21 +242,21 @@ def _is_blank(value: float) -> bool:
 
 def _sections(read: Any) -> tuple[dict[int, Section], dict[int, str]]:
     """Shell properties, and those whose thickness needs a confirmation by hand."""
-    sections, doubts = {}, {}
+    sections, unconfirmed = {}, {}
     for row in read("NASTRAN/INPUT/PROPERTY/PSHELL", required=False):
         pid = int(row["PID"])
         thickness = float(row["T"])
         sections[pid] = Section(np.nan if thickness == 0 or _is_blank(thickness) else thickness)
         if row["MID2"] not in (row["MID1"], -1) or abs(float(row["BK"]) - 1.0) > 1e-6 or row["MID4"] > 0:
-            doubts[pid] = f"PSHELL {pid} has a bending stiffness of its own"
+            unconfirmed[pid] = f"PSHELL {pid} has a bending stiffness of its own"
     ply = read("NASTRAN/INPUT/PROPERTY/PCOMP/PLY", required=False)
     for row in read("NASTRAN/INPUT/PROPERTY/PCOMP/IDENTITY", required=False):
         pid, first = int(row["PID"]), int(row["PLY_POS"])
         total = float(ply["T"][first : first + int(row["PLY_LEN"])].sum())
         bottom = float(row["Z0"])
         sections[pid] = Section(total, 0.0 if _is_blank(bottom) else bottom + total / 2)
-        doubts[pid] = f"PCOMP {pid} is a layered section"
-    return sections, doubts
+        unconfirmed[pid] = f"PCOMP {pid} is a layered section"
+    return sections, unconfirmed
 
 
 def _shells(name: str, rows: Rows) -> Iterator[Shell]:

@@ -79,7 +79,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
     if not forces and not unusable:
         raise _without_forces(op2)
     results = assemble(str(path), op2.label, forces, shapes, summary, stated, subcase, unusable, interface)
-    return results if op2.is_closed else replace(results, remarks=(*results.remarks, _unclosed(op2)))
+    return results if op2.is_closed else replace(results, warnings=(*results.warnings, _unclosed(op2)))
 
 
 def _tables(op2: Op2File) -> tuple[Op2Table, ...]:

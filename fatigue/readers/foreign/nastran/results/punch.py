@@ -53,7 +53,7 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
     results = assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
     highest = float(np.max(results.frequency, initial=0.0, where=results.frequency > LOWEST_HZ))
     if 0 < highest < _PERHAPS_BUCKLING_HZ:
-        return replace(results, remarks=(*results.remarks, _perhaps_buckling(path, highest)))
+        return replace(results, warnings=(*results.warnings, _perhaps_buckling(path, highest)))
     return results
 
 

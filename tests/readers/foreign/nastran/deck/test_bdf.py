@@ -38,7 +38,7 @@ def test_real_files():
     assert zoo.mesh.element.size == 17
     assert zoo.mesh.thickness[zoo.mesh.pid == 6].tolist() == [1.0] * 3
     assert zoo.mesh.thickness[zoo.mesh.pid == 7].tolist() == [1.5] * 3
-    assert set(zoo.section_doubt) == {6, 7, 9}
+    assert set(zoo.unconfirmed_sections) == {6, 7, 9}
     assert zoo.marker_edges["PLOTEL"].tolist() == [[1, 23]]
     quad8 = zoo.mesh.mid[zoo.mesh.element == 60][0]
     assert zoo.mesh.node[quad8[1:]].tolist() == [63, 62, 65]
@@ -113,8 +113,8 @@ def test_sections(read, section, thickness, offset, doubt):
     """Thickness and mid-surface of plain, sandwich and layered properties."""
     model = read(QUAD.replace("PSHELL,1,1,2.,1,,1", section))
     assert (model.mesh.thickness[0], model.mesh.offset[0]) == (thickness, offset)
-    assert doubt in model.section_doubt.get(1, "")
-    assert bool(doubt) == (1 in model.section_doubt)
+    assert doubt in model.unconfirmed_sections.get(1, "")
+    assert bool(doubt) == (1 in model.unconfirmed_sections)
 
 
 @pytest.mark.parametrize(
@@ -134,14 +134,14 @@ def test_shells_with_their_own_thickness_and_offset(read, card, thickness, offse
     """Corner thicknesses, absolute or relative, and ZOFFS of every shell card."""
     model = read(PLATE + card + "\n")
     assert (model.mesh.thickness[0], model.mesh.offset[0]) == (pytest.approx(thickness), offset)
-    assert (1 in model.element_doubt) == doubtful
+    assert (1 in model.unconfirmed_elements) == doubtful
 
 
 def test_missing_property_is_a_doubt(read):
     """A shell without PSHELL has no thickness, and says why."""
     model = read(QUAD.replace("PSHELL,1,", "PSHELL,2,"))
     assert np.isnan(model.mesh.thickness[0])
-    assert "not a PSHELL" in model.section_doubt[1]
+    assert "not a PSHELL" in model.unconfirmed_sections[1]
 
 
 def test_sets_and_markers(read):
@@ -176,9 +176,9 @@ def test_sets_and_markers(read):
     ],
 )
 def test_the_same_card_twice(read, card, count):
-    """Equal content, in whatever form, is taken once, and a remark counts it."""
-    (remark,) = read(QUAD + card).remarks
-    assert (remark.code, remark.count) == ("twice", count)
+    """Equal content, in whatever form, is taken once, and a warning counts it."""
+    (warning,) = read(QUAD + card).warnings
+    assert (warning.code, warning.count) == ("twice", count)
 
 
 def test_blank_systems_of_a_grid_written_twice_are_those_of_grdset(read):
@@ -186,7 +186,7 @@ def test_blank_systems_of_a_grid_written_twice_are_those_of_grdset(read):
     text = QUAD + "CORD2R,5,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\nGRID,2,5,1.,0.,0.\n"
     with pytest.raises(DataError, match="grid 2 is already defined"):
         read(text)
-    assert read(text + "GRDSET,,5\n").remarks[0].code == "twice"
+    assert read(text + "GRDSET,,5\n").warnings[0].code == "twice"
 
 
 @pytest.mark.parametrize("x", ["1.4", "1.000001", "1.00001-0", "0.9", ""])
@@ -205,15 +205,15 @@ def test_the_finer_of_two_equal_grids_is_taken(read):
 
 
 def test_cards_nobody_needs_are_counted(read):
-    """Whatever stands on them is no reason to refuse: one remark gives name, number and first place of each."""
+    """Whatever stands on them is no reason to refuse: one warning gives name, number and first place of each."""
     model = read(
         QUAD + 'DEQATN  1       F(A,B)= A/B\nFORCE,1,x,,!!\n+,?\nforce   2\nQUAD4,7,1,1,2,3,4\nCBUSH,1,,"oops\nRBE2,5\n'
         "CBAR,77,1,1\nSET1,oops,1,2\nPLOTEL,8,a,b\nSPOINT,7,THRU,9\n"
     )
     assert model.other_cards == {"CBAR": 1, "CBUSH": 1, "RBE2": 1}
-    assert [remark.code for remark in model.remarks] == ["no_mark", "no_set", "no_mark", "cards_left_out"]
-    remark = model.remarks[-1]
-    assert remark.count == 7
+    assert [warning.code for warning in model.warnings] == ["no_mark", "no_set", "no_mark", "cards_left_out"]
+    warning = model.warnings[-1]
+    assert warning.count == 7
     for words in (
         "1 DEQATN (line 7)",
         "2 FORCE (line 8)",
@@ -221,15 +221,15 @@ def test_cards_nobody_needs_are_counted(read):
         "1 RBE2 (line 13)",
         "1 SPOINT (line 17)",
     ):
-        assert words in remark.what
+        assert words in warning.what
 
 
 def test_shells_that_are_not_read_are_told(read):
     """Elements of other kinds and misspelt names beside plates: no weld is found at them."""
     model = read(QUAD + "CQUAD2,7,1,1,2,3,4\nCQUAD44,8,1,1,2,3,4\nCSHEAR,9,1,1,2,3,4\nCSHEAR,10,1,1,2,3,4\nCBUSH,11\n")
-    (remark,) = [r for r in model.remarks if r.code == "unread_shells"]
-    assert remark.where.endswith("line 7")
-    assert "not read: 1 CQUAD2, 1 CQUAD44, 2 CSHEAR; no weld" in remark.what
+    (warning,) = [r for r in model.warnings if r.code == "unread_shells"]
+    assert warning.where.endswith("line 7")
+    assert "not read: 1 CQUAD2, 1 CQUAD44, 2 CSHEAR; no weld" in warning.what
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
-from fatigue.readers.foreign.nastran.deck.cards import Card, cards
+from fatigue.readers.foreign.nastran.deck.card import Card
+from fatigue.readers.foreign.nastran.deck.cards import cards
 from fatigue.readers.foreign.nastran.deck.notes import LeftOut
 from tests.readers.bdf_writer import FORMS, Fields, spelling, write
 
@@ -198,7 +199,7 @@ def same(a: FeModel, b: FeModel) -> bool:
     pairs = [(getattr(a.mesh, name), getattr(b.mesh, name)) for name in a.mesh.__dataclass_fields__]
     pairs += [(a.frame_node, b.frame_node), (a.frame, b.frame), (a.node_sets[9], b.node_sets[9])]
     pairs += [(a.marker_edges["PLOTEL"], b.marker_edges["PLOTEL"])]
-    texts = all(getattr(a, name) == getattr(b, name) for name in ("section_doubt", "element_doubt"))
+    texts = all(getattr(a, name) == getattr(b, name) for name in ("unconfirmed_sections", "unconfirmed_elements"))
     return texts and all(np.array_equal(x, y, equal_nan=x.dtype.kind == "f") for x, y in pairs)
 
 
@@ -272,8 +273,8 @@ def test_genuine_decks():
     assert polar.frame_node.size == 50
     surface = read_bdf(folder / "bsurf_trailing_comma.bdf")
     assert (surface.mesh.element.size, surface.other_cards) == (414, {"CTETRA": 1137})
-    assert "2 BSURF (line 2494)" in surface.remarks[-1].what
+    assert "2 BSURF (line 2494)" in surface.warnings[-1].what
     formula = read_bdf(folder / "deqatn.bdf")
     assert formula.mesh.element.size == 28
-    assert "1 DEQATN (line 75)" in formula.remarks[-1].what
-    assert formula.remarks[-1].count == 64
+    assert "1 DEQATN (line 75)" in formula.warnings[-1].what
+    assert formula.warnings[-1].count == 64

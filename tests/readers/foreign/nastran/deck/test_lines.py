@@ -77,13 +77,13 @@ def test_nested_includes_beside_the_root_or_the_including_file(tree):
     root = tree({"a.bdf": "INCLUDE 'sub/b.inc'\n", "sub/b.inc": "INCLUDE 'c.inc'\n", "c.inc": "GRID,1\n"})
     assert texts(root) == ["GRID,1"]
     root = tree({"a.bdf": "INCLUDE 'sub/b.inc'\n", "sub/c.inc": "GRID,1\n"})
-    assert read_deck(root).remarks == ()
+    assert read_deck(root).warnings == ()
     root = tree({"a.bdf": "INCLUDE 'sub/b.inc'\n", "sub/c.inc": "GRID,2\n"})
     assert texts(root) == ["GRID,2"]
-    (remark,) = read_deck(root).remarks
-    assert remark.code == "two_includes"
-    assert f"{root.parent}/sub/c.inc or {root.parent}/c.inc, which differ; the first is read" in remark.what
-    assert remark.where == f"{root.parent}/sub/b.inc, line 1"
+    (warning,) = read_deck(root).warnings
+    assert warning.code == "two_includes"
+    assert f"{root.parent}/sub/c.inc or {root.parent}/c.inc, which differ; the first is read" in warning.what
+    assert warning.where == f"{root.parent}/sub/b.inc, line 1"
 
 
 @pytest.mark.parametrize(
@@ -127,8 +127,8 @@ def test_includes_of_the_control_sections(tree):
     root = tree({"a.bdf": deck + QUAD, "case.inc": "SET 5 = 1,\n 2\n"})
     model = read_bdf(root)
     assert model.node_sets[5].tolist() == [1, 2]
-    assert [r.code for r in model.remarks] == ["control_include", "control_include"]
-    assert "SSSALTERDIR" in model.remarks[0].what
+    assert [r.code for r in model.warnings] == ["control_include", "control_include"]
+    assert "SSSALTERDIR" in model.warnings[0].what
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,7 @@ def test_bytes_of_a_deck(tree, data):
     """Line ends, byte order marks, marks of the end, encodings, odd separators in comments, form feeds."""
     model = read_bdf(tree({"a.bdf": data}))
     assert (model.mesh.element.tolist(), model.mesh.node.tolist()) == ([1], [1, 2, 3, 4])
-    assert model.remarks == ()
+    assert model.warnings == ()
 
 
 def test_sections_in_included_files(tree):
@@ -178,9 +178,9 @@ def test_sections_in_included_files(tree):
     root = tree({"a.bdf": "SOL 101\nCEND\nINCLUDE 'b.inc'\n", "b.inc": "SET 1 = 2\nBEGIN BULK\n" + QUAD})
     assert read_bdf(root).node_sets[1].tolist() == [2]
     files = {"a.bdf": "INCLUDE 'b.inc'\nGRID,9\n$\nINCLUDE 'none.inc'\nENDDATA\n", "b.inc": QUAD + "ENDDATA\n"}
-    (remark,) = read_bdf(tree(files)).remarks
-    assert (remark.code, remark.count) == ("after_enddata", 2)
-    assert remark.where.endswith("b.inc, line 7")
+    (warning,) = read_bdf(tree(files)).warnings
+    assert (warning.code, warning.count) == ("after_enddata", 2)
+    assert warning.where.endswith("b.inc, line 7")
 
 
 @pytest.mark.parametrize(
@@ -196,4 +196,4 @@ def test_blocks_beside_the_model(tree, block):
     after = "GRID,9,,5.,5.,5.\n" if "END," in block else ""
     model = read_bdf(tree({"a.bdf": "BEGIN BULK\n" + QUAD + block + after}))
     assert model.mesh.node.tolist() == [1, 2, 3, 4] + [9] * bool(after)
-    assert [(r.code, r.count) for r in model.remarks] == [("block_left_out", 2)]
+    assert [(r.code, r.count) for r in model.warnings] == [("block_left_out", 2)]

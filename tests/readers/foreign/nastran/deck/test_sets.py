@@ -2,7 +2,7 @@
 
 import pytest
 
-from fatigue.readers.foreign.nastran.deck.cards import Card
+from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.sets import case_sets, joined_sets, set_members, set_on_card
 
 
@@ -34,20 +34,20 @@ def test_set_expressions(words, members):
 
 
 def test_sets_of_case_control():
-    """Continued lines, any case and spacing; a set that subcases define differently is a remark and the last holds."""
+    """Continued lines, any case and spacing; a set that subcases define differently is a warning and the last holds."""
     assert sets("SET A = 1\nSET 2 = 5") == {2: [5]}
     assert sets("set 3=1,2,\n  5 thru 7,\n 9\nDISP = 3") == {3: [1, 2, 5, 6, 7, 9]}
     lines = [("a", 1, "SET 5 = 1, 2"), ("a", 2, "SET 5 = 2,1"), ("a", 9, "SET 5 = 3,"), ("a", 10, "4")]
-    found, remarks = case_sets(lines)
+    found, warnings = case_sets(lines)
     assert found == {5: [3, 4]}
-    assert [(r.where, r.code) for r in remarks] == [("a, line 9", "set_twice")]
+    assert [(r.where, r.code) for r in warnings] == [("a, line 9", "set_twice")]
 
 
 def test_sets_of_both_sections():
     """Case control wins over bulk data, and a difference is told."""
-    found, remarks = joined_sets({1: [1], 2: [2, 3]}, [("a", 1, "SET 2 = 2,3"), ("a", 2, "SET 1 = 5")])
+    found, warnings = joined_sets({1: [1], 2: [2, 3]}, [("a", 1, "SET 2 = 2,3"), ("a", 2, "SET 1 = 5")])
     assert found == {1: [5], 2: [2, 3]}
-    assert [r.where for r in remarks] == ["a, case control"]
+    assert [r.where for r in warnings] == ["a, case control"]
 
 
 @pytest.mark.parametrize(
@@ -64,8 +64,8 @@ def test_sets_of_both_sections():
     ],
 )
 def test_sets_of_bulk_data(name, fields, expected, codes):
-    """SET1, SET3 and SET of OptiStruct; a set nobody can read is a remark and no refusal."""
+    """SET1, SET3 and SET of OptiStruct; a set nobody can read is a warning and no refusal."""
     known = {7: [5]} if expected == {7: [1, 2]} else {}
     card = Card(name, tuple(word.replace("-", "") for word in fields.split()), "a", 3)
-    assert [remark.code for remark in set_on_card(known, card)] == codes
+    assert [warning.code for warning in set_on_card(known, card)] == codes
     assert known == expected

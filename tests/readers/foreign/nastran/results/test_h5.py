@@ -44,7 +44,7 @@ def test_model_is_that_of_the_bulk_data():
     ours, theirs = read_h5_model(H5), read_bdf(NASTRAN / "modes_elements.bdf")
     for name in ("node", "xyz", "element", "corner", "mid", "pid", "thickness", "offset"):
         assert np.array_equal(getattr(ours.mesh, name), getattr(theirs.mesh, name))
-    assert {6, 7, 9} <= set(ours.section_doubt)
+    assert {6, 7, 9} <= set(ours.unconfirmed_sections)
 
 
 def change(file, name, column, value, row=slice(None)):
@@ -110,11 +110,11 @@ def test_h5_sections_and_frames(h5):
     file["NASTRAN/INPUT/ELEMENT/CQUAD4"][:] = rows
     file.close()
     model = read_h5_model(path)
-    assert "bending" in model.section_doubt[4]
+    assert "bending" in model.unconfirmed_sections[4]
     assert model.frame_node.tolist() == [1]
     assert model.mesh.thickness[model.mesh.element == rows["EID"][0]] == pytest.approx(0.3)
-    assert int(rows["EID"][1]) in model.element_doubt
-    assert "not a PSHELL" in model.section_doubt[77]
+    assert int(rows["EID"][1]) in model.unconfirmed_elements
+    assert "not a PSHELL" in model.unconfirmed_sections[77]
 
 
 def test_h5_without_rows_of_forces(h5):

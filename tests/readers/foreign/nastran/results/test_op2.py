@@ -154,7 +154,7 @@ def test_static_subcases_beside_modes_are_left_out(tmp_path):
         ],
     )
     found = read_op2(path)
-    assert (found.mode.tolist(), found.remarks[0].code) == ([5], "static_left_out")
+    assert (found.mode.tolist(), found.warnings[0].code) == ([5], "static_left_out")
 
 
 def test_missing_forces_name_the_tables(tmp_path):
@@ -168,7 +168,7 @@ def test_missing_forces_name_the_tables(tmp_path):
 
 
 def test_modes_without_forces_are_told(tmp_path):
-    """A mode in the summary only is a remark, a mode with forces only a refusal."""
+    """A mode in the summary only is a warning, a mode with forces only a refusal."""
     case = tee().results
     path = tmp_path / "tee.op2"
 
@@ -181,7 +181,7 @@ def test_modes_without_forces_are_told(tmp_path):
         path.write_bytes(part.data + whole[at:])
         return read_op2(path)
 
-    assert cut(case, modes=range(1, 8)).remarks[0].code == "modes_without_forces"
+    assert cut(case, modes=range(1, 8)).warnings[0].code == "modes_without_forces"
     with pytest.raises(DataError, match="mode 5 has forces and is not in the eigenvalue summary"):
         cut(case, modes=range(1, 5))
 
@@ -313,7 +313,7 @@ def test_damaged_files_are_refused_or_told_by_the_audit(tmp_path, word, order):
         except DataError:
             outcomes["refused"] += 1
             continue
-        if audit(found, model).is_red:
+        if audit(found, model).red:
             outcomes["red"] += 1
             continue
         outcomes["harmless"] += 1

@@ -39,12 +39,12 @@ def test_superelements_are_told_from_titles(tmp_path, word, label, superelement)
 
 
 def test_superelements_beside_the_residual_structure(tmp_path):
-    """The residual structure is read, and a remark says that superelements are left out."""
+    """The residual structure is read, and a warning says that superelements are left out."""
     label = "T".ljust(128) + SUBTITLE + "SUPERELEMENT {}"
     tables = [lambda w, s=s: one_mode(w, label=label.format(s)) for s in (0, 10, 20)]
     found = read_back(tmp_path / "a.op2", *tables)
     assert found.force.shape == (1, 1, 6)
-    assert found.remarks[0].what.startswith("2 blocks of superelements are left out")
+    assert found.warnings[0].what.startswith("2 blocks of superelements are left out")
 
 
 def test_shapes_and_eigenvalues_of_superelements_are_not_those_of_the_residual_structure(tmp_path):

@@ -152,7 +152,7 @@ def test_a_file_cut_anywhere_is_refused_or_right(tmp_path, word, order, dialect)
         except DataError:
             continue
         assert is_right(found, modes=1)
-        assert [remark.code for remark in found.remarks] == ["no_end_mark"]
+        assert [warning.code for warning in found.warnings] == ["no_end_mark"]
         read.append(len(data) - end)
     assert read == [word + 8]
 
@@ -165,7 +165,7 @@ def test_the_genuine_file_cut_or_spoilt(tmp_path):
     for at in range(len(data) - 1, 0, -29):
         os.truncate(cut, at)
         with suppress(DataError):
-            assert read_op2(cut).remarks[-1].code == "no_end_mark"
+            assert read_op2(cut).warnings[-1].code == "no_end_mark"
         spoilt = bytearray(data)
         spoilt[at] ^= 1 << (at % 8)
         path.write_bytes(spoilt)

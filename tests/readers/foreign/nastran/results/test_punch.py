@@ -109,9 +109,9 @@ def test_punch_of_load_factors(tmp_path):
     text = punch(replace(tee().results, frequency=np.array([0.1, 0.2, 0.3, 0.4, 0.5])))
     path = tmp_path / "a.pch"
     path.write_text(text)
-    assert "no mode is above 0.5 Hz" in read_punch(path).remarks[-1].what
+    assert "no mode is above 0.5 Hz" in read_punch(path).warnings[-1].what
     path.write_text(punch(tee().results))
-    assert not read_punch(path).remarks
+    assert not read_punch(path).warnings
     path.write_text(text.replace("MODE =     3", "MODE =      "))
     with pytest.raises(DataError, match="the eigenvalue or the mode is no number"):
         read_punch(path)

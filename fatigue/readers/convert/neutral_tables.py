@@ -1,13 +1,19 @@
-"""Tables of the neutral format, built from a foreign model, its forces and its weld lines."""
+"""Tables of the neutral format, built from a foreign model, its forces, its modes and its weld lines."""
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from fatigue.readers.convert.audit.shell_rows import elastic_modes
+from fatigue.readers.convert.modal_basis import SimulationModes, mode_masses, mode_scale
 from fatigue.readers.convert.weld_lines import FoundWelds
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 
@@ -87,7 +93,37 @@ def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
     }
 
 
-def history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDArray[np.float64]) -> pa.Table:
+def modes_table(results: FeResults, interface_modes: Sequence[int], simulated: SimulationModes) -> pa.Table:
+    """Modes of both sides: frequencies of the FE run, masses of the simulation where it gives them, and the scale."""
+    is_static = results.analysis == "static"
+    interface = np.isin(results.mode, np.array(interface_modes, np.int64))
+    rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
+    kind = np.where(interface | is_static, "interface", np.where(rigid, "rigid", "normal"))
+    mass, of_simulation = mode_masses(results, simulated)
+    return pa.table(
+        {
+            "mode": results.mode,
+            "frequency_hz": np.nan_to_num(results.frequency),
+            "modal_mass": np.where(np.isfinite(of_simulation), of_simulation, mass),
+            "kind": kind.tolist(),
+            "scale": mode_scale(results, simulated),
+        }
+    )
+
+
+def event_tables(
+    histories: Sequence[ForeignHistory], mode: NDArray[np.int64], factor: NDArray[np.float64]
+) -> dict[tuple[str, str], pa.Table]:
+    """Build a table of coordinates for each event, by the name of the event and that of its file."""
+    tables: dict[tuple[str, str], pa.Table] = {}
+    for history in histories:
+        event = Path(history.source).stem
+        file = _unused(f"q_{_slug(event)}.parquet", {name for _, name in tables})
+        tables[event, file] = _history_table(history, mode, factor)
+    return tables
+
+
+def _history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDArray[np.float64]) -> pa.Table:
     """Coordinates of the modes, (m,), each times its ``factor``, (m,)."""
     row = {int(m): k for k, m in enumerate(history.mode)}
     return pa.table(
@@ -99,3 +135,15 @@ def history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDAr
             },
         }
     )
+
+
+def _slug(name: str) -> str:
+    return "".join(c if c.isalnum() or c in "-_." else "_" for c in name).lower() or "event"
+
+
+def _unused(name: str, files: Collection[str]) -> str:
+    """Return the name, with a number if two events have the same."""
+    stem, number = name.removesuffix(".parquet"), 2
+    while name in files:
+        name, number = f"{stem}_{number}.parquet", number + 1
+    return name
