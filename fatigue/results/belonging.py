@@ -21,7 +21,10 @@ from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
 from fatigue.results.json_records import write_json
 from fatigue.results.provenance import read_provenance
 
-PICTURE, PAGE, PRINT, WORKBOOK = "weld_lines.vtp", "report.html", "report.pdf", "nodes.xlsx"
+PICTURE = "weld_lines.vtp"
+PAGE = "report.html"
+PRINT = "report.pdf"
+WORKBOOK = "nodes.xlsx"
 CSV_TABLES = ("nodes", "damage", "cycles", "welds")
 DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
