@@ -30,7 +30,8 @@ from fatigue.results import (
     row_count,
     table_writer,
 )
-from fatigue.results.folder import publish, result_log, staging_in
+from fatigue.results.folder import result_log
+from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
 from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point

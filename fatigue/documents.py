@@ -28,7 +28,7 @@ from fatigue.results import (
     refuse_mixed,
     write_list,
 )
-from fatigue.results.folder import publish, staging_in
+from fatigue.results.publish import publish, staging_in
 from fatigue.stages import stage
 
 log = logging.getLogger(__name__)

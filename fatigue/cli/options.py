@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import click
 
+from fatigue.cli.arguments import FOLDER
 from fatigue.cli.numbers import ABOVE_ZERO
 from fatigue.readers.convert.mode_list import mode_list
 from fatigue.readers.convert.option_fields import OptionField, option_fields, parts_with_options
@@ -16,7 +17,6 @@ Command = Callable[..., None]
 Asked = TypeVar("Asked")
 
 FILE = click.Path(path_type=Path)
-FOLDER = click.Path(path_type=Path, file_okay=False)
 
 
 def asking_for(asked: type[Asked], argument: str) -> Callable[[Command], Command]:

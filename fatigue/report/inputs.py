@@ -10,11 +10,12 @@ import numpy as np
 
 from fatigue.case import Case, Event
 from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.files.hashes import sha256
 from fatigue.life.records.history import ModalHistory, kept
 from fatigue.readers.neutral.body import Mesh, read_mesh
 from fatigue.readers.neutral.history import read_history
 from fatigue.readers.neutral.register.weld_register import REGISTER
-from fatigue.results import case_of, sha256
+from fatigue.results import case_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)

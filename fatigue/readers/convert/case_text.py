@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.neutral.register.weld_register import REGISTER
 
 CASE = "case.toml"

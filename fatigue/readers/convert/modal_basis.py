@@ -15,7 +15,7 @@ from fatigue.readers.foreign.histories.mode_frequencies import StatedFrequencies
 from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.coordinate_units import SYSTEM_UNITS, compared
-from fatigue.readers.units.systems import Normalisation
+from fatigue.readers.units.systems import Normalisation, UnitSystem
 
 Floats = NDArray[np.float64]
 SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency [Hz] and modal mass by mode
@@ -229,6 +229,12 @@ def mode_scale(results: FeResults, table: SimulationModes) -> Floats:
     """Factor (m,) on the coordinates of each mode, where simulation and FE run normalise differently."""
     mass, simulated = mode_masses(results, table)
     return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
+
+
+def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
+    """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
 
 
 def assumed_masses(results: FeResults, table: SimulationModes) -> list[Problem]:

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
+from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
-from fatigue.readers.convert.folder import sha256
 from fatigue.readers.convert.option_fields import words_of
 from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.neutral.register.conversion import COMMAND, LINES
 from fatigue.readers.neutral.register.weld_register import RegisterRow
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.readers.convert.modal_basis import coordinate_units
 from fatigue.readers.convert.weld_lines import FoundWelds
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import SHELL_KINDS, FeResults
@@ -75,12 +76,6 @@ def rows_at_welds(found: FoundWelds, results: FeResults) -> NDArray[np.int64]:
     """Find the force rows of the elements beside the welds to assess."""
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     return np.flatnonzero(np.isin(results.element, elements) & results.of_element)
-
-
-def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
-    """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
-    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
-    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
 
 
 def neutral_forces(

@@ -1,6 +1,6 @@
 """The foreign formats that are read, one entry each: recognition, reading, refusals and help are made of them.
 
-A new format is one entry at the end of ``FORMATS``; its line in ``fatigue.known_formats``, which refuses it, goes.
+A new format is one entry at the end of ``FORMATS``; its line in ``files.known_formats``, which refuses it, goes.
 ``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",), extra=Extra("nptdms", "NI TDMS
 input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` would be a binary one; a text, as
 an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.

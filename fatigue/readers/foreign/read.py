@@ -7,8 +7,8 @@ from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.extras import install_command
-from fatigue.known_formats import HEAD, known_format, own_format, unknown_binary
-from fatigue.naming import missing_foreign_file
+from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
+from fatigue.files.naming import missing_foreign_file
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.formats import (

@@ -27,8 +27,8 @@ from fatigue.readers.foreign.histories.header_problems import (
     some_of,
 )
 from fatigue.readers.foreign.histories.number_rows import NumberRows
-from fatigue.readers.text.layout import declared_separator
 from fatigue.readers.text.numbers import Decimal, is_number, plain_number
+from fatigue.readers.text.separator import declared_separator
 from fatigue.readers.units.channel_names import (
     TIME_UNITS,
     Channel,

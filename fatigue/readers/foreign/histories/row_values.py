@@ -14,7 +14,8 @@ from fatigue.errors import DataError
 from fatigue.readers.foreign.histories.bad_rows import row_problem
 from fatigue.readers.foreign.histories.number_rows import NUMERIC_START, NumberRows, is_rule
 from fatigue.readers.text.encoding import Encoding, read_text
-from fatigue.readers.text.layout import COMMENTS, text_lines
+from fatigue.readers.text.layout import COMMENTS
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.numbers import is_gap, split_fields, written_apart
 
 _ERROR = re.compile(r"#(?:N/?A|NV|[A-Z]+[!?]|[A-Z]+/0!)\Z")  # a spreadsheet's, which is no comment

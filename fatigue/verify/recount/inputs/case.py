@@ -11,7 +11,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.results import case_of, new_inputs, sha256
+from fatigue.files.hashes import sha256
+from fatigue.results import case_of, new_inputs
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from fatigue.naming import composed, missing_file
+from fatigue.files.naming import composed, missing_file
 from fatigue.readers.neutral.tables import open_table
 
 DECOMPOSED = unicodedata.normalize("NFD", "Träger")

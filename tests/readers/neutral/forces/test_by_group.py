@@ -1,4 +1,4 @@
-"""Forces in pieces: sorted or not, Parquet or CSV, a group of welds gets its rows, numbered as in the file."""
+"""Forces by group: sorted or not, Parquet or CSV, a group of welds gets its rows, numbered as in the file."""
 
 import gzip
 from concurrent.futures import ThreadPoolExecutor
@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.forces import order
-from fatigue.readers.neutral.forces import pieces as module
-from fatigue.readers.neutral.forces.pieces import ForcePieces
+from fatigue.readers.neutral.forces import by_group as module
+from fatigue.readers.neutral.forces import sorted_copy
+from fatigue.readers.neutral.forces.by_group import ForcesByGroup
 
 GROUPS = (("A", "B"), ("C",), ("D", "E"))
 
@@ -28,11 +28,11 @@ def forces(rows=60, seed=0, shuffled=False):
     return pd.DataFrame({"weld": weld, "node": rng.integers(1, 9, rows), "fx_N": np.arange(rows, dtype=float)})
 
 
-def pieces_of(path, scratch):
+def groups_of(path, scratch):
     """Read every group: welds, row numbers, values."""
-    pieces = ForcePieces(path, GROUPS, scratch)
+    by_group = ForcesByGroup(path, GROUPS, scratch)
     for welds, i in zip(GROUPS, range(len(GROUPS)), strict=True):
-        table = pieces.table(i)
+        table = by_group.table(i)
         names, code = table.groups("weld")
         value = table.numbers("fx_N")
         where = [int(table.where("fx_N", row).rsplit(" ", 1)[1]) for row in range(table.rows)]
@@ -54,7 +54,7 @@ def test_every_row_comes_once_with_its_number(tmp_path_factory, seed, shuffled, 
     table.to_csv(path, index=False) if suffix == "csv" else table.to_parquet(path, index=False, row_group_size=7)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "ROWS_KEPT", at_once)
-        for welds, names, value, where in pieces_of(path, tmp_path / "scratch"):
+        for welds, names, value, where in groups_of(path, tmp_path / "scratch"):
             wanted = table[table.weld.isin(welds)]
             assert sorted(value) == wanted.fx_N.tolist()
             assert [n for _, n in sorted(zip(value, names, strict=True))] == wanted.weld.tolist()
@@ -64,27 +64,27 @@ def test_every_row_comes_once_with_its_number(tmp_path_factory, seed, shuffled, 
 def test_a_sorted_file_is_not_copied(tmp_path):
     """Sorted by weld: read from where it is."""
     forces().to_parquet(tmp_path / "f.parquet", index=False, row_group_size=10)
-    list(pieces_of(tmp_path / "f.parquet", tmp_path / "scratch"))
+    list(groups_of(tmp_path / "f.parquet", tmp_path / "scratch"))
     assert not (tmp_path / "scratch").exists()
 
 
 def test_an_unsorted_file_that_does_not_fit_is_sorted_on_disk(tmp_path, monkeypatch):
     """More rows than may be decoded at once: a parted copy, small parts of the file in each."""
-    monkeypatch.setattr(order, "ROWS_APART", 21)
+    monkeypatch.setattr(sorted_copy, "ROWS_OF_BUCKET", 21)
     monkeypatch.setattr(module, "ROWS_KEPT", 16)
     forces(shuffled=True).to_parquet(tmp_path / "f.parquet", index=False, row_group_size=5)
-    list(pieces_of(tmp_path / "f.parquet", tmp_path / "scratch"))
-    parts = [pa.ipc.open_file(path).read_all().num_rows for path in (tmp_path / "scratch").iterdir()]
-    assert len(parts) == 3
-    assert sum(parts) == 60
+    list(groups_of(tmp_path / "f.parquet", tmp_path / "scratch"))
+    buckets = [pa.ipc.open_file(path).read_all().num_rows for path in (tmp_path / "scratch").iterdir()]
+    assert len(buckets) == 3
+    assert sum(buckets) == 60
 
 
 def test_tables_can_be_asked_for_again(tmp_path):
     """First pass to check, second to use."""
     forces().to_parquet(tmp_path / "f.parquet", index=False, row_group_size=10)
-    pieces = ForcePieces(tmp_path / "f.parquet", GROUPS, tmp_path / "scratch")
-    first = [pieces.table(i).numbers("fx_N").tolist() for i in range(3)]
-    assert [pieces.table(i).numbers("fx_N").tolist() for i in range(3)] == first
+    by_group = ForcesByGroup(tmp_path / "f.parquet", GROUPS, tmp_path / "scratch")
+    first = [by_group.table(i).numbers("fx_N").tolist() for i in range(3)]
+    assert [by_group.table(i).numbers("fx_N").tolist() for i in range(3)] == first
 
 
 @pytest.mark.parametrize("suffix", ["parquet", "csv"])
@@ -95,7 +95,7 @@ def test_an_unknown_weld_is_refused_with_its_row(tmp_path, suffix):
     path = tmp_path / f"f.{suffix}"
     table.to_csv(path, index=False) if suffix == "csv" else table.to_parquet(path, index=False, row_group_size=9)
     with pytest.raises(DataError, match=rf"f\.{suffix}: column weld, row 42: 'F' is not one of the welds"):
-        ForcePieces(path, GROUPS, tmp_path / "scratch")
+        ForcesByGroup(path, GROUPS, tmp_path / "scratch")
 
 
 def test_a_group_without_rows_is_an_empty_table(tmp_path):
@@ -105,7 +105,7 @@ def test_a_group_without_rows_is_an_empty_table(tmp_path):
         path = tmp_path / f"f.{suffix}"
         rest = table[table.weld != "C"]
         rest.to_csv(path, index=False) if suffix == "csv" else rest.to_parquet(path, index=False)
-        empty = ForcePieces(path, GROUPS, tmp_path / suffix).table(1)
+        empty = ForcesByGroup(path, GROUPS, tmp_path / suffix).table(1)
         assert (empty.rows, empty.numbers("fx_N").size, empty.groups("weld")[1].size) == (0, 0, 0)
 
 
@@ -116,43 +116,43 @@ def small_groups(tmp_path, monkeypatch):
     table = pd.DataFrame({"weld": np.repeat(welds, 10), "node": 1, "fx_N": np.arange(400.0)})
     table.to_parquet(tmp_path / "f.parquet", index=False, row_group_size=64)
     monkeypatch.setattr(module, "ROWS_KEPT", 200)
-    pieces = ForcePieces(tmp_path / "f.parquet", [(weld,) for weld in welds], tmp_path / "scratch")
-    source, decoded = pieces._source, []
-    monkeypatch.setattr(pieces, "_source", replace(source, read=lambda i: decoded.append(i) or source.read(i)))
-    return pieces, decoded
+    by_group = ForcesByGroup(tmp_path / "f.parquet", [(weld,) for weld in welds], tmp_path / "scratch")
+    source, decoded = by_group._source, []
+    monkeypatch.setattr(by_group, "_source", replace(source, read=lambda i: decoded.append(i) or source.read(i)))
+    return by_group, decoded
 
 
-def values_of(pieces, group):
+def values_of(by_group, group):
     """Values of a group's rows."""
-    return pieces.table(group).numbers("fx_N").tolist()
+    return by_group.table(group).numbers("fx_N").tolist()
 
 
 def test_groups_asked_for_nearly_in_order_decode_every_row_group_once(small_groups):
     """Several groups share a row group; those asked for are up to six apart."""
-    pieces, decoded = small_groups
+    by_group, decoded = small_groups
     order = [first + i for first in range(0, 40, 5) for i in (3, 0, 4, 1, 2)]
     for group in order:
-        assert values_of(pieces, group) == list(range(10 * group, 10 * group + 10))
-        assert sum(pieces._source.rows[i] for i in pieces._decoded) <= 200
+        assert values_of(by_group, group) == list(range(10 * group, 10 * group + 10))
+        assert sum(by_group._source.rows[i] for i in by_group._decoded) <= 200
     assert sorted(decoded) == list(range(7))
-    assert values_of(pieces, 0) == list(range(10))  # and any group at any time
+    assert values_of(by_group, 0) == list(range(10))  # and any group at any time
 
 
 def test_a_piece_is_dropped_when_all_its_groups_have_been_asked_for(small_groups):
     """Groups asked for in turn: one piece in memory, and none at the end."""
-    pieces, decoded = small_groups
+    by_group, decoded = small_groups
     for group in range(40):
-        assert values_of(pieces, group) == list(range(10 * group, 10 * group + 10))
-        assert len(pieces._decoded) <= 1
-    assert not pieces._decoded
+        assert values_of(by_group, group) == list(range(10 * group, 10 * group + 10))
+        assert len(by_group._decoded) <= 1
+    assert not by_group._decoded
     assert decoded == list(range(7))
 
 
-def test_threads_share_the_pieces(small_groups):
+def test_threads_share_what_is_decoded(small_groups):
     """Each thread gets the rows of the group it asks for."""
-    pieces, _ = small_groups
+    by_group, _ = small_groups
     with ThreadPoolExecutor(6) as pool:
-        values = list(pool.map(lambda group: values_of(pieces, group), [*range(40), *range(39, -1, -1)]))
+        values = list(pool.map(lambda group: values_of(by_group, group), [*range(40), *range(39, -1, -1)]))
     once = [list(range(10 * i, 10 * i + 10)) for i in range(40)]
     assert values == once + once[::-1]
 
@@ -161,7 +161,7 @@ def test_a_row_group_too_large_is_parted(tmp_path, monkeypatch):
     """A sorted file in one row group is copied into parts that fit."""
     monkeypatch.setattr(module, "ROWS_KEPT", 30)
     forces().to_parquet(tmp_path / "f.parquet", index=False)
-    list(pieces_of(tmp_path / "f.parquet", tmp_path / "scratch"))
+    list(groups_of(tmp_path / "f.parquet", tmp_path / "scratch"))
     assert (tmp_path / "scratch").exists()
 
 
@@ -171,12 +171,12 @@ def test_a_csv_file_of_unusual_types_is_read_all_the_same(tmp_path, name):
     table = forces()
     table["node"] = table.node.astype(float)
     table.to_csv(tmp_path / "f.csv", index=False)
-    pieces = ForcePieces(tmp_path / "f.csv", GROUPS, tmp_path / "scratch")
-    assert sorted(np.concatenate([pieces.table(i).integers("node") for i in range(3)])) == sorted(table.node)
+    by_group = ForcesByGroup(tmp_path / "f.csv", GROUPS, tmp_path / "scratch")
+    assert sorted(np.concatenate([by_group.table(i).integers("node") for i in range(3)])) == sorted(table.node)
     table[name] = table[name].astype(object)
     table.loc[table.weld[table.weld == "C"].index[0], name] = "x"
     table.to_csv(tmp_path / "f.csv", index=False)
-    spoilt = ForcePieces(tmp_path / "f.csv", GROUPS, tmp_path / "again").table(1)
+    spoilt = ForcesByGroup(tmp_path / "f.csv", GROUPS, tmp_path / "again").table(1)
     spoilt.numbers(name)
     assert str(spoilt.problems[0]).startswith(f"f.csv: column {name}, row {(table.weld < 'C').sum() + 1}: 'x' is not")
 
@@ -187,9 +187,9 @@ def test_welds_may_be_numbers(tmp_path):
     for suffix in ("parquet", "csv"):
         path = tmp_path / f"f.{suffix}"
         table.to_csv(path, index=False) if suffix == "csv" else table.to_parquet(path, index=False)
-        pieces = ForcePieces(path, (("3", "1"), ("2",)), tmp_path / suffix)
-        assert pieces.table(0).texts("weld") == ["1", "1", "3"]
-        assert pieces.table(0).numbers("fx_N").tolist() == [0.0, 1.0, 3.0]
+        by_group = ForcesByGroup(path, (("3", "1"), ("2",)), tmp_path / suffix)
+        assert by_group.table(0).texts("weld") == ["1", "1", "3"]
+        assert by_group.table(0).numbers("fx_N").tolist() == [0.0, 1.0, 3.0]
 
 
 def test_a_damaged_row_group_is_refused(tmp_path):
@@ -200,7 +200,7 @@ def test_a_damaged_row_group_is_refused(tmp_path):
     content[100:4000] = bytes(3900)
     path.write_bytes(content)
     with pytest.raises(DataError, match=r"f\.parquet: cannot be read as Parquet"):
-        list(pieces_of(path, tmp_path / "scratch"))
+        list(groups_of(path, tmp_path / "scratch"))
 
 
 def test_many_unknown_welds_are_told_by_name(tmp_path):
@@ -211,7 +211,7 @@ def test_many_unknown_welds_are_told_by_name(tmp_path):
     table.loc[[50, 51], "weld"] = None
     table.to_parquet(tmp_path / "f.parquet", index=False, row_group_size=9)
     with pytest.raises(DataError) as refusal:
-        ForcePieces(tmp_path / "f.parquet", GROUPS, tmp_path / "scratch")
+        ForcesByGroup(tmp_path / "f.parquet", GROUPS, tmp_path / "scratch")
     assert [str(problem).split(". ")[0] for problem in refusal.value.problems] == [
         "f.parquet: column weld, row 51: the text is missing (and 1 more row)",
         "f.parquet: column weld, row 4: 'X' is not one of the welds",
@@ -227,7 +227,7 @@ def test_columns_without_a_name(tmp_path, index, suffix):
     table.insert(0, "", np.arange(60) if index else None)
     path = tmp_path / f"forces.{suffix}"
     table.to_csv(path, index=False) if suffix == "csv" else table.to_parquet(path, index=False, row_group_size=7)
-    piece = ForcePieces(path, GROUPS, tmp_path / "scratch").table(1)
+    piece = ForcesByGroup(path, GROUPS, tmp_path / "scratch").table(1)
     piece.expect(("weld", "node", "fx_N"), (), strict=False)
     assert [warning.code for warning in piece.warnings] == (["unknown_column"] if index else [])
     assert piece.numbers("fx_N").tolist() == table[table.weld == "C"].fx_N.tolist()
@@ -238,4 +238,4 @@ def test_a_packed_file_is_named(tmp_path):
     path = tmp_path / "forces.csv"
     path.write_bytes(gzip.compress(forces().to_csv(index=False).encode()))
     with pytest.raises(DataError, match=r"forces\.csv: this is a gzip archive"):
-        ForcePieces(path, GROUPS, tmp_path / "scratch")
+        ForcesByGroup(path, GROUPS, tmp_path / "scratch")

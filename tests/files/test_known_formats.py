@@ -22,7 +22,7 @@ from pyarrow import feather, orc
 
 from fatigue.case import load_case
 from fatigue.errors import FatigueError
-from fatigue.known_formats import known_format, misplaced
+from fatigue.files.misplaced import known_format, misplaced
 from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.neutral.tables import open_table
 

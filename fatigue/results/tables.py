@@ -1,13 +1,9 @@
-"""Result tables and records on disk: Parquet with unit and meaning of every column, JSON, hashes."""
+"""Result tables on disk: Parquet with unit and meaning of every column."""
 
 import base64
 import difflib
-import hashlib
-import json
-import platform
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +12,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from fatigue import __version__
 from fatigue.errors import DataError, Problem, given_names, given_path, refuse
 from fatigue.results.columns import ASSESSED, TABLES, ColumnType
 
@@ -26,13 +21,12 @@ _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
     "flag": pa.bool_(),
     "float": pa.float64(),
 }
-JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.results.folder`
 _CODED_TEXT = pa.dictionary(pa.int32(), pa.string())
 _ROWS_PER_GROUP = dict.fromkeys(TABLES, 65_536) | {"structural_stress": 131_072, "nodes": 16_384, "welds": 2_048}
 """Rows wait in memory until a group of them is full, and what Parquet says of each group until the file is closed.
 
-A waiting row takes 100 to 250 bytes, twice that where few come at once, as those of welds; what is said of a group
-takes 0.9 kB a column. With these sizes both are small for a million nodes: at most 70 MB for all tables together.
+A waiting row takes 100 to 250 bytes, and twice as much where few rows come at once, as they do for welds. What is said
+of a group takes 0.9 kB a column. With these sizes both are small for a million nodes: at most 70 MB for all tables.
 """
 _ENCODING: dict[str, Any] = {
     "compression": "zstd",
@@ -54,14 +48,14 @@ def schema(table: str) -> pa.Schema:
 
 
 def coded(codes: NDArray[np.integer], texts: Sequence[str]) -> pa.DictionaryArray:
-    """Make the text column ``texts[codes]``, null where a code is below 0; it keeps the codes and is quick to write."""
+    """Text column ``texts[codes]``, null where a code is below 0; it keeps the codes and is quick to write."""
     missing = codes < 0
     indices = pa.array(codes.astype(np.int32), mask=missing if missing.any() else None)
     return pa.DictionaryArray.from_arrays(indices, pa.array(texts, pa.string()))
 
 
 class TableWriter:
-    """Writes one result table in row groups of a fixed size, whatever the size of the pieces it is given."""
+    """Writes one result table in row groups of a fixed size, whatever the number of rows it is given at once."""
 
     def __init__(self, table: str, writer: pq.ParquetWriter) -> None:
         self._schema = _coded_schema(table)
@@ -73,7 +67,7 @@ class TableWriter:
     def write(self, columns: Mapping[str, Any]) -> None:
         """Append rows; every column of the table must be there, NaN in a float column meaning "not available".
 
-        Columns are sequences, numpy arrays, or Arrow arrays as `coded` makes them. Arrays may be kept for a while
+        Columns are sequences, numpy arrays, or Arrow arrays as ``coded`` makes them. Arrays may be kept for a while
         without a copy: they must not be changed afterwards.
         """
         arrays = [_arrow_array(columns[f.name], f.type) for f in self._schema]
@@ -90,7 +84,7 @@ class TableWriter:
     def _write(self, rows: int) -> None:
         """Write so many of the rows that are waiting."""
         table = pa.concat_tables(self._waiting)
-        # codes of different pieces mean different texts; Parquet keeps codes only where a row group has one meaning
+        # codes of different calls mean different texts; Parquet keeps codes only where a row group has one meaning
         self._writer.write_table(table.slice(0, rows).unify_dictionaries(), row_group_size=self._rows_per_group)
         self._waiting, self._rows = [table.slice(rows)], self._rows - rows
 
@@ -108,7 +102,7 @@ def _arrow_array(values: Any, type_: pa.DataType) -> pa.Array:
 
 
 def _coded_schema(table: str) -> pa.Schema:
-    """Give the schema of a result table as it is handed to Parquet, which is quickest with texts that have codes."""
+    """Schema of a result table as it is handed to Parquet, which is quickest with texts that have codes."""
     plain = schema(table)
     fields = [f.with_type(_CODED_TEXT) if f.type == pa.string() else f for f in plain]
     return pa.schema(fields, metadata=plain.metadata)
@@ -116,7 +110,7 @@ def _coded_schema(table: str) -> pa.Schema:
 
 @contextmanager
 def table_writer(folder: Path, table: str, result: str = "") -> Iterator[TableWriter]:
-    """Open ``<table>.parquet`` in a folder for writing, piece by piece; ``result``: hash of the result it is of."""
+    """Open ``<table>.parquet`` in a folder for writing, some rows at a time; ``result``: hash of its result."""
     floats = [c.name for c in TABLES[table] if c.type == "float"]
     texts = [c.name for c in TABLES[table] if c.type == "text"]
     # The file says that texts are texts, as its readers shall see them, and not the coded ones that it is made from.
@@ -133,9 +127,9 @@ def table_writer(folder: Path, table: str, result: str = "") -> Iterator[TableWr
         store_schema=False,
         **_ENCODING,
     ) as writer:
-        pieces = TableWriter(table, writer)
-        yield pieces
-        pieces.flush()
+        rows = TableWriter(table, writer)
+        yield rows
+        rows.flush()
         writer.add_key_value_metadata(said)
 
 
@@ -212,80 +206,3 @@ def readable(path: Path) -> Iterator[None]:
     else:
         return
     raise DataError(problem)
-
-
-def read_provenance(folder: Path | str) -> dict[str, Any]:
-    """Read ``provenance.json`` of a result folder.
-
-    Raises
-    ------
-    DataError : the folder holds no finished result
-    """
-    folder = given_path(folder, "folder")
-    path = folder / "provenance.json"
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        what, remedy = "no finished result in this folder", "Run `fatigue assess CASE -o DIR` first and give its DIR"
-        if (folder / JOURNAL).exists():
-            what = "no finished result in this folder: a new one was being put in place when the program was stopped"
-            remedy = "Run the same `fatigue assess` again, or `fatigue show`, which completes it"
-        raise DataError(Problem("no_result", str(folder), what, remedy)) from None
-    except (json.JSONDecodeError, UnicodeDecodeError, OSError) as error:
-        problem = Problem("damaged_result", str(path), f"cannot be read ({error})", "Run the assessment again")
-        raise DataError(problem) from None
-    if not isinstance(record, dict) or record.get("program") != "fatigue":
-        raise DataError(
-            Problem("no_result", str(path), "was not written by fatigue", "Give a folder that `fatigue assess` wrote")
-        )
-    return record
-
-
-def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:
-    """Name, size and SHA-256 of every input file, so that a result can be traced to its inputs."""
-    return [{"file": _relative(path, root), "bytes": path.stat().st_size, "sha256": sha256(path)} for path in paths]
-
-
-def sha256(path: Path | str) -> str:
-    """SHA-256 of a file's content."""
-    with Path(path).open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def software_versions() -> dict[str, str]:
-    """Versions of the program and of what its numbers rest on."""
-    packages = ("numpy", "scipy", "numba", "pyarrow", "pandas", "rainflow")
-    found = {"fatigue": __version__, "python": platform.python_version()}
-    for package in packages:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:  # an optional peer that is not installed has no say in the numbers
-            continue
-    return found
-
-
-def write_json(path: Path | str, record: Mapping[str, Any]) -> None:
-    """Write a record as UTF-8 JSON; infinite and missing numbers become null."""
-    text = json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False)
-    Path(path).write_text(text + "\n", encoding="utf-8")
-
-
-def json_ready(value: Any) -> Any:
-    """Turn numpy scalars, arrays and non-finite numbers into what JSON can say (null for infinite life)."""
-    if isinstance(value, Mapping):
-        return {str(k): json_ready(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray | list | tuple):
-        return [json_ready(v) for v in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not np.isfinite(value):
-        return None
-    return value
-
-
-def _relative(path: Path, root: Path) -> str:
-    """Name a file as its case does, ``root / name`` is where it is: also through links and from another folder."""
-    for path_there, root_there in ((path, root), (path.resolve(), root.resolve())):
-        if path_there.is_relative_to(root_there):
-            return path_there.relative_to(root_there).as_posix()
-    return path.as_posix()  # an input elsewhere on the disk keeps its full path

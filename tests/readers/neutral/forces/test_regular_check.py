@@ -9,12 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.forces import check
-from fatigue.readers.neutral.forces.check import NotRegular
-from fatigue.readers.neutral.forces.pieces import ForcePieces
-from fatigue.readers.neutral.forces.tables import COMPONENTS, check_nodal_forces
+from fatigue.readers.neutral.forces import regular_check
+from fatigue.readers.neutral.forces.by_group import ForcesByGroup
+from fatigue.readers.neutral.forces.convention import COMPONENTS
+from fatigue.readers.neutral.forces.nodal_forces import check_nodal_forces
+from fatigue.readers.neutral.forces.regular_check import NotRegular
 from fatigue.readers.neutral.line_file import line_file
-from tests.readers.neutral.forces.test_tables import small_body
+from tests.readers.neutral_tables import small_body
 
 GROUPS = (("seam",), ("ring",))
 IGNORED = 40
@@ -37,8 +38,8 @@ def table_of(lines, modes, stations, cycle):
 def is_regular(path, body, scratch, strict=True):
     """Run the check over all pieces."""
     modes, lines = body
-    pieces = ForcePieces(path, GROUPS, scratch)
-    check = pieces.regular_check(line_file(lines), modes, {IGNORED}, strict=strict)
+    forces = ForcesByGroup(path, GROUPS, scratch)
+    check = forces.regular_check(line_file(lines), modes, {IGNORED}, strict=strict)
     try:
         return check is not None and check.covers([check.runs(i) for i in range(len(check.rows))])
     except NotRegular:
@@ -48,9 +49,9 @@ def is_regular(path, body, scratch, strict=True):
 def refuse(path, body, scratch):
     """Check every group row by row."""
     modes, lines = body
-    pieces = ForcePieces(path, GROUPS, scratch)
+    forces = ForcesByGroup(path, GROUPS, scratch)
     for i in range(len(GROUPS)):
-        check_nodal_forces(pieces.table(i), lines.lines(slice(i, i + 1)), modes, {IGNORED}, strict=True)
+        check_nodal_forces(forces.table(i), lines.lines(slice(i, i + 1)), modes, {IGNORED}, strict=True)
 
 
 @settings(deadline=None, max_examples=60)
@@ -67,7 +68,7 @@ def test_rows_node_by_node_are_regular_and_spoilt_ones_are_not(
     path = tmp_path / "f.parquet"
     table.to_parquet(path, index=False, row_group_size=row_group)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(check, "ROWS_AT_ONCE", max(at_once, len(cycle) + 1))
+        patch.setattr(regular_check, "ROWS_AT_ONCE", max(at_once, len(cycle) + 1))
         assert is_regular(path, body, tmp_path)
         row, other = (data.draw(st.integers(0, len(table) - 1)) for _ in range(2))
         spoil = data.draw(st.sampled_from(["weld", "node", "mode", "fx_N", "mz_Nmm", "row", "repeated", "swapped"]))

@@ -1,23 +1,16 @@
-"""Files in the wrong place, recognised by their content: what each is called, and the way to one that is read there.
+"""Formats of files in the wrong place: how each is recognised, what it is called, the way to one that is read there.
 
 Every signature says how sure it is: [V] seen in a genuine file or written by its own library in the tests, [D] from its
 published description or the source of an open reader, [M] from memory, so that only the message hangs on it.
 """
 
 import re
-import zipfile
 from dataclasses import dataclass
-from pathlib import Path
-from typing import BinaryIO
-
-from fatigue.errors import Problem
-
-HEAD = 200_000  # bytes of a file that are looked at
 
 _OP2 = "Request GPFORCE(PLOT) with PARAM,POST,-1 and give the .op2"
 _CHANNELS = "Export time and modal coordinates as CSV"
-_CSV = "Save the sheet as CSV (UTF-8)"
-_UNPACK = "Unpack it and give the file inside"
+AS_CSV = "Save the sheet as CSV (UTF-8)"
+UNPACK = "Unpack it and give the file inside"
 _ANSYS_FORCES = (
     "Write the nodal forces of the weld elements with ESEL, FORCE,STATIC and NFORCE as a CSV of element_forces"
 )
@@ -50,11 +43,11 @@ BINARY = (
     Known("a bzip2 archive", "Unpack it: bunzip2", (b"BZh",)),  # [V]
     Known("an xz archive", "Unpack it: unxz", (b"\xfd7zXZ\0",)),  # [V]
     Known("a Zstandard archive", "Unpack it: unzstd", (b"\x28\xb5\x2f\xfd",)),  # [V]
-    Known("an LZ4 archive", _UNPACK, (b"\x04\x22\x4d\x18",)),  # [D]
-    Known("a 7-Zip archive", _UNPACK, (b"7z\xbc\xaf\x27\x1c",)),  # [D]
-    Known("a RAR archive", _UNPACK, (b"Rar!\x1a\x07",)),  # [D]
+    Known("an LZ4 archive", UNPACK, (b"\x04\x22\x4d\x18",)),  # [D]
+    Known("a 7-Zip archive", UNPACK, (b"7z\xbc\xaf\x27\x1c",)),  # [D]
+    Known("a RAR archive", UNPACK, (b"Rar!\x1a\x07",)),  # [D]
     Known("a Unix compress archive", "Unpack it: uncompress", (b"\x1f\x9d",)),  # [D]
-    Known("a tar archive", _UNPACK, (b"ustar",), at=257),  # [V]
+    Known("a tar archive", UNPACK, (b"ustar",), at=257),  # [V]
     # tables and arrays of other programs
     Known("an Arrow or Feather file", _PANDAS.format("read_feather"), (b"ARROW1", b"FEA1")),  # [V], [D]
     Known("an Arrow stream", "Write it as Parquet", (b"\xff\xff\xff\xff",), within=rb"(?s)^.{4}[^\0].{2}\0\x10\0\0\0"),
@@ -130,7 +123,7 @@ TEXT = (
     Known("a PostScript document", "Give the table itself as CSV", (b"%!PS",)),  # [D]
     Known("a web page", "Fetch the file itself, not the page about it", within=rb"(?i)^\s*<(?:!doctype html|html)"),
     Known(
-        "an Excel table as XML", _CSV, within=rb"(?s)^\s*<\?xml.*urn:schemas-microsoft-com:office:spreadsheet"
+        "an Excel table as XML", AS_CSV, within=rb"(?s)^\s*<\?xml.*urn:schemas-microsoft-com:office:spreadsheet"
     ),  # [D]
     Known("a VTK picture", "Give the NASTRAN deck (.bdf)", within=rb"(?s)^(?:# vtk DataFile|\s*(?:<\?xml.*)?<VTKFile)"),
     Known("Adams results (XML)", _CHANNELS, within=rb"(?s)^\s*<\?xml.*<Results"),  # [D]
@@ -208,104 +201,10 @@ OWN = (
 
 
 ZIPPED = (
-    (r"xl/", Known("an Excel workbook (.xlsx)", _CSV)),  # [V]
-    (r"content\.xml$", Known("an OpenDocument file (.ods)", _CSV)),  # [D]
+    (r"xl/", Known("an Excel workbook (.xlsx)", AS_CSV)),  # [V]
+    (r"content\.xml$", Known("an OpenDocument file (.ods)", AS_CSV)),  # [D]
     (r"(word|ppt)/", Known("an Office document", "Give the table itself as CSV")),  # [D]
     (r".*\.npy$", Known("a NumPy archive (.npz)", "Write its columns, with their names, as CSV or Parquet")),  # [V]
     (r"modelDescription\.xml$", Known("a simulation unit (.fmu)", _CHANNELS)),  # [D]
 )
 """What a ZIP archive is, by the name of a file in it."""
-
-
-def known_format(path: Path, *, text: bool = True) -> Known | None:
-    """Recognise a format that is not read here; None for any other, and for a file that cannot be opened.
-
-    Parameters
-    ----------
-    text : recognise formats of text as well, not only binary ones
-    """
-    try:
-        with path.open("rb") as file:
-            head = file.read(HEAD)
-            if head.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-                return _zip(file)
-            if head.startswith(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"):
-                return _office(head)
-    except OSError:
-        return None
-    binary = next((known for known in BINARY if known.fits(head)), None)
-    if binary is not None or not text or b"\0" in head:
-        return binary
-    plain = head.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n")
-    return next((known for known in TEXT if known.fits(plain)), None)
-
-
-def misplaced(path: Path, where: str, *, text: bool = True) -> Problem | None:
-    """Refusal of a file whose content belongs elsewhere, be it read there or nowhere; None if that cannot be told."""
-    known = known_format(path, text=text) or own_format(path, text=text)
-    if known is not None:
-        return Problem("foreign_format", where, f"this is {known.name}", known.remedy)
-    return unknown_binary(path, where, "Give the file itself", stray=0.15)
-
-
-def own_format(path: Path, *, text: bool = True) -> Known | None:
-    """Recognise a format that is read in one place or another; None for a plain table of text."""
-    try:
-        with path.open("rb") as file:
-            head = file.read(HEAD)
-    except OSError:
-        return None
-    if b"\0" in head:
-        return next((known for known in OWN if not known.within and known.fits(head)), None)
-    plain = head.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n")
-    return next((known for known in OWN if (text or not known.within) and known.fits(plain)), None)
-
-
-def unknown_binary(path: Path, where: str, remedy: str, *, stray: float = 0.0) -> Problem | None:
-    """Refusal of a binary file without signature: what it may be by a program's name in it, else by its own name.
-
-    None for a text, be it of two bytes a character, and for a file that cannot be opened. ``remedy`` is for one that
-    tells nothing; a share of ``stray`` control characters is taken for damage of a text.
-    """
-    try:
-        with path.open("rb") as file:
-            head = file.read(HEAD)
-    except OSError:
-        return None
-    padded = head.rstrip(b"\0\x1a")  # as the end of a text may be
-    controls = len(re.findall(rb"[\0-\x08\x0e-\x1f]", padded))
-    if (padded and (b"\0" not in padded or controls <= stray * len(padded))) or not head or _two_byte_text(head):
-        return None
-    what = "this is an unknown binary format"
-    if not head.strip(b"\0"):
-        what += ", it begins with nothing but zeros"
-        return Problem("unknown_binary", where, what, "Copy the file again, perhaps it was not fetched yet")
-    hint = next((known for known in HINTS if known.fits(head[:4096])), None) or SUFFIXES.get(path.suffix.lower())
-    if hint is not None:
-        return Problem("unknown_binary", where, f"{what}, perhaps {hint.name}", hint.remedy)
-    return Problem("unknown_binary", where, what, remedy)
-
-
-def _two_byte_text(head: bytes) -> bool:
-    """Whether bytes are text in UTF-16: a byte order mark, or zeros at every other place and nowhere else."""
-    zeros = (head[:2000:2].count(0), head[1:2000:2].count(0))
-    half = len(head[:2000]) // 2
-    return head.startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")) or (min(zeros) == 0 and max(zeros) > 0.9 * half)
-
-
-def _zip(file: BinaryIO) -> Known:
-    """Tell what is in a ZIP archive: many programs store their documents in one."""
-    try:
-        with zipfile.ZipFile(file) as archive:
-            names = archive.namelist()
-    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, RuntimeError):
-        return Known("a ZIP archive, or an Excel workbook, cut short", "Copy it again")
-    known = next((known for pattern, known in ZIPPED if any(re.match(pattern, name) for name in names)), None)
-    return known or Known("a ZIP archive", _UNPACK)
-
-
-def _office(head: bytes) -> Known:
-    """Tell an old Excel workbook from other documents of its time by the name of its stream."""
-    if any(name.encode("utf-16-le") in head for name in ("Workbook", "Book")):
-        return Known("an old Excel workbook (.xls)", _CSV)
-    return Known("an old Office document, perhaps an Excel workbook (.xls)", _CSV)

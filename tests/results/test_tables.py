@@ -1,6 +1,4 @@
-"""The result folder: data dictionary, tables, provenance, JSON, and what happens when one of them is damaged."""
-
-import json
+"""Result tables: data dictionary, values that come back as they were, and what happens when a table is damaged."""
 
 import numpy as np
 import pandas as pd
@@ -8,21 +6,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.results import (
-    ASSESSED,
-    TABLES,
-    coded,
-    input_register,
-    json_ready,
-    read_provenance,
-    read_table,
-    schema,
-    sha256,
-    software_versions,
-    store,
-    table_writer,
-    write_json,
-)
+from fatigue.results import tables
+from fatigue.results.columns import ASSESSED, TABLES
+from fatigue.results.tables import coded, read_table, schema, table_writer
 
 
 def rows(table, n=3):
@@ -57,14 +43,14 @@ def test_tables_round_trip_with_null_for_nan_and_infinity_kept(tmp_path, table):
             assert found.column(column.name).to_pylist()[:3] == [1.5, np.inf, None]
 
 
-@pytest.mark.parametrize("pieces", [(7, 7, 7), (1, 20), (21,)])
-def test_the_same_rows_in_other_pieces_give_the_same_row_groups(tmp_path, monkeypatch, pieces):
+@pytest.mark.parametrize("at_once", [(7, 7, 7), (1, 20), (21,)])
+def test_the_same_rows_written_otherwise_give_the_same_row_groups(tmp_path, monkeypatch, at_once):
     """Row groups are cut by number of rows, not by how the rows arrive."""
-    monkeypatch.setitem(store._ROWS_PER_GROUP, "nodes", 8)
+    monkeypatch.setitem(tables._ROWS_PER_GROUP, "nodes", 8)
     names = [f"weld {i // 2}" for i in range(21)]
     with table_writer(tmp_path, "nodes") as writer:
         first = 0
-        for n in pieces:
+        for n in at_once:
             writer.write(columns(names[first : first + n]))
             first += n
     file = pq.ParquetFile(tmp_path / "nodes.parquet")
@@ -74,7 +60,7 @@ def test_the_same_rows_in_other_pieces_give_the_same_row_groups(tmp_path, monkey
 
 def test_rows_that_wait_take_little_memory():
     """All tables of an assessment together, numbers and codes of eight bytes at most, before their groups are full."""
-    waiting = {table: 8 * store._ROWS_PER_GROUP[table] * len(TABLES[table]) for table in ASSESSED}
+    waiting = {table: 8 * tables._ROWS_PER_GROUP[table] * len(TABLES[table]) for table in ASSESSED}
     assert sum(waiting.values()) < 50e6
     assert waiting["welds"] < 1e6  # its rows come a few at a time: each piece has arrays and texts of its own
 
@@ -129,42 +115,6 @@ def test_read_table_names_what_is_wrong(tmp_path):
     path.write_bytes(path.read_bytes()[:-20])
     with pytest.raises(DataError, match="the table cannot be read"):
         read_table(tmp_path, "nodes")
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [("{", "cannot be read"), ("[]", "was not written by fatigue"), ('{"program": "other"}', "was not written by")],
-)
-def test_provenance_of_somebody_else(tmp_path, text, message):
-    """A provenance.json that is damaged or foreign is not taken for ours."""
-    (tmp_path / "provenance.json").write_text(text)
-    with pytest.raises(DataError, match=message):
-        read_provenance(tmp_path)
-
-
-def test_json_has_no_infinities(tmp_path):
-    """Infinite, NaN and numpy values become what JSON can say."""
-    record = {"a": np.float64(np.inf), "b": [np.nan, np.int64(3)], 4: np.array([1.0, -np.inf]), "c": np.bool_(True)}
-    assert json_ready(record) == {"a": None, "b": [None, 3], "4": [1.0, None], "c": True}
-    write_json(tmp_path / "x.json", record)
-    assert json.loads((tmp_path / "x.json").read_text())["a"] is None
-
-
-def test_inputs_are_named_relative_to_the_case_with_their_hash(tmp_path):
-    """Name, size, SHA-256; a file elsewhere keeps its path."""
-    (tmp_path / "case").mkdir()
-    inside, outside = tmp_path / "case" / "a.csv", tmp_path / "b.csv"
-    inside.write_text("x")
-    outside.write_text("xy")
-    found = input_register([inside, outside], tmp_path / "case")
-    assert found[0] == {"file": "a.csv", "bytes": 1, "sha256": sha256(inside)}
-    assert found[1]["file"] == outside.as_posix()
-    assert sha256(inside) == "2d711642b726b04401627ca9fbac32f5c8530fb1903cc4db02258717921a4881"
-
-
-def test_versions_of_what_the_numbers_rest_on():
-    """Program, Python, and the numerical packages."""
-    assert {"fatigue", "python", "numpy", "scipy", "numba", "pyarrow"} <= set(software_versions())
 
 
 def test_schema_types():

@@ -9,28 +9,27 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.body import Modes, Weld, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.neutral.forces import tables as forces
-from fatigue.readers.neutral.forces.tables import (
-    COMPONENTS,
-    check_nodal_forces,
-    open_nodal_forces,
-    read_element_forces,
-    read_nodal_forces,
-    read_weld_elements,
-)
+from fatigue.readers.neutral.body import read_modes, read_welds
+from fatigue.readers.neutral.forces import nodal_forces as module
+from fatigue.readers.neutral.forces import placement
+from fatigue.readers.neutral.forces.convention import COMPONENTS
+from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
+from fatigue.readers.neutral.forces.nodal_forces import check_nodal_forces, open_nodal_forces, read_nodal_forces
 from fatigue.weld.element_forces import side_forces
-from fatigue.weld.line import LineStack
-from tests.readers.neutral_tables import MODES, WELD_NODES, WELDS, changed, nodal_forces, picked, without, write
+from tests.readers.neutral_tables import (
+    WELD_NODES,
+    changed,
+    nodal_forces,
+    picked,
+    read_weld_nodes,
+    small_body,
+    without,
+    write,
+)
 
 SUFFIXES = pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 FORCES = nodal_forces()
 ROWS = len(FORCES["node"])
-ELEMENT_FORCES = {
-    "mode": [3, 3, 7, 7, 12, 12],
-    "node": [11, 12, 11, 12, 11, 12],
-    "element": [5] * 6,
-} | {name: [float(10 * row + i) for row in range(6)] for i, name in enumerate(COMPONENTS)}
 
 
 def read_forces(path, lines, *rest, strict):
@@ -43,15 +42,6 @@ def read_forces(path, lines, *rest, strict):
 def body(tmp_path_factory):
     """Modes and lines of the small body."""
     return small_body(tmp_path_factory.mktemp("body"))
-
-
-def small_body(folder: Path, ignore_modes=(), scale=None) -> tuple[Modes, LineStack]:
-    """Write and read the small body."""
-    columns = MODES if scale is None else MODES | {"scale": scale}
-    modes, _ = read_modes(write(folder / "m.csv", columns), ignore_modes, strict=True)
-    welds, _ = read_welds(write(folder / "w.csv", WELDS), {"master-steel"}, strict=True)
-    lines, _ = read_weld_nodes(write(folder / "n.csv", WELD_NODES), welds, strict=True)
-    return modes, lines
 
 
 def expected(lines, modes) -> list[np.ndarray]:
@@ -125,7 +115,7 @@ def test_any_row_and_column_order(tmp_path_factory, body, rows, names, suffix):
 def test_a_regular_table_needs_no_search(tmp_path, body, monkeypatch, suffix, slow, ignored):
     """Node by node or mode by mode, nodes and modes in any order, ignored modes among them: same forces."""
     modes, lines = body
-    monkeypatch.setattr(forces, "_slots", None)
+    monkeypatch.setattr(module, "slots", None)
     nodes, ids = [5, 2, 1, 7, 4, 3, 6], [12, 3, 7] + [40] * ignored
     keys = [(n, m) for n in nodes for m in ids] if slow == "node" else [(n, m) for m in ids for n in nodes]
     columns = {
@@ -145,7 +135,7 @@ def test_a_regular_table_needs_no_search(tmp_path, body, monkeypatch, suffix, sl
 def test_lookup_in_blocks(tmp_path, body, monkeypatch):
     """Rows are looked up in blocks; where they are cut does not matter."""
     modes, lines = body
-    monkeypatch.setattr(forces, "BLOCK", 4)
+    monkeypatch.setattr(placement, "BLOCK", 4)
     read, _ = read_forces(write(tmp_path / "f.csv", FORCES), lines, modes, "on_element", (), strict=True)
     for force, wanted in zip(read, expected(lines, modes), strict=True):
         np.testing.assert_array_equal(force, wanted)
@@ -264,84 +254,6 @@ def test_a_mode_beyond_those_known(tmp_path, body):
     """Ids below and above all known ones are unknown, not confused with a neighbour."""
     columns = changed(changed(FORCES, "mode", 1, -5), "mode", 2, 10**12)
     assert "modes -5, 1000000000000 are not in the table" in refusal_of(write(tmp_path / "f.csv", columns), body)
-
-
-@SUFFIXES
-def test_element_forces(tmp_path, suffix):
-    """Rows keep their ids; sign and scale are those of their mode; ignored modes are left out."""
-    modes, _ = small_body(tmp_path, ignore_modes=(12,), scale=[2.0, 1.0, 1.0])
-    path = write(tmp_path / f"e{suffix}", ELEMENT_FORCES)
-    read, warnings = read_element_forces(path, modes, "on_node", (12,), strict=True)
-    assert warnings == []
-    assert read.mode.tolist() == [3, 3, 7, 7]
-    assert read.node.tolist() == [11, 12, 11, 12]
-    assert read.element.tolist() == [5] * 4
-    factor = np.array([-1.0, -1.0, -2.0, -2.0])[:, None]
-    np.testing.assert_array_equal(read.force, factor * (10.0 * np.arange(4)[:, None] + np.arange(6)))
-
-
-def test_element_forces_in_single_precision(tmp_path, body):
-    """Single precision stays single."""
-    path = write(tmp_path / "e.parquet", ELEMENT_FORCES, dict.fromkeys(COMPONENTS, pa.float32()))
-    assert read_element_forces(path, body[0], "on_element", (), strict=True)[0].force.dtype == np.float32
-
-
-@pytest.mark.parametrize(
-    ("columns", "message"),
-    [
-        (
-            without(ELEMENT_FORCES, "element"),
-            "column element: the column is missing. Add it; the columns are mode, node,",
-        ),
-        (changed(ELEMENT_FORCES, "mode", 4, 8), "column mode, row 4: modes 8 are not in the table of modes. Add them"),
-        (
-            changed(ELEMENT_FORCES, "node", 4, 11),
-            "column mode, node, element, row 4: mode 7, node 11, element 5 repeats row 3. Keep one of the rows.",
-        ),
-        (
-            changed(ELEMENT_FORCES, "mx_Nmm", 4, None),
-            "column mx_Nmm, row 4: the value is missing or NaN. Give a number.",
-        ),
-    ],
-)
-def test_bad_element_forces(tmp_path, body, columns, message):
-    """Ids and values of the raw form are checked alike."""
-    with pytest.raises(DataError) as refusal:
-        read_element_forces(write(tmp_path / "e.csv", columns), body[0], "on_element", (), strict=False)
-    assert str(refusal.value).startswith(f"e.csv: {message}")
-
-
-WELD_LIST = tuple(Weld(name, False, "both", None, None, "") for name in ("seam", "ring"))
-
-
-@SUFFIXES
-def test_weld_elements(tmp_path, suffix):
-    """The elements of each weld, ascending; an element may serve two welds."""
-    path = write(tmp_path / f"e{suffix}", {"weld": ["ring", "seam", "ring"], "element": [9, 4, 4]})
-    read, _ = read_weld_elements(path, WELD_LIST, strict=True)
-    assert {name: elements.tolist() for name, elements in read.items()} == {"ring": [4, 9], "seam": [4]}
-
-
-@pytest.mark.parametrize(
-    ("columns", "message"),
-    [
-        ({"weld": ["seam"], "element": [1]}, "column weld: weld 'ring' has no elements. Add its elements."),
-        (
-            {"weld": ["seam", "ring", "rig"], "element": [1, 2, 3]},
-            "column weld, row 3: 'rig' is not one of the welds. Write 'ring'.",
-        ),
-        (
-            {"weld": ["seam", "ring", "seam"], "element": [1, 2, 1]},
-            "column weld, element, row 3: weld seam, element 1 repeats row 1. Keep one of the rows.",
-        ),
-        ({"weld": ["seam"]}, "column element: the column is missing. Add it; the columns are weld."),
-    ],
-)
-def test_bad_weld_elements(tmp_path, columns, message):
-    """Every weld has elements, each of them once."""
-    with pytest.raises(DataError) as refusal:
-        read_weld_elements(write(tmp_path / "e.csv", columns), WELD_LIST, strict=False)
-    assert str(refusal.value) == f"e.csv: {message}"
 
 
 def test_element_forces_of_the_car_body_sum_to_its_nodal_forces():

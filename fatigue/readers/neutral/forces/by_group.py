@@ -9,12 +9,16 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.neutral.body import Modes
-from fatigue.readers.neutral.files import Columns
-from fatigue.readers.neutral.forces.check import RegularCheck, regular_check
-from fatigue.readers.neutral.forces.order import CODE, ROW, Source, Strays, WeldCodes, in_place, parted, weld_codes
-from fatigue.readers.neutral.forces.tables import open_nodal_forces
+from fatigue.readers.neutral.columns import Columns
+from fatigue.readers.neutral.forces.in_place import in_place
+from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
+from fatigue.readers.neutral.forces.regular_check import RegularCheck, regular_check
+from fatigue.readers.neutral.forces.sorted_copy import sorted_copy
+from fatigue.readers.neutral.forces.source import CODE, ROW, Source
+from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds
+from fatigue.readers.neutral.forces.weld_codes import WeldCodes, weld_codes
 from fatigue.readers.neutral.line_file import LineFile
 from fatigue.readers.neutral.tables import Table
 
@@ -39,13 +43,13 @@ class _Piece:
         return self.rows.slice(first, end - first)
 
 
-class ForcePieces:
+class ForcesByGroup:
     """The rows of each group of welds as a table of its own.
 
     ``groups`` are the names of the welds of each group, ``in_file`` those they have in the file if these are others,
     ``skipped`` the welds of the file that are not asked for. Any group may be asked for at any time, by several threads
     at once; those near the groups asked for last come without decoding anything again, and of groups asked for in turn
-    hardly more than one piece is in memory. ``scratch`` is a folder for a parted copy of the file, should it need one;
+    hardly more than one piece is in memory. ``scratch`` is a folder for a sorted copy of the file, should it need one;
     no other process may use it.
 
     Raises
@@ -91,9 +95,9 @@ class ForcePieces:
     def regular_check(
         self, lines: LineFile, modes: Modes, ignore_modes: Collection[int], *, strict: bool
     ) -> RegularCheck | None:
-        """Check of the file in its own order, see `check`; None where it is not of that form.
+        """Check of the file in its own order; None where its rows do not come node by node.
 
-        ``lines`` are those of the welds of all groups.
+        ``lines`` has the lines of the welds of all groups.
         """
         if len(self._welds.groups) == 1:
             return None
@@ -105,24 +109,24 @@ class ForcePieces:
         A piece stays decoded until all its groups have been asked for, those used last as long as there is room.
         """
         wanted = self._source.pieces[group]
-        cuts = []
+        found = []
         with self._lock:
             for i in _dropped(list(self._decoded), wanted, self._source.rows):
                 del self._decoded[i]
             for i in wanted:
                 piece = self._decoded.pop(i) if i in self._decoded else self._piece(i)
                 piece.expected.discard(group)
-                cut = piece.rows_of(group)
+                rows = piece.rows_of(group)
                 if piece.expected:
                     self._decoded[i] = piece
                 elif i != wanted[-1]:
-                    cut = cut.take(np.arange(len(cut)))  # a view would keep the piece while the next one is decoded
-                cuts.append(cut)
+                    rows = rows.take(np.arange(len(rows)))  # a view would keep the piece while the next one is decoded
+                found.append(rows)
                 del piece
-        return pa.concat_tables(cuts or [self._source.nothing])
+        return pa.concat_tables(found or [self._source.nothing])
 
     def _piece(self, number: int) -> _Piece:
-        """Decode a piece and bring its rows into the order of the groups, those of a group in that of the file."""
+        """Decoded piece, its rows in the order of the groups; the rows of a group keep the order of the file."""
         rows = self._source.read(number)
         if self._welds.skipped:
             rows = rows.filter(pa.array(rows.column(CODE).to_numpy() >= 0))
@@ -135,7 +139,7 @@ class ForcePieces:
 
 
 def _nameless(path: Path, header: Table) -> dict[int, pa.ChunkedArray]:
-    """First value, if there is any, of every column without a name: they are told, and not kept in pieces."""
+    """First value, if there is any, of every column without a name: it is told, and not kept in pieces."""
     places = [k for k, name in enumerate(header.columns.names) if not composed(name)]
     if not places:
         return {}
@@ -145,7 +149,7 @@ def _nameless(path: Path, header: Table) -> dict[int, pa.ChunkedArray]:
 
 
 def _renamed(table: Table, welds: WeldCodes) -> Table:
-    """Give the rows of a whole file the names that are asked for, those of skipped welds left out.
+    """Table of a whole file under the names that are asked for, without the rows of skipped welds.
 
     Raises
     ------
@@ -156,9 +160,9 @@ def _renamed(table: Table, welds: WeldCodes) -> Table:
     position, columns = table.position["weld"], table.columns
     column = columns.read(position)
     code = welds.of(column)
-    strays = Strays(table)
-    strays.look(column, code, 0)
-    strays.refuse(welds)
+    unknown = UnknownWelds(table)
+    unknown.look(column, code, 0)
+    unknown.refuse(welds)
     kept = np.flatnonzero(code >= 0)
     (names,) = welds.groups
     weld = pa.chunked_array([pa.DictionaryArray.from_arrays(code[kept].astype(np.int32), pa.array(names, pa.string()))])
@@ -170,12 +174,12 @@ def _renamed(table: Table, welds: WeldCodes) -> Table:
 
 
 def _source(path: Path, welds: WeldCodes, scratch: Path) -> Source:
-    """Read a Parquet file where it is unless its order means decoding the same rows again and again."""
+    """Source of the rows: the file where it is, or a sorted copy if its order meant decoding rows again and again."""
     if path.suffix.lower() == ".parquet":
         source = in_place(path, welds, ROWS_KEPT)
         if source and _rows_decoded(source) <= DETOUR * sum(source.rows):
             return source
-    return parted(path, welds, scratch)
+    return sorted_copy(path, welds, scratch)
 
 
 def _rows_decoded(source: Source) -> float:

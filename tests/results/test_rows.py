@@ -1,4 +1,4 @@
-"""Parts of a table read row group by row group are those of the whole table."""
+"""Rows of a table read row group by row group are those of the whole table."""
 
 import numpy as np
 import pandas as pd
@@ -16,8 +16,8 @@ from fatigue.results import (
     row_count,
     row_groups,
     rows_of_welds,
-    store,
     table_writer,
+    tables,
     worst_toes,
 )
 
@@ -39,7 +39,7 @@ def folder(tmp_path_factory):
     rows["weld"] = np.repeat(WELDS, [130, 70, 500, 300])
     rows["screened"] = np.array(["", "modal bound", ""], dtype=object)[np.arange(ROWS) % 3]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(store._ROWS_PER_GROUP, "nodes", 64)
+        patch.setitem(tables._ROWS_PER_GROUP, "nodes", 64)
         with table_writer(folder, "nodes") as writer:
             for first in range(0, ROWS, 90):
                 writer.write({name: values[first : first + 90] for name, values in rows.items()})
