@@ -82,5 +82,5 @@ def _made(asked: type[Asked], given: Mapping[str, Any]) -> Asked:
 
 
 def _modes(_: click.Context, param: click.Parameter, given: str | None) -> tuple[int, ...]:
-    """Read a list of modes, in the words of `mode_list` where it is none."""
+    """Read a list of modes, in the words of ``mode_list`` where it is none."""
     return mode_list(given, param.opts[0]) if given else ()

@@ -16,7 +16,7 @@ from fatigue.weld.join import Joint, joined, joined_elements
 def joined_cuts(
     topo: Topology, rows: Sequence[RegisterRow], cuts: Mapping[str, WeldCut], register: Path | None
 ) -> dict[str, WeldCut]:
-    """Join the cuts to assess that have one name, by this name.
+    """Cuts to assess that have one name, each joined to one cut, by this name.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def joined_cuts(
 
 
 def _joined(topo: Topology, cuts: Sequence[WeldCut], names: Sequence[str], where: str) -> WeldCut:
-    """Join cuts of one plate side: the elements round a joint are those of the plate between the two lines."""
+    """Cuts of one plate side as one: the elements round a joint lie on the plate between the two lines."""
     line, joints = joined([cut.line for cut in cuts], names, where)
     sides = [cut.elements for cut in cuts]
     together = np.unique(np.concatenate(sides))

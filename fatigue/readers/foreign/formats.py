@@ -167,22 +167,22 @@ FORMATS = (
 
 
 def formats_called(content: Content) -> str:
-    """List the formats that hold a content, as messages call them."""
+    """Formats that hold a content, as messages call them."""
     return one_of([form.reads[content].called for form in FORMATS if content in form.reads])
 
 
 def formats_in_help(content: Content, last: str = " or ") -> str:
-    """List the formats that hold a content, as the help of its option calls them."""
+    """Formats that hold a content, as the help of its option calls them."""
     return one_of([reader.in_help for form in FORMATS if (reader := form.reads.get(content)) and reader.in_help], last)
 
 
 def all_formats() -> str:
-    """List all formats that are read."""
+    """All formats that are read, in one sentence."""
     return one_of([form.ending for form in sorted(FORMATS, key=lambda form: form.place)])
 
 
 def one_of(words: list[str], last: str = " or ") -> str:
-    """Join words to a choice: ``a, b or c``."""
+    """Choice of words: ``a, b or c``."""
     return last.join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 

@@ -80,7 +80,7 @@ class _Total(NamedTuple):
 
 
 def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
-    """Compare the stated totals of every grid with its rows: where they follow, a checksum over every number."""
+    """Row on the totals that the file states: where they follow from the rows, a checksum over every number."""
     found = check_totals(results, convention)
     if found is None:
         return AuditRow(
@@ -123,7 +123,7 @@ def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
 
 
 def check_totals(results: FeResults, convention: Convention | None) -> TotalsCheck | None:
-    """Compare the totals of every grid with its rows, by the rule that explains them best; None without totals.
+    """Comparison of the totals of every grid with its rows, by the rule that explains them best; None without totals.
 
     Parameters
     ----------
@@ -184,7 +184,7 @@ def _forbidden(totals: list[_Total], results: FeResults, hides_inertia: bool) ->
 
 
 def _sums(values: NDArray[np.float64], at: NDArray[np.int64], size: int) -> NDArray[np.float64]:
-    """Sum of the rows of every grid, (grids, 3)."""
+    """Sums of the rows of every grid, (grids, 3)."""
     return np.stack([np.bincount(at, values[:, c], size) for c in range(3)], axis=1)
 
 
