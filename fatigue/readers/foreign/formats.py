@@ -1,9 +1,9 @@
 """The foreign formats that are read, one entry each: recognition, reading, refusals and help are made of them.
 
-A new format is one entry at the end of ``FORMATS``; its line in ``files.known_formats``, which refuses it, goes.
-``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",), extra=Extra("nptdms", "NI TDMS
-input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` would be a binary one; a text, as
-an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
+A new format is one entry at the end of ``FORMATS``; in ``files.known_formats`` its line moves from the formats that are
+refused to ``OWN``. ``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",),
+extra=Extra("nptdms", "NI TDMS input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` is
+a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
 """
 
 from collections.abc import Callable, Mapping
