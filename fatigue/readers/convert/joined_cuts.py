@@ -22,20 +22,20 @@ def joined_cuts(
     ------
     DataError : they do not join end to end on one plate side, or their rows contradict each other
     """
-    groups: dict[str, list[RegisterRow]] = {}
+    of_weld: dict[str, list[RegisterRow]] = {}
     for row in rows:
         if row.status == "assess":
-            groups.setdefault(row.weld, []).append(row)
+            of_weld.setdefault(row.weld, []).append(row)
     found: dict[str, WeldCut] = {}
     problems: list[Problem] = []
-    for name, group in groups.items():
-        if len(group) == 1:
+    for name, own in of_weld.items():
+        if len(own) == 1:
             continue
         where = f"{register.name if register else 'weld lines'}: weld {name}"
-        problems += (here := list(contradictions(group, where)))
+        problems += (here := list(contradictions(own, where)))
         if not here:
             try:
-                found[name] = _joined(topo, [cuts[row.line] for row in group], [row.line for row in group], where)
+                found[name] = _joined(topo, [cuts[row.line] for row in own], [row.line for row in own], where)
             except DataError as error:
                 problems += error.problems
     refuse(DataError, problems)

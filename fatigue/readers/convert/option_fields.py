@@ -60,7 +60,7 @@ class OptionField:
         return self.default is MISSING
 
     def value(self, given: Any) -> Any:
-        """Value of what a command line gives: of every group of words the record that they are."""
+        """Value of what a command line gives; words that belong together become one record."""
         if isinstance(self.kind, type) and is_dataclass(self.kind):
             return tuple(self.kind(*words) for words in given)
         return given

@@ -133,7 +133,7 @@ def check_totals(results: FeResults, convention: Convention | None) -> TotalsChe
     if not is_total.any():
         return None
     of_element = results.of_element
-    groups = [np.flatnonzero(rows) for rows in (~of_element & ~is_total, of_element, is_total)]
+    kinds = [np.flatnonzero(rows) for rows in (~of_element & ~is_total, of_element, is_total)]
     grids, at = np.unique(results.node, return_inverse=True)
     added = _Tally(1.0, "add up to")
     subtracted = _Tally(-1.0, "give, loads less forces on elements,")
@@ -144,7 +144,7 @@ def check_totals(results: FeResults, convention: Convention | None) -> TotalsChe
         of_mode = float(np.abs(force[is_here]).max(initial=0.0))
         for part in (slice(0, 3), slice(3, 6)):
             values = np.where(is_here[:, None], force[:, part], 0.0).astype(np.float64)
-            loads, elements, totals = (_sums(values[rows], at[rows], grids.size) for rows in groups)
+            loads, elements, totals = (_sums(values[rows], at[rows], grids.size) for rows in kinds)
             size = np.abs(values).max(axis=1, initial=0.0)
             largest = np.zeros(grids.size)
             np.maximum.at(largest, at, size)

@@ -31,9 +31,9 @@ def with_other_node(
     if any(cause.kind not in _ASKED for cause in causes):
         return causes
     others = np.flatnonzero(node != own)
-    chunks = [others[k : k + _AT_ONCE] for k in range(0, others.size, _AT_ONCE)]
+    blocks = [others[k : k + _AT_ONCE] for k in range(0, others.size, _AT_ONCE)]
     number, axis = comparison.number, comparison.direction
-    misfits = [comparison.misfit(shapes(chunk)[number, :, axis].T) for chunk in chunks]
+    misfits = [comparison.misfit(shapes(block)[number, :, axis].T) for block in blocks]
     if not misfits:
         return causes
     misfit = np.concatenate(misfits)
