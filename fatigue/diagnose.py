@@ -59,7 +59,7 @@ def diagnose(
     bin_km: float = BIN_KM,
     progress: Progress = lambda label, done, total: None,
 ) -> Diagnosis:
-    """Say what makes the damage of a finished result, and write the tables that show it into its folder.
+    """What makes the damage of a finished result; the tables that show it are written into its folder.
 
     Parameters
     ----------
@@ -164,11 +164,11 @@ def _ascends(edges_hz: Sequence[float]) -> bool:
 
 
 def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.DataFrame]:
-    """Read what ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event.
+    """What ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event.
 
     Raises
     ------
-    DataError : the table is missing, damaged, or not that of these points
+    DataError : the table is missing, damaged, or belongs to other points
     """
     columns = [
         "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
@@ -184,7 +184,7 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
 
 
 def _same_body(record: Mapping[str, Any], folder: Path, case_file: Path | None) -> Body:
-    """Read the body of a result again and make sure that none of its files has changed since."""
+    """Body of a result, read again; none of its files may have changed since."""
     path = case_of(record, folder) if case_file is None else named_case(record, case_file)
     if not path.is_file():
         what, remedy = "the case of this result is not there any more", "Name the case file with --case CASE"

@@ -46,7 +46,7 @@ class Documents:
 
 
 def missing_extras(wanted: Collection[str]) -> dict[str, Problem]:
-    """Name the documents that cannot be written here, and what they lack; quick, before any work is done."""
+    """Documents that cannot be written here, and what they lack; quick, before any work is done."""
     tests: dict[str, Callable[[], object]] = {WORKBOOK: refuse_without_xlsxwriter, PRINT: find_browser}
     return dict(found for name, test in tests.items() if name in wanted for found in _failed(name, test))
 
@@ -120,7 +120,7 @@ def _print(folder: Path, staging: Path, result: str) -> None:
 def _in_the_way(
     folder: Path, wanted: Collection[str], record: Mapping[str, Any], case_file: Path, *, force: bool
 ) -> Iterator[Problem]:
-    """Name what must not be overwritten: inputs of the case never, other files not without force."""
+    """Problems of files that must not be overwritten: inputs of the case never, other files not without force."""
     inputs = [path for known in record["inputs"] if (path := case_file.parent / known["file"]).exists()]
     for name in wanted:
         path = folder / name

@@ -36,7 +36,7 @@ def cli(quiet: bool, verbose: bool) -> None:
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(levelname)s %(message)s"))
     handler.setLevel(logging.ERROR if quiet else logging.INFO if verbose else logging.WARNING)
-    handler.addFilter(lambda record: record.name != STAGES)  # told by `narrated`
+    handler.addFilter(lambda record: record.name != STAGES)  # told by ``narrated``
     log = logging.getLogger("fatigue")
     log.handlers[:] = [handler]
     log.setLevel(logging.INFO)
@@ -44,7 +44,7 @@ def cli(quiet: bool, verbose: bool) -> None:
 
 
 def _of_the_system(error: OSError) -> Problem:
-    """Say what the operating system refused: a folder that is not there, a name too long, a full disk."""
+    """What the operating system refused: a folder that is not there, a name too long, a full disk."""
     place = str(error.filename or "a file")
     reason = error.strerror or str(error)
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
@@ -71,7 +71,7 @@ def main() -> None:
     except (KeyboardInterrupt, click.exceptions.Abort):
         click.echo("interrupted: the same command goes on from here", err=True)
         sys.exit(130)
-    except BrokenPipeError:  # the reader of our output went away, as `| head` does
+    except BrokenPipeError:  # the reader of our output went away, as ``| head`` does
         sys.stderr.close()
         sys.exit(0)
     except OSError as error:

@@ -12,7 +12,7 @@ HEAD = 200_000  # bytes of a file that are looked at
 
 
 def known_format(path: Path, *, text: bool = True) -> Known | None:
-    """Recognise a format that is not read here; None for any other, and for a file that cannot be opened.
+    """Format of a file that is read nowhere; None for any other, and for a file that cannot be opened.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def misplaced(path: Path, where: str, *, text: bool = True) -> Problem | None:
 
 
 def own_format(path: Path, *, text: bool = True) -> Known | None:
-    """Recognise a format that is read in one place or another; None for a plain table of text."""
+    """Format of a file that is read in one place or another; None for a plain table of text."""
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
@@ -88,7 +88,7 @@ def _two_byte_text(head: bytes) -> bool:
 
 
 def _zip(file: BinaryIO) -> Known:
-    """Tell what is in a ZIP archive: many programs store their documents in one."""
+    """What a ZIP archive is: many programs store their documents in one."""
     try:
         with zipfile.ZipFile(file) as archive:
             names = archive.namelist()
@@ -99,7 +99,7 @@ def _zip(file: BinaryIO) -> Known:
 
 
 def _office(head: bytes) -> Known:
-    """Tell an old Excel workbook from other documents of its time by the name of its stream."""
+    """What a document of old Office is: a workbook has a stream of that name."""
     if any(name.encode("utf-16-le") in head for name in ("Workbook", "Book")):
         return Known("an old Excel workbook (.xls)", AS_CSV)
     return Known("an old Office document, perhaps an Excel workbook (.xls)", AS_CSV)

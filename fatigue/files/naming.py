@@ -27,7 +27,7 @@ def composed(text: str) -> str:
 
 
 def control_characters(text: str) -> str:
-    r"""Say which control character a path holds: in TOML ``"C:\temp"`` is a tab; empty if it holds none."""
+    r"""Control character in a path, in words: in TOML ``"C:\temp"`` holds a tab; empty if there is none."""
     names = {"\t": r"a tab (\t)", "\n": r"a line end (\n)", "\b": r"a backspace (\b)", "\f": r"a form feed (\f)"}
     names |= {"\r": r"a carriage return (\r)"}
     return next((names.get(c, f"the character {c!r}") for c in text if ord(c) < 32), "")
@@ -41,7 +41,7 @@ def missing_file(
     code: str = "missing_file",
     wanted: str = "a .parquet or .csv file",
 ) -> Problem:
-    """Say what is in the place of a file that is not there: a folder, another spelling, a path of another system.
+    """Refusal of a file that is not there, with what stands in its place: a folder, or a file of another spelling.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def missing_file(
 
 
 def missing_case(path: Path) -> Problem:
-    """Say what is in the place of a case file that is not there."""
+    """Refusal of a case file that is not there."""
     if path.is_dir():
         return Problem("not_a_file", str(path), "this is a folder", "Give the path of the case.toml in it")
     found = missing_file(path)
@@ -65,7 +65,7 @@ def missing_case(path: Path) -> Problem:
 
 
 def missing_case_of_result(path: Path) -> Problem:
-    """Say what is in the place of a case file that is named for a result and is not there."""
+    """Refusal of a case file that is named for a result and is not there."""
     what, remedy = "there is no such file", "Correct the path after --case"
     if path.is_dir():
         what, remedy = "this is a folder", "Give the path of the case.toml in it"
@@ -73,12 +73,12 @@ def missing_case_of_result(path: Path) -> Problem:
 
 
 def missing_foreign_file(path: Path) -> Problem:
-    """Say what is in the place of an FE or simulation file that is not there."""
+    """Refusal of an FE or simulation file that is not there."""
     return missing_file(path, code="unreadable", wanted="the file itself")
 
 
 def _instead(path: Path, given: Path, base: Path | None) -> tuple[str, str]:
-    """Say what is peculiar about a path that leads nowhere, and what to do about it."""
+    """What is peculiar about a path that leads nowhere, and what to do about it."""
     if path.is_symlink():
         return f": it is a link to {path.readlink()}, which is gone", "Give the file itself"
     if control := control_characters(str(path)):
@@ -101,12 +101,12 @@ def _instead(path: Path, given: Path, base: Path | None) -> tuple[str, str]:
 
 
 def _as_written(path: Path, base: Path | None) -> Path:
-    """Spell a path as the place that names it does: relative to ``base`` where it lies in there."""
+    """Path as the place that names it spells it: relative to ``base`` where it lies in there."""
     return path.relative_to(base) if base is not None and path.is_relative_to(base) else path
 
 
 def _folder(path: Path, place: str, wanted: str) -> Problem:
-    """Describe a folder that stands where a file should; parts of a table are what Spark and Dask write."""
+    """Refusal of a folder that stands where a file should; Spark and Dask write such folders with parts of a table."""
     files = [file for file in sorted(path.rglob("*")) if file.is_file()]
     parts = [file for file in files if file.suffix == ".parquet" and not file.name.startswith((".", "_"))]
     if parts or any(file.name == "_SUCCESS" for file in files):
@@ -119,7 +119,7 @@ def _folder(path: Path, place: str, wanted: str) -> Problem:
 
 
 def _other_spelling(path: Path, given: Path) -> Path | None:
-    """Find the file that is meant: another letter case or normal form, backslashes, a home folder not written out."""
+    """File that is meant by another letter case or normal form, by backslashes or a home folder not written out."""
     candidates = [path, Path(str(path).replace("\\", "/"))]
     if str(given).startswith("~"):
         candidates.append(Path(str(given).replace("\\", "/")).expanduser())
@@ -127,7 +127,7 @@ def _other_spelling(path: Path, given: Path) -> Path | None:
 
 
 def _alike(path: Path) -> Path | None:
-    """Find a path whose parts are those of ``path`` but for letter case, blanks around them and normal form."""
+    """Path with the same parts as ``path`` but for letter case, blanks around them and normal form."""
     if path.exists():
         return path
     if path.parent == path:

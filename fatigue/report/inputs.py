@@ -70,7 +70,7 @@ class FoundInputs:
 
 
 def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None) -> FoundInputs:
-    """Find the inputs of the result with this provenance record.
+    """Inputs of the result with this provenance record, as far as they are found.
 
     The case file is where ``case_path`` says, by default where the record says. It counts as found when its text is the
     one that was assessed.
@@ -95,7 +95,7 @@ def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None)
 
 
 def _outdated(case: Case, root: Path, hashes: Mapping[str, str]) -> Iterator[Problem]:
-    """Say that the weld register was edited, taken away or written since the assessment."""
+    """Warning that the weld register was edited, taken away or written since the assessment."""
     name = case.body.weld_register or str(Path(case.body.welds).parent / REGISTER)
     path, known = root / name, hashes.get(Path(name).as_posix())
     if not path.is_file():
@@ -117,7 +117,7 @@ def _text(path: Path) -> str | None:
 
 
 def _lost(record: Mapping[str, Any], *, moved: bool) -> Problem:
-    """Say that the case file is gone or another, what cannot be shown without it, and the remedy."""
+    """Problem of a case file that is gone or another: what cannot be shown without it, and the remedy."""
     what = "the case file is not where it was" if moved else "the case file has changed since the assessment"
     way, lacks = record["case_path"], "so mesh, stress histories and spectra are not shown"
     remedy = "Name it as it was assessed with `fatigue report DIR --case CASE`" + ("" if moved else ", or assess again")

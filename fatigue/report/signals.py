@@ -57,7 +57,7 @@ class Envelope:
 
 
 def prepared(history: ModalHistory, stress_factor: float) -> EventRecord:
-    """Join a record with its stress factor and compute mean and covariance of its modal coordinates."""
+    """Record with its stress factor, and the mean and covariance of its modal coordinates."""
     mean, covariance = mean_and_covariance(history.q)
     return EventRecord(history, stress_factor, mean, stress_factor**2 * covariance)
 
@@ -77,7 +77,7 @@ def spectrum(
 def variance_shares(record: EventRecord, modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:
     """Share of each mode in the variance of the stress (m,): ``s_k (C s)_k / s' C s``; shares sum to 1.
 
-    A negative share is that of a mode that relieves the others. All are NaN where nothing varies.
+    A mode with a negative share relieves the others. All are NaN where nothing varies.
     """
     parts = modal_stress * (record.covariance @ modal_stress)
     total = parts.sum()
@@ -87,7 +87,7 @@ def variance_shares(record: EventRecord, modal_stress: NDArray[np.float64]) -> N
 def excerpts(
     record: EventRecord, modal_stress: NDArray[np.float64], start_s: float, end_s: float, modes: Sequence[int]
 ) -> list[Excerpt]:
-    """Cut the stress around the two instants of a cycle: one excerpt where they are close, else one at each.
+    """Stress around the two instants of a cycle: one excerpt where they are close, else one at each.
 
     ``modes`` are the rows of q whose parts of the stress are shown.
     """
@@ -124,5 +124,5 @@ def envelope(record: EventRecord, modal_stress: NDArray[np.float64]) -> Envelope
 
 
 def deviations(record: EventRecord, modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Compute the standard deviation of the stress at many stations: (n, m) -> (n,) [MPa]."""
+    """Standard deviation of the stress at many stations, (n,) [MPa], of their modal stress (n, m)."""
     return np.asarray(np.sqrt(np.maximum(((modal_stress @ record.covariance) * modal_stress).sum(axis=1), 0.0)))

@@ -1,4 +1,9 @@
-"""The result folder: data dictionary, tables, records, and what is printed of them."""
+"""The result folder: data dictionary, tables, records, and what is printed of them.
+
+``columns`` says what every column is; ``tables`` writes and reads whole tables, ``rows`` some of their rows,
+``weld_table`` the welds. ``provenance`` is what a result rests on, ``origin`` leads back to its case, ``belonging``
+tells what is of one result. ``folder`` guards what is in the folder, ``publish`` puts a finished result there.
+"""
 
 from fatigue.results.belonging import (
     CSV_TABLES,

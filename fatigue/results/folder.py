@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.results.belonging import DOCUMENTS, LIST, is_derived
+from fatigue.results.belonging import DOCUMENTS, LIST, PAGE, PICTURE, is_derived
 from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
 from fatigue.results.provenance import PROVENANCE, read_provenance
 
 LOG = "fatigue.log"
-OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.html", LIST, LOG, PROVENANCE)
+OUTPUTS = (*(f"{table}.parquet" for table in TABLES), PICTURE, PAGE, LIST, LOG, PROVENANCE)
 DERIVED = tuple(dict.fromkeys((*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST)))
 STATE = ".fatigue-state"  # of an interrupted run
 _CASE_OF_STATE = "case"
@@ -25,12 +25,12 @@ def refuse_foreign(folder: Path, *, force: bool, case_file: Path | None = None, 
     Parameters
     ----------
     force : replace them all the same, inputs excepted
-    case_file : the case that is to be assessed
+    case_file : the case to be assessed
     inputs : its input files
 
     Raises
     ------
-    DataError : all that is in the way
+    DataError : everything in the way
     """
     if folder.exists() and not folder.is_dir():
         raise DataError(Problem("not_a_folder", str(folder), "is a file, not a folder", "Give another folder with -o"))
@@ -62,7 +62,7 @@ def refuse_foreign(folder: Path, *, force: bool, case_file: Path | None = None, 
 
 
 def _other_case(folder: Path, record: dict[str, Any] | None, case_file: Path) -> list[Problem]:
-    """Say that a folder holds the result, or the unfinished work, of another case."""
+    """Refusal of a folder that holds the result, or the unfinished work, of another case."""
     remedy = "Give another folder with -o, or --force to replace it"
     if record is not None and "case_path" in record and not is_same_case(case_file, record, folder):
         what = f"holds the result of another case, {case_of(record, folder)}"

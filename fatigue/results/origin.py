@@ -29,10 +29,10 @@ def case_of(record: Mapping[str, Any], folder: Path) -> Path:
 
 
 def is_same_case(case_file: Path, record: Mapping[str, Any], folder: Path) -> bool:
-    """Tell whether a case file is the one of a result, perhaps edited since.
+    """Whether a case file is the one of a result, perhaps edited since.
 
-    It is when it is the file that the provenance leads to, however either is spelled. Where that file is gone, the case
-    or the folder was moved: then it is when its text is the one that was assessed.
+    It is if it is the file that the provenance leads to, however either is spelled. Where that file is gone, the case
+    or the folder was moved: then the text of the case file has to be the one that was assessed.
     """
     known = case_of(record, folder)
     if known.exists():
@@ -42,7 +42,7 @@ def is_same_case(case_file: Path, record: Mapping[str, Any], folder: Path) -> bo
 
 
 def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
-    """Take the case file that a user names for a result.
+    """Case file that a user names for a result.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
 
 
 def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:
-    """Name every input of a result that is not there any more, or not what it was, seen from its case file."""
+    """Refusal of every input of a result that is gone or has changed; the paths start at the case file."""
     problems = []
     for known in record["inputs"]:
         is_case = known["file"] == record["case_file"]
@@ -72,7 +72,7 @@ def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:
 
 
 def new_inputs(record: Mapping[str, Any], paths: Iterable[Path]) -> list[Problem]:
-    """Name files that the case of a result takes in without naming them, and that came after the assessment.
+    """Refusal of files that the case of a result takes in without naming them, and that came after the assessment.
 
     ``paths`` are the register and the record of a conversion that lie beside the welds; they need not be there.
     """

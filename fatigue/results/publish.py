@@ -17,8 +17,8 @@ def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
     """Put finished files in place of what was derived before, all of them or none.
 
     They are forced to disk first. Then a journal says what goes and what comes; from there on the publication is
-    completed, by `complete` at the next command if need be. Provenance goes first and comes last, so that a half-moved
-    result never looks whole.
+    completed, by ``complete`` at the next command if need be. Provenance goes first and comes last, so that a
+    half-moved result never looks whole.
 
     Parameters
     ----------
@@ -43,14 +43,14 @@ def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
 
 @contextmanager
 def staging_in(folder: Path) -> Iterator[Path]:
-    """Give a hidden folder in a result folder to write to; files are published from it when all are whole."""
+    """Hidden folder in a result folder to write to; files are published from it when all are whole."""
     staging = folder / STAGING
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir()
     try:
         yield staging
     finally:
-        if not (folder / JOURNAL).exists():  # else `complete` needs it
+        if not (folder / JOURNAL).exists():  # else ``complete`` needs it
             shutil.rmtree(staging, ignore_errors=True)
 
 
@@ -59,7 +59,7 @@ def complete(folder: Path) -> None:
 
     Raises
     ------
-    DataError : a file cannot be replaced or removed, as one that is open on Windows
+    DataError : a file cannot be replaced or removed, for instance as it is open on Windows
     """
     try:
         journal = json.loads((folder / JOURNAL).read_text(encoding="utf-8"))

@@ -1,6 +1,6 @@
 """Some rows of a result table that as a whole may not fit into memory, or one column of its texts.
 
-One row group is in memory at a time. Numbers of all rows, a column at a time, are what `read_table` is for.
+One row group is in memory at a time. ``read_table`` reads the numbers of all rows, a column at a time.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,7 +21,7 @@ from fatigue.results.tables import read_table, readable, table_path
 def read_rows(
     folder: Path | str, table: str, rows: NDArray[np.integer], columns: Sequence[str] | None = None
 ) -> pa.Table:
-    """Read rows by their numbers, in the order of these.
+    """Rows of these numbers, in the same order.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def read_rows(
 
 
 def row_groups(folder: Path | str, table: str) -> Iterator[pa.Table]:
-    """Read a table, one row group after the other; at least one, be it empty.
+    """Row groups of a table, one after the other; at least one, be it empty.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def row_groups(folder: Path | str, table: str) -> Iterator[pa.Table]:
 
 
 def row_count(folder: Path | str, table: str) -> int:
-    """Count the rows of a table.
+    """Number of rows of a table.
 
     Raises
     ------
@@ -70,10 +70,10 @@ def row_count(folder: Path | str, table: str) -> int:
 def number_groups(
     folder: Path | str, table: str, numbers: Sequence[str], texts: Mapping[str, Sequence[str]]
 ) -> Iterator[dict[str, NDArray[Any]]]:
-    """Read columns of a table as plain arrays, one row group after the other.
+    """Columns of a table as plain arrays by name, one row group after the other.
 
-    ``numbers`` are columns of numbers and flags, NaN where there is none. ``texts`` has for each column of texts the
-    list of those that are known; the array holds the place of each text in it, -1 for any other and for a missing one.
+    ``numbers`` are columns of numbers and flags, NaN where there is none. ``texts`` has a list of known texts for each
+    column of texts; its array holds the place of each text in the list, -1 for any other and for a missing one.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def number_groups(
 
 
 def rows_of_welds(folder: Path | str, table: str, welds: Sequence[str]) -> dict[str, NDArray[np.int64]]:
-    """Find the numbers of the rows of each of some welds, ascending.
+    """Numbers of the rows of each of some welds, ascending.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def rows_of_welds(folder: Path | str, table: str, welds: Sequence[str]) -> dict[
 
 
 def worst_toes(folder: Path | str, top: int, welds: Sequence[str] = ()) -> NDArray[np.int64]:
-    """Find the rows of the worst toe points in the table of nodes that were counted, worst first: of some welds or all.
+    """Numbers of the rows of the worst counted toe points in the table of nodes, worst first, of some welds or all.
 
     Raises
     ------
@@ -131,7 +131,7 @@ def worst_toes(folder: Path | str, top: int, welds: Sequence[str] = ()) -> NDArr
 
 
 def read_codes(folder: Path | str, table: str, column: str) -> tuple[NDArray[np.int32], list[str]]:
-    """Read a column of texts as codes (n,), -1 for a missing one, and the texts they stand for.
+    """Codes (n,) of a column of texts, -1 for a missing one, and the texts they stand for.
 
     Raises
     ------
@@ -143,7 +143,7 @@ def read_codes(folder: Path | str, table: str, column: str) -> tuple[NDArray[np.
 
 
 def _wanted(file: pq.ParquetFile, columns: Sequence[str] | None) -> list[str]:
-    """Give the names of the columns to read, in the order of the file; all of them must be there."""
+    """Names of the columns to read, in the order of the file; all of them must be there."""
     there = file.schema_arrow.names
     missing = [name for name in columns or () if name not in there]
     if missing:
@@ -153,7 +153,7 @@ def _wanted(file: pq.ParquetFile, columns: Sequence[str] | None) -> list[str]:
 
 @contextmanager
 def _opened(folder: Path | str, table: str) -> Iterator[pq.ParquetFile]:
-    """Open a table, its texts to be read as codes."""
+    """Open table, whose texts are read as codes."""
     path = table_path(folder, table)
     texts = [column.name for column in TABLES[table] if column.type == "text"]
     with readable(path):
@@ -173,7 +173,7 @@ def _may_hold(statistics: pq.Statistics | None, welds: Sequence[str]) -> bool:
 
 
 def _plain(table: pa.Table) -> pa.Table:
-    """Turn coded texts into texts."""
+    """Table in which coded texts are plain texts."""
     fields = [f.with_type(f.type.value_type) if pa.types.is_dictionary(f.type) else f for f in table.schema]
     return table.cast(pa.schema(fields, metadata=table.schema.metadata))
 

@@ -42,7 +42,7 @@ class Summary:
         return bool(self.welds["fulfilled"].all())
 
     def as_record(self) -> dict[str, Any]:
-        """For machines; infinite life is null there."""
+        """Record for machines, where an infinite life is written as null."""
         return {
             "title": self.title,
             "assumptions": self.assumptions,
@@ -54,7 +54,7 @@ class Summary:
         }
 
     def as_text(self) -> str:
-        """For people: units in every heading, four digits, no infinities."""
+        """Text for people: units in every heading, four digits, no infinities."""
         missed = int((~self.welds["fulfilled"]).sum())
         verdict = (
             "every weld meets its target" if not missed else f"{missed} of {len(self.welds)} welds miss their target"
@@ -107,7 +107,7 @@ class Summary:
 
 
 def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = ()) -> Summary:
-    """Read the summary of a result folder: ``top`` points, of all welds or ``only`` some.
+    """Summary of a result folder with its ``top`` worst points, of all welds or ``only`` some.
 
     Raises
     ------

@@ -25,8 +25,8 @@ _CODED_TEXT = pa.dictionary(pa.int32(), pa.string())
 _ROWS_PER_GROUP = dict.fromkeys(TABLES, 65_536) | {"structural_stress": 131_072, "nodes": 16_384, "welds": 2_048}
 """Rows wait in memory until a group of them is full, and what Parquet says of each group until the file is closed.
 
-A waiting row takes 100 to 250 bytes, twice that where few come at once, as those of welds; what is said of a group
-takes 0.9 kB a column. With these sizes both are small for a million nodes: at most 70 MB for all tables together.
+A waiting row takes 100 to 250 bytes, and twice as much where few rows come at once, as they do for welds. What is said
+of a group takes 0.9 kB a column. With these sizes both are small for a million nodes: at most 70 MB for all tables.
 """
 _ENCODING: dict[str, Any] = {
     "compression": "zstd",
@@ -48,7 +48,7 @@ def schema(table: str) -> pa.Schema:
 
 
 def coded(codes: NDArray[np.integer], texts: Sequence[str]) -> pa.DictionaryArray:
-    """Make the text column ``texts[codes]``, null where a code is below 0; it keeps the codes and is quick to write."""
+    """Text column ``texts[codes]``, null where a code is below 0; it keeps the codes and is quick to write."""
     missing = codes < 0
     indices = pa.array(codes.astype(np.int32), mask=missing if missing.any() else None)
     return pa.DictionaryArray.from_arrays(indices, pa.array(texts, pa.string()))
@@ -67,7 +67,7 @@ class TableWriter:
     def write(self, columns: Mapping[str, Any]) -> None:
         """Append rows; every column of the table must be there, NaN in a float column meaning "not available".
 
-        Columns are sequences, numpy arrays, or Arrow arrays as `coded` makes them. Arrays may be kept for a while
+        Columns are sequences, numpy arrays, or Arrow arrays as ``coded`` makes them. Arrays may be kept for a while
         without a copy: they must not be changed afterwards.
         """
         arrays = [_arrow_array(columns[f.name], f.type) for f in self._schema]
@@ -102,7 +102,7 @@ def _arrow_array(values: Any, type_: pa.DataType) -> pa.Array:
 
 
 def _coded_schema(table: str) -> pa.Schema:
-    """Give the schema of a result table as it is handed to Parquet, which is quickest with texts that have codes."""
+    """Schema of a result table as it is handed to Parquet, which is quickest with texts that have codes."""
     plain = schema(table)
     fields = [f.with_type(_CODED_TEXT) if f.type == pa.string() else f for f in plain]
     return pa.schema(fields, metadata=plain.metadata)

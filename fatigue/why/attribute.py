@@ -66,7 +66,7 @@ class EventAttribution:
     place_km: Floats
 
     def of(self, index: NDArray[np.int64] | slice) -> Self:
-        """Take some of the points."""
+        """The same of some of the points."""
         of_event = {"event", "edges_hz", "place_s", "place_km"}
         return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self) if f.name not in of_event})
 
@@ -90,7 +90,7 @@ class Attribution:
     events: tuple[EventAttribution, ...]
 
     def of(self, index: NDArray[np.int64] | slice) -> Self:
-        """Take some of the points."""
+        """The same of some of the points."""
         return replace(self, points=self.points.of(index), events=tuple(event.of(index) for event in self.events))
 
     @property
@@ -99,7 +99,7 @@ class Attribution:
         return np.asarray(sum(event.damage for event in self.events))
 
     def share(self, part: Floats) -> Floats:
-        """Divide damages or slopes (p, ...) by the damage of their point; 0 where nothing damages."""
+        """Damages or slopes (p, ...) over the damage of their point; 0 where nothing damages."""
         damage = self.damage.reshape(-1, *[1] * (part.ndim - 1))
         return np.divide(part, damage, out=np.zeros_like(part), where=damage > 0.0)
 
@@ -132,7 +132,7 @@ class Attribution:
 
 
 def numbers_of_point(plan: Plan, modes: Modes, edges_hz: Floats, bin_km: float) -> int:
-    """Count the numbers that are held of one point for all events."""
+    """How many numbers are held of one point for all events."""
     places = sum(TIME_BINS if one.length is None else int(one.length / bin_km) + 1 for one in plan.passes)
     return places + len(plan.passes) * (3 * len(modes.mode) + 2 * len(edges_hz) + _OTHER_NUMBERS)
 
@@ -140,7 +140,7 @@ def numbers_of_point(plan: Plan, modes: Modes, edges_hz: Floats, bin_km: float) 
 def attribute_event(
     points: Points, load: EventLoad, one_pass: Pass, modes: Modes, edges_hz: Sequence[float] | Floats, bin_km: float
 ) -> EventAttribution:
-    """Share out the damage of one event at some points.
+    """Damage of one event at some points, shared out.
 
     ``edges_hz`` are ascending edges between frequency bands, ``bin_km`` the length of a bin of the track [km].
     """
@@ -198,7 +198,7 @@ def attribute_event(
 
 
 def count_credit(sigma_m: Floats, sigma_b: Floats, side: float, rule: DamageRule, residue: Residue) -> Credit:
-    """Count one face of one station, side +1 or -1, and lay its damage on the instants of its cycles."""
+    """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles."""
     cycles = rainflow(sigma_m + side * sigma_b, residue)
     return credit(cycles.start, cycles.end, cycles.count, sigma_m, sigma_b, side, rule)
 

@@ -37,7 +37,7 @@ class Levers:
 
 
 def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan, point: NDArray[np.int64]) -> Levers:
-    """Rank the modes of some points, which must have damage, by what 10 % less buys; count the best ones again."""
+    """Modes of some points, which must have damage, ranked by what 10 % less buys; the best are counted again."""
     points, exponents = attribution.points.of(point), attribution.mode_exponent[point]
     mode = np.argsort(exponents, axis=1, kind="stable")[:, :CANDIDATES]
     exponent = np.take_along_axis(exponents, mode, axis=1)

@@ -52,7 +52,7 @@ class Points:
     rule_exponent: Floats
 
     def __len__(self) -> int:
-        """Count the points."""
+        """Number of points."""
         return len(self.node)
 
     @property
@@ -61,12 +61,12 @@ class Points:
         return np.where(self.face == 0, 1.0, -1.0)
 
     def of(self, index: NDArray[np.int64] | slice) -> Self:
-        """Take some of the points."""
+        """The same of some of the points."""
         return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self)})
 
 
 def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64], chosen: NDArray[np.object_]) -> Points:
-    """Take points of a model, given by station and face."""
+    """Points of a model, given by station and face."""
     stations, curve = model.stations, model.case.curve
     names = np.array([weld.name for weld in model.welds], dtype=object)
     yield_MPa = curve.yield_MPa if curve.mean_stress == "asme" else None
@@ -111,9 +111,9 @@ class Chosen:
 
 
 def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, numbers: int) -> Chosen:
-    """Choose all points if that is affordable, else the worst of every weld and those above a share of the limit.
+    """All points if that is affordable, else the worst of every weld and the points above a share of the limit.
 
-    ``numbers`` are those that are held for each point. Where even the worst points are too many, those with the highest
+    ``numbers`` is how many are held for each point. Where even the worst points are too many, those with the highest
     utilisation stay. Points that a bound has settled have no cycles to share out and are never chosen.
     """
     weld, _ = read_codes(folder, "nodes", "weld")
@@ -154,12 +154,12 @@ def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, n
 
 
 def _highest(rows: NDArray[np.int64], utilisation: NDArray[np.float64], most: int) -> NDArray[np.int64]:
-    """Take the rows with the highest utilisation, ascending."""
+    """Rows with the highest utilisation, ascending."""
     return np.sort(rows[np.argsort(-utilisation[rows], kind="stable")[:most]])
 
 
 def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
-    """Solve the groups of welds in which points are chosen, one after the other, and keep what is needed of these.
+    """Points that were chosen, from the groups of welds they lie in, solved one after the other.
 
     Raises
     ------

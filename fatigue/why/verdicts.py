@@ -56,7 +56,7 @@ class EventVerdicts:
     explained: Floats
 
     def of(self, index: NDArray[np.int64] | slice) -> Self:
-        """Take some of the points."""
+        """The same of some of the points."""
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in {"event", "measured"}}
         measured = {name: values[index] for name, values in self.measured.items()}
         return replace(self, measured=measured, **{name: values[index] for name, values in arrays.items()})
@@ -70,7 +70,7 @@ def event_verdicts(
     assessed: pd.DataFrame,
     split_at: NDArray[np.int64],
 ) -> EventVerdicts:
-    """Judge one event at some points.
+    """Verdicts on one event at some points.
 
     ``assessed`` has the rows of ``damage.parquet`` of these points in this event; ``split_at`` are the points whose
     ratio is split by counting Gaussian surrogates.
@@ -137,9 +137,9 @@ def event_verdicts(
 def _split(
     load: EventLoad, points: Points, rules: NDArray[np.object_], assessed: pd.DataFrame, segment_s: float
 ) -> RatioSplit:
-    """Split Dirlik over rainflow at some points by Gaussian surrogates of the event.
+    """Dirlik over rainflow split at some points by Gaussian surrogates of the event.
 
-    The surrogates are those of the few stresses, not of the many modal coordinates: both have the same spectra.
+    Surrogates are made of the few stresses, not of the many modal coordinates: both have the same spectra.
     """
     modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
     stresses = replace(load.counted, mode=np.arange(len(modal_stress)), q=modal_stress @ np.asarray(load.counted.q))
@@ -162,7 +162,7 @@ def _split(
 
 
 def _one_ratio_rules(points: Points, assessed: pd.DataFrame) -> NDArray[np.object_]:
-    """Rules with the one bending ratio of the event in place of that of each cycle, and without mean stress."""
+    """Rules with one bending ratio of the event in place of one of each cycle, and without mean stress."""
     rules = np.empty(len(points), dtype=object)
     factor = ratio_factor(np.nan_to_num(assessed["bending_ratio"].to_numpy()))
     for i, (rule, I) in enumerate(zip(points.rule, factor, strict=True)):  # noqa: E741 - the symbol of the standard
@@ -171,6 +171,6 @@ def _one_ratio_rules(points: Points, assessed: pd.DataFrame) -> NDArray[np.objec
 
 
 def _slope_of_damage(attribution: EventAttribution, at: NDArray[np.int64], otherwise: float) -> float:
-    """Find the slope k on which most points have their damage."""
+    """Slope k on which most points have their damage."""
     damage, slope = attribution.damage[at], attribution.load_slope[at]
     return float(np.median(slope[damage > 0.0] / damage[damage > 0.0])) if (damage > 0.0).any() else otherwise

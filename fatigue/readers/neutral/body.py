@@ -215,7 +215,7 @@ def _vectors(table: Table, names: Sequence[str]) -> NDArray[np.float64]:
 
 
 def checked_lines(lines: LineStack, file: str) -> list[Problem]:
-    """Refuse the unfit lines of all welds together; return the warnings about the others."""
+    """Warnings about lines that can be assessed; the lines of all welds that cannot are refused together."""
     problems: list[Problem] = []
     warnings: list[Problem] = []
     for first in range(0, len(lines), CHECKED_TOGETHER):

@@ -29,7 +29,7 @@ def seconds_of(durations: pa.ChunkedArray) -> NDArray[np.float64]:
 
 
 def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:
-    """Codes of a coded column (r,), those of empty cells ``missing``."""
+    """Codes of a coded column (r,); an empty cell has the code ``missing``."""
     codes = texts.indices if texts.null_count == 0 else texts.indices.fill_null(missing)
     return np.asarray(codes.to_numpy())
 

@@ -17,8 +17,8 @@ DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises o
 class Columns:
     """An open file: names and types of its columns, number of rows, and how to read one column by its position.
 
-    ``numbers`` are the rows' own numbers in the file, from 0, where these are only a part of it; ``warnings`` are
-    those of opening it; ``units`` are those the metadata of a Parquet file states for the columns.
+    ``numbers``, (r,), are the rows' own numbers in the file, from 0; None where the rows are the whole file.
+    ``warnings`` were met while it was opened; ``units`` are what the metadata of a Parquet file states for the columns.
     """
 
     names: tuple[str, ...]

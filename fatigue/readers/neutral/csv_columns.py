@@ -26,7 +26,7 @@ CSV_BLOCK = 1 << 22  # bytes of a CSV file decoded together, some 50 000 rows
 
 
 def open_csv(path: Path, texts: Collection[str]) -> Columns:
-    """Read a CSV file as a whole; where its head did not tell everything, in the light of the rest."""
+    """Open a CSV file, which is read as a whole; ``texts`` are the columns that hold names, never numbers."""
     layout, table = _csv_table(path, table_layout(path, texts), texts)
     warnings = units_row_warnings(path.name, layout)
     if layout.encoding == "cp1252":
@@ -48,7 +48,7 @@ def open_csv(path: Path, texts: Collection[str]) -> Columns:
 
 
 def _csv_table(path: Path, layout: TableLayout, texts: Collection[str]) -> tuple[TableLayout, pa.Table]:
-    """Read a table in the encoding of its head, or in that of the whole file."""
+    """Layout and values of a table, in the encoding of its head or of the whole file."""
     try:
         table = _arrow_table(path, layout, texts)
         if pa.binary() in table.schema.types:  # Arrow's last resort over bytes that are not UTF-8
@@ -75,9 +75,10 @@ def _arrow_table(path: Path, layout: TableLayout, texts: Collection[str]) -> pa.
 
 
 def _csv_source(path: Path, layout: TableLayout) -> Path | BytesIO:
-    """Give Arrow the file itself, or a text it can read: blanks divide its cells or stand before quotation marks, DOS.
+    """File as Arrow can read it: itself, or its text anew.
 
-    DOS ends a text with a control character.
+    Arrow knows no blanks between cells, none before quotation marks, and no control character at the end, as DOS
+    writes it.
     """
     if layout.separator is not None and not layout.padded and not _ends_as_dos(path):
         return path
@@ -98,7 +99,7 @@ def _ends_as_dos(path: Path) -> bool:
 
 
 def _empty_lines(path: Path, layout: TableLayout, rows: int) -> NDArray[np.bool_]:
-    """Rows (r,) of nothing but separators, as spreadsheets leave them below a table; NaN is something."""
+    """Rows (r,) that hold nothing but separators, as spreadsheets leave them below a table; NaN is something."""
     with path.open(encoding=layout.encoding, newline="") as stream:
         for _ in range(layout.first):
             next(stream, "")
@@ -171,7 +172,7 @@ def csv_batches(path: Path, layout: TableLayout, kinds: Mapping[str, pa.DataType
 
 
 def _csv_problem(path: Path, layout: TableLayout, error: Exception) -> Problem:
-    """Find out what Arrow stumbled over: a row with too few or many cells, or something else."""
+    """Refusal of what Arrow stumbled over: a row with too few or too many cells, or something else."""
     width, separator = len(layout.names), layout.separator or "\t"
     try:
         with path.open(encoding=layout.encoding, newline="") as stream:
@@ -189,7 +190,7 @@ def _csv_problem(path: Path, layout: TableLayout, error: Exception) -> Problem:
 
 
 def _ragged(path: Path, row: int, cells: Sequence[str], layout: TableLayout) -> Problem:
-    """Describe a row with too few or too many cells."""
+    """Refusal of a row with too few or too many cells."""
     width = len(layout.names)
     what = f"{len(cells)} cells in a table of {width} columns"
     remedy = "Write one cell per column, texts with commas in double quotes"

@@ -130,8 +130,8 @@ class Table:
     def integers(self, name: str, *, default: int | None = None) -> NDArray[np.int64]:
         """Whole numbers (r,), exact to the last digit; an empty cell or an absent column takes the default.
 
-        Without a default that is a mistake, as are fractions, what is beyond 64 bits, and what a floating-point column
-        may have rounded: beyond 2^53 two neighbouring ids become one there.
+        Without a default an empty cell is a mistake. So are fractions, numbers beyond 64 bits, and numbers that a
+        floating-point column may have rounded: beyond 2^53 two neighbouring ids become one there.
         """
         if name in self.position:
             column = numbers_of_texts(self._column(name))
@@ -146,7 +146,7 @@ class Table:
         return np.where(np.isfinite(values) & ~inexact, values, 0).astype(np.int64)
 
     def _exact(self, name: str, column: pa.ChunkedArray, default: int | None) -> NDArray[np.int64]:
-        """Values of a column of integers or decimals; what is no whole number of 64 bits is a mistake."""
+        """Values of a column of integers or decimals; any that is no whole number of 64 bits is a mistake."""
         missing = np.asarray(column.is_null().to_numpy()) if column.null_count else np.zeros(self.rows, np.bool_)
         if default is None:
             self.report(missing, "missing_value", name, "the value is missing or NaN", "Give a number")
@@ -166,7 +166,7 @@ class Table:
         return np.asarray(whole.to_numpy())
 
     def flags(self, name: str, *, default: bool) -> NDArray[np.bool_]:
-        """Truth values (r,), true and false or 1 and 0; an empty cell or an absent column takes the default."""
+        """Flags (r,), written true and false or 1 and 0; an empty cell or an absent column takes the default."""
         column = self._column(name) if name in self.position else pa.chunked_array([pa.nulls(self.rows)])
         if pt.is_boolean(column.type):
             return np.array(column.fill_null(default).to_numpy(), dtype=np.bool_)

@@ -58,7 +58,7 @@ class TableLayout:
 
 
 def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
-    """Find the layout of a file; ``texts`` are columns of names, whose cells say nothing of decimal signs.
+    """Layout of a file; ``texts`` are columns of names, whose cells say nothing of decimal signs.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
 
 
 def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: Callable[[str], bool]) -> TableLayout:
-    """Find the layout of the lines of a file, or of its first ones; as ``table_layout``.
+    """Layout of the lines of a file, or of its first ones, as ``table_layout``.
 
     ``is_numeric`` tells which columns, by name, hold numbers and so the decimal sign.
     """
@@ -148,7 +148,7 @@ def _names(line: str, separator: str | None) -> list[str]:
 
 
 def _as_wide_as(names: Sequence[str], rows: Sequence[str], separator: str | None) -> tuple[str, ...]:
-    """Give the names as many empty ones at their end as the rows have empty cells."""
+    """Names with as many empty ones at their end as the rows have empty cells."""
     if separator is None or not rows:
         return tuple(names)
     filled = max((k + 1 for k, name in enumerate(names) if name.strip()), default=0)
@@ -174,7 +174,7 @@ def _unit_row(row: str, separator: str | None, width: int) -> tuple[str, ...]:
 def _with_numbers(
     path: Path, layout: TableLayout, rows: Sequence[str], is_numeric: Callable[[str], bool]
 ) -> TableLayout:
-    """Find the decimal sign and exponents of Fortran in the columns that are no names."""
+    """Layout with the decimal sign of the numeric columns, and whether they have exponents of Fortran."""
     numeric = [k for k, name in enumerate(layout.names) if is_numeric(name.strip())]
     signs: Counter[str] = Counter()
     first: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""Lines of a text table, those of one cell joined."""
+"""Lines of a text table; the lines of a cell that is broken over several are joined."""
 
 import re
 from collections.abc import Sequence
@@ -8,13 +8,13 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
 def text_lines(text: str, *, whole: bool = True) -> list[str]:
-    """Lines of a text; the last one of a part of a file is left out."""
+    """Lines of a text; where it is not ``whole``, without the last one, which may be cut."""
     lines = _LINE_END.split(text)
     return lines if whole or len(lines) == 1 else lines[:-1]
 
 
 def whole_cells(lines: Sequence[str]) -> list[str]:
-    """Join the lines of a cell in quotation marks, as spreadsheets break them, on its last line; blank ones remain."""
+    """Lines in which a cell that a spreadsheet broke in quotation marks stands on its last line; blank ones remain."""
     result = list(lines)
     for k in range(len(lines)):
         joined, end = result[k], k

@@ -25,7 +25,7 @@ class TextRow:
 
 
 def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...], list[TextRow]]:
-    """Read a table of texts as a whole: names of its columns, and its rows.
+    """Names of the columns of a table of texts, and its rows.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def _cells(path: Path, layout: TableLayout, lines: Sequence[str]) -> list[tuple[
 
 
 def _refuse_open_quotation(lines: Sequence[str], separator: str) -> None:
-    """Refuse a cell whose quotation never ends: it has swallowed the rows below; other freedoms of quoting are fine."""
+    """Refuse a cell whose quotation never ends, as it swallows the rows below; other freedoms of quoting are fine."""
     try:
         for _ in csv.reader(StringIO("\n".join(lines)), delimiter=separator, strict=True):
             pass

@@ -47,7 +47,7 @@ def states_no_unit(unit: str) -> bool:
 
 
 def parse_unit(text: str) -> CoordinateUnit | None:
-    """Read ``m``, ``mm*sqrt(t)``, ``kg^0.5 m``; None if it is no unit of a modal coordinate."""
+    """Unit written as ``m``, ``mm*sqrt(t)``, ``kg^0.5 m``; None if it is no unit of a modal coordinate."""
     plain = re.sub(r"(?:sqrt|√|root|wurzel)\s*\(?\s*([A-Za-zµ]+)\s*\)?", r"\1^0.5", text.strip(), flags=re.IGNORECASE)
     plain = plain.replace("½", "^0.5").replace("**", "^")
     plain = re.sub(r"\^\s*\(?\s*(?:1\s*/\s*2|0?[.,]5)\s*\)?", "^0.5 ", plain)
@@ -93,7 +93,7 @@ def compared(
 
 
 def _contradiction(where: str, unit: str, system: str, normalisation: Normalisation) -> Problem | None:
-    """Refusal of a unit that is not that of the options; None if it is."""
+    """Refusal of a unit that contradicts the options; None if it agrees."""
     options = (
         f"--coordinate-units {system} and --normalisation {normalisation} make it {_expected(system, normalisation)}"
     )

@@ -34,9 +34,9 @@ FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 def time_against_frequency(nodes: ResultTable) -> go.Figure:
     """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
 
-    ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
-    colours the points: 3 for a Gaussian record. Points without an estimate are left out; of very many points a part is
-    drawn, see ``drawn_points``.
+    ``nodes`` has the columns of the table of nodes and ``kurtosis``: of the stress in the governing event, 3 for a
+    Gaussian record; it colours the points. Points without an estimate are left out; of very many points some are drawn,
+    see ``drawn_points``.
     """
     nodes = frame_of(nodes, "nodes", (*_ESTIMATES, "kurtosis", "weld", "node", "surface"), empty=True)
     shown = nodes[drawn_points(nodes)]
@@ -71,7 +71,7 @@ def time_against_frequency(nodes: ResultTable) -> go.Figure:
 
 
 def drawn_points(nodes: ResultTable, most: int = MOST_POINTS) -> NDArray[np.bool_]:
-    """Mark the points with an estimate that are drawn: all, or ``most`` beginning with those that disagree (n,)."""
+    """Whether each point is drawn, (n,): all that have an estimate, or ``most``, beginning with those that disagree."""
     nodes = frame_of(nodes, "nodes", _ESTIMATES, empty=True)
     lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
     drawn: NDArray[np.bool_] = np.isfinite(lives).all(axis=1)

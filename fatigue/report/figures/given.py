@@ -16,7 +16,7 @@ ResultTable: TypeAlias = pd.DataFrame | pa.Table
 
 
 def frame_of(table: ResultTable, name: str, columns: Sequence[str], *, empty: bool = False) -> pd.DataFrame:
-    """Return a table as a data frame.
+    """Table as a data frame.
 
     Parameters
     ----------

@@ -167,7 +167,7 @@ def _unrolled(top: pd.DataFrame) -> tuple[NDArray[np.float64], NDArray[np.int64]
 
 
 def _gaps(values: ArrayLike, breaks: NDArray[np.int64]) -> NDArray[np.float32]:
-    """Insert a gap before each new part."""
+    """Values with a gap before each new part."""
     return single(np.insert(np.asarray(values, dtype=np.float64), breaks, np.nan))
 
 

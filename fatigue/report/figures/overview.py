@@ -98,7 +98,7 @@ def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> go.Figu
     """Every weld line as a strip coloured by the shorter life of its toe faces, worst weld on top.
 
     ``nodes`` has the columns of the table of nodes; parts of a weld split at its kinks follow each other. A strip has
-    120 cells; a cell shows the shortest life of its nodes, or that of the nearest node.
+    120 cells; a cell shows the shortest life of its nodes, or the life of the nearest node.
     """
     nodes = frame_of(nodes, "nodes", ("weld", "part", "order", "toe", "arc_length_mm", "life_km", "utilisation"))
     check_target(target_km)
@@ -208,7 +208,7 @@ def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> go
 
 
 def _strip(points: pd.DataFrame) -> NDArray[np.float64]:
-    """Shortest life in each cell of one weld line; empty cells take that of the nearest node."""
+    """Shortest life in each cell of one weld line; empty cells take the life of the nearest node."""
     worst = points.groupby(["part", "order", "arc_length_mm"], sort=False)["life_km"].min().reset_index()
     lengths = worst.groupby("part")["arc_length_mm"].max()
     begins = (lengths.cumsum() - lengths).reindex(worst["part"]).to_numpy()

@@ -165,7 +165,7 @@ def _mode_note(name: str, frequency: float, part: float) -> Trace:
 
 
 def _thinned(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Keep the largest value of each of many equal spans of log x, so that no peak is lost."""
+    """Largest value of each of many equal spans of log x, so that no peak is lost."""
     if len(x) <= PSD_POINTS:
         return x, y
     span = np.floor(np.interp(np.log(x), np.log(x[[0, -1]]), [0.0, PSD_POINTS - 1e-9]))

@@ -30,7 +30,7 @@ class BodyOutline:
 
 
 def body_outline(node: NDArray[np.int64], xyz: NDArray[np.float64], corners: NDArray[np.int64]) -> BodyOutline:
-    """Turn shell elements into triangles and the edges that are free, shared by three, or sharper than 30 degrees.
+    """Triangles of shell elements, and their edges that are free, shared by three, or sharper than 30 degrees.
 
     ``corners`` (e, 4) are node ids around each element, 0 in the last column of triangles; ``node`` (k,) ascends.
     """
@@ -55,7 +55,7 @@ def body_outline(node: NDArray[np.int64], xyz: NDArray[np.float64], corners: NDA
 
 
 def worst_faces(nodes: ResultTable) -> pd.DataFrame:
-    """Keep one row per station: the toe face with the larger utilisation (where no face has a toe, the larger)."""
+    """One row per station: the toe face with the larger utilisation (where no face has a toe, the larger)."""
     nodes = frame_of(nodes, "nodes", ("weld", "part", "order", "toe", "utilisation"), empty=True)
     rank = nodes["utilisation"].to_numpy() + np.where(nodes["toe"], 1e30, 0.0)
     best = pd.Series(rank, nodes.index).groupby([nodes["weld"], nodes["part"], nodes["order"]], sort=False).idxmax()

@@ -67,7 +67,7 @@ def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
 
 
 def find_browser() -> Path:
-    """Find a browser that can print a page.
+    """Browser that can print a page.
 
     ``FATIGUE_BROWSER`` names one that is not in its usual place.
 

@@ -62,7 +62,7 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
 def _line_points(
     folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequence[Any]]
 ) -> list[NDArray[np.integer]]:
-    """Find the points of every line part, the first repeated at the end of a ring."""
+    """Points of every line part, the first repeated at the end of a ring."""
     weld, names = read_codes(folder, "nodes", "weld")
     part = read_table(folder, "nodes", ["part"])["part"].to_numpy()
     rings = {
@@ -80,7 +80,7 @@ def _line_points(
 def _point_data(
     folder: Path, rows: Mapping[str, NDArray[np.int64]], register: Mapping[str, Sequence[Any]]
 ) -> Iterator[str]:
-    """Encode the columns of the table of nodes, one in memory at a time."""
+    """Columns of the table of nodes, encoded, one in memory at a time."""
     of_station = {column.name: column for column in NODES if column.name in STATION}
     for name in STATION:
         if name not in _XYZ:
@@ -95,7 +95,7 @@ def _point_data(
 
 
 def _arrays(folder: Path, column: Column, wanted: Mapping[str, NDArray[np.int64]]) -> Iterator[str]:
-    """Encode some rows of a column, each under a name of its own: flags as 0 and 1, texts as strings."""
+    """Some rows of a column, encoded, each under a name of its own: flags as 0 and 1, texts as strings."""
     if column.type == "text":
         codes, texts = read_codes(folder, "nodes", column.name)
         for name, rows in wanted.items():
@@ -140,7 +140,7 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
 def _poly_lines(
     xyz: NDArray[np.float64], lines: Sequence[NDArray[np.integer]], point_data: Iterable[str], comment: str = ""
 ) -> Iterator[str]:
-    """Lay out points, poly-lines and the arrays of the points, behind a comment."""
+    """Text of the file: a comment, points, poly-lines and the arrays of the points."""
     yield '<?xml version="1.0"?>\n'
     yield f"<!-- {comment} -->\n" if comment else ""
     yield '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
@@ -154,7 +154,7 @@ def _poly_lines(
 
 
 def _texts(name: str, codes: NDArray[np.integer], texts: Sequence[str]) -> str:
-    """Encode ``texts[codes]``; a missing text, code -1, is empty."""
+    """Data array of ``texts[codes]``; a missing text, code -1, is empty."""
     plain = np.array([*(text.replace("\0", " ") for text in texts), ""], dtype=object)
     return _element(name, "String", ("\0".join(plain[codes]) + "\0").encode(), components=1)
 
@@ -164,7 +164,7 @@ def _data(name: str, dtype: str, values: NDArray[np.generic], components: int = 
 
 
 def _element(name: str, kind: str, content: bytes, components: int) -> str:
-    """Write a data array as base64, headed by its length in bytes."""
+    """Data array as base64, headed by its length in bytes."""
     encoded = base64.b64encode(len(content).to_bytes(8, "little") + content).decode()
     return (
         f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{components}" format="binary">'

@@ -46,7 +46,7 @@ def where(result: Result, body: BodyOutline | None, links: Mapping[str, str], fi
 
 
 def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, links: Mapping[str, str]) -> Markup:
-    """Pack what a click in the scene shows and what its lines can be coloured by, in the order of drawing."""
+    """What a click in the scene shows and what its lines can be coloured by, packed in the order of drawing."""
     drawn = stations.iloc[np.maximum(rows, 0)]  # nobody asks for what stands at the gaps between the lines
     welds, events = list(result.assessed["weld"]), [event["event"] for event in result.events]
 

@@ -25,8 +25,8 @@ _OF_LARGEST = ("event", "start_s", "end_s", "count", "damage")
 class Detail:
     """Everything recovered for one weld; empty where the weld does no damage or the inputs are gone.
 
-    ``deviation`` are the standard deviations of the stress components along the line [MPa], ``variance_share`` those of
-    the modes in the worst point's stress, both in the governing event.
+    ``deviation`` is the standard deviation of each stress component along the line [MPa], ``variance_share`` the
+    share of each mode in the variance of the worst point's stress, both in the governing event.
     """
 
     spectra: list[StressSpectrum] = field(default_factory=list)
@@ -52,9 +52,7 @@ class _DetailedWeld:
 
 
 def weld_details(result: Result, inputs: FoundInputs) -> tuple[dict[str, Detail], dict[str, float]]:
-    """Recover the details of the welds shown in detail, one event in memory at a time.
-
-    Returns the details of each weld and the time step of each record [s].
+    """Details of each weld shown in detail, and the time step of each record [s]; one event is in memory at a time.
 
     Raises
     ------
@@ -113,7 +111,7 @@ def _welds(result: Result) -> dict[str, _DetailedWeld]:
 
 
 def _largest(cycles: pd.DataFrame, event: str | None) -> tuple[float, float] | None:
-    """Find the instants of the most damaging cycle of an event [s]."""
+    """Instants of the most damaging cycle of an event [s]; None where its cycles are not kept."""
     cycles = cycles[cycles["event"] == event]
     if cycles.empty:
         return None

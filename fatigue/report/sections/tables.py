@@ -107,7 +107,7 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
 
 
 def _status(row: Any) -> str:
-    """Status of a weld, with the reason where it is not assessed; that of a candidate says so itself."""
+    """Status of a weld, with the reason where it is not assessed; the reason of a candidate says so itself."""
     if row.reason in ("", row.status) or pd.isna(row.reason):
         return str(row.status)
     return str(row.reason) if is_candidate(row.reason) else f"{row.status}: {row.reason}"
@@ -142,7 +142,7 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
 def event_table(
     events: Sequence[Mapping[str, Any]], residues: Mapping[str, str], steps: Mapping[str, float]
 ) -> PageTable:
-    """Load definition: the events of the mission; ``steps`` [s] where the records were found."""
+    """The events of the mission, its load definition; ``steps`` [s] where the records were found."""
     rows = []
     for event in events:
         name, length = event["event"], event["length"]
@@ -179,7 +179,7 @@ def event_table(
 
 
 def mode_table(modes: Mapping[str, Any]) -> PageTable:
-    """List the modes used."""
+    """The modes used."""
     rows = tuple(
         (integer(mode), num(frequency), text(kind))
         for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True)
@@ -190,7 +190,7 @@ def mode_table(modes: Mapping[str, Any]) -> PageTable:
 
 
 def input_table(inputs: Sequence[Mapping[str, Any]]) -> PageTable:
-    """List the input files with their hashes."""
+    """The input files with their hashes."""
     rows = tuple(
         (Cell(i["file"]), Cell(size(i["bytes"]), float(i["bytes"])), Cell(i["sha256"], mark="hash")) for i in inputs
     )
@@ -200,7 +200,7 @@ def input_table(inputs: Sequence[Mapping[str, Any]]) -> PageTable:
 
 
 def audit_table(conversion: Mapping[str, Any] | None) -> PageTable | None:
-    """List what the conversion of foreign files found of signs, balance and completeness; None without a conversion."""
+    """What the conversion of foreign files found of signs, balance and completeness; None without a conversion."""
     if conversion is None:
         return None
     rows = tuple(
@@ -212,7 +212,7 @@ def audit_table(conversion: Mapping[str, Any] | None) -> PageTable | None:
 
 
 def verification_table(checks: Sequence[Mapping[str, Any]]) -> PageTable | None:
-    """List the checks of the installed program against known answers; None where none was made."""
+    """The checks of the installed program against known answers; None where none was made."""
     if not checks:
         return None
     rows = tuple(

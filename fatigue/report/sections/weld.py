@@ -43,7 +43,7 @@ class WeldPage:
 
 
 def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
-    """Gather all that is shown of one weld; ``detail`` is None where the records were not found."""
+    """All that is shown of one weld; ``detail`` is None where the records were not found."""
     row = result.assessed.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
     cycles = result.cycles(weld)
@@ -120,7 +120,7 @@ def _cycle_figures(
 def _record_figures(
     result: Result, detail: Detail, event: str | None, figs: Figures, id_: str, *, modes_too: bool
 ) -> list[Shown]:
-    """Draw the records, none where nothing damages; with the modes' shares of the variance if asked."""
+    """Figures of the records, none where nothing damages; with the modes' shares of the variance if asked."""
     if event is None or detail.envelope is None or detail.variance_share is None:
         return []
     colours = figures.event_colours([e["event"] for e in result.events])
@@ -145,7 +145,7 @@ def _record_figures(
 
 
 def _why_figures(result: Result, why: Why, event: str, figs: Figures, id_: str) -> list[Shown]:
-    """Draw the modes, frequency bands and places that make the damage of a weld's worst point."""
+    """Figures of the modes, frequency bands and places that make the damage of a weld's worst point."""
     names, natural = _mode_names(result.record["modes"])
     shown = []
     modes = mode_shares(why).head(MODES_DRAWN)

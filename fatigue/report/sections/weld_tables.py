@@ -10,7 +10,7 @@ from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
 
 
 def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
-    """Say where the worst point is and what it endures; ``point`` of the table of nodes, ``row`` of the register."""
+    """Where the worst point is and what it endures; ``point`` is from the table of nodes, ``row`` from the register."""
     flags = [words for words, flag in (("weld end", point["at_end"]), ("corner", point["at_corner"])) if flag]
     event = NOT_AVAILABLE if pd.isna(point["governing_event"]) else str(point["governing_event"])
     place = f"{number(point['arc_length_mm'])} mm along part {point['part']}"
@@ -61,7 +61,7 @@ def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year:
 
 
 def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, float], most: int) -> PageTable:
-    """List the events at one point, of many those that damage most; ``damage`` are rows of the table of damage."""
+    """The events at one point, of many those that damage most; ``damage`` are rows of the table of damage."""
     weighted = damage["damage_per_pass"] * damage["event"].map(passes_per_km)
     total = weighted.sum()
     if len(damage) > most:
@@ -101,7 +101,7 @@ def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, floa
 
 
 def lever_table(id_: str, levers: pd.DataFrame) -> PageTable:
-    """Say which mode, if 10 % smaller, buys most kilometres; ``levers`` has the columns of that table."""
+    """Which mode, if 10 % smaller, buys most kilometres; ``levers`` has the columns of the table of that name."""
     rows = tuple(
         (
             integer(row.mode),

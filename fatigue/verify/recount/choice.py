@@ -29,7 +29,7 @@ class Choice:
 
 
 def worst_points(body: Layout, toe: NDArray[np.bool_], utilisation: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Find the worst toe point of every weld, of equal ones the first; arrays are (p,)."""
+    """Worst toe point of every weld, of equal ones the first; arrays are (p,)."""
     severity = np.where(toe & ~np.isnan(utilisation), utilisation, -1.0)
     first = 2 * body.first
     return np.array([a + severity[a:b].argmax() for a, b in pairwise(first)], dtype=np.int64)
@@ -46,7 +46,7 @@ def choose(
     samples: int,
     most_samples: int,
 ) -> Choice:
-    """Choose the worst and the named points of every weld, and draw some of the other points.
+    """The worst and the named points of every weld, and some drawn from the others.
 
     Where counting these takes more than ``most_samples`` it is done for fewer welds: half of them are those with the
     highest utilisation, half are drawn from the others.

@@ -77,7 +77,7 @@ def recount(
     case_file: Path | str | None = None,
     most_samples: int = MOST_SAMPLES,
 ) -> Recount:
-    """Recount points of a finished result from its input files, by other code than the one that made it.
+    """Recount of points of a finished result from its input files, by other code than the one that made it.
 
     Files of the folder that belong to another result are named; where they are tables of the assessment nothing is
     recounted.
@@ -158,14 +158,14 @@ def recount(
 
 
 def _senseless(sample: object, seed: object) -> Iterator[Problem]:
-    """Find arguments that make no sense."""
+    """Problems of arguments that make no sense."""
     for name, given in (("sample", 0 if sample is None else sample), ("seed", seed)):
         if not (isinstance(given, Integral) and int(given) >= 0):
             yield Problem("argument", name, f"{given!r} is no whole number from 0 on", "Give one")
 
 
 def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
-    """Add up the samples on which a point is counted, as far as they are known before the records are read."""
+    """Samples on which a point is counted, as far as they are known before the records are read."""
     upsample = inputs.case.get("counting", {}).get("upsample", 1)
     factor = upsample if isinstance(upsample, int) else 1
     return factor * sum(int(event["samples"]) for event in record["mission"]["events"])
@@ -174,7 +174,7 @@ def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
 def _welds(
     inputs: RecountInputs, modes: RecountModes, record: Mapping[str, Any], names: Sequence[str]
 ) -> dict[str, RecountWeld]:
-    """Read and solve some welds."""
+    """Some welds, read and solved."""
     parts: dict[str, list[Any]] = {name: [] for name in names}
     for solved in solved_lines(inputs, modes, names):
         parts[solved.line.weld].append(solved)
@@ -210,7 +210,7 @@ def _count(
     stored: Stored,
     cycles_of: frozenset[int],
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
-    """Count every event at every point, one record in memory at a time; cycles are compared at once."""
+    """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once."""
     asked = inputs.case["curve"]
     mean_stress = MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
     counted = {point: Passes([], [], []) for point in stations}
@@ -237,7 +237,7 @@ def _count(
 def _values(
     inputs: RecountInputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[RecountEvent]
 ) -> dict[int, Values]:
-    """Weight the events with the mission, point by point."""
+    """Columns of the table of points, point by point: the events weighted with the mission."""
     mission = inputs.case["mission"]
     return {
         point: point_values(of.treated, of.raw_damage, events, mission, stations[point].weld.curve)
@@ -253,7 +253,7 @@ def _compared(
     events: Sequence[RecountEvent],
     raw_life_enough: float,
 ) -> list[ColumnCheck]:
-    """Set the recounted rows of some points beside the stored ones."""
+    """Checks of the stored rows of some points beside the recounted ones."""
     points, e = np.array(list(stations)), len(events)
     of_nodes = rows_of(stored, "nodes", stored.nodes.of(points))
     of_damage = rows_of(stored, "damage", stored.damage.of((points[:, None] * e + np.arange(e)).ravel()))
@@ -274,7 +274,7 @@ def _compared(
 
 
 def _compared_stress(modes: RecountModes, stations: Mapping[int, Station], stored: Stored) -> list[ColumnCheck]:
-    """Set the solved stress of some stations beside the stored one, few of them at a time."""
+    """Checks of the stored stress of some stations beside the solved one, few of them at a time."""
     numbers, m = np.array(list(stations)), len(modes.mode)
     checks: list[ColumnCheck] = []
     for first in range(0, len(numbers), max(1, STRESS_ROWS_AT_ONCE // m)):
@@ -293,7 +293,7 @@ def _compared_stress(modes: RecountModes, stations: Mapping[int, Station], store
 def _compared_welds(
     welds: Mapping[str, RecountWeld], stored: Stored, values: Mapping[Key, Values], *, all_counted: bool
 ) -> list[ColumnCheck]:
-    """Set the rows of some welds beside the stored ones."""
+    """Checks of the stored rows of some welds beside the recounted ones."""
     rows = [
         weld_row(
             weld,

@@ -95,9 +95,9 @@ class ForcesByGroup:
     def regular_check(
         self, lines: LineFile, modes: Modes, ignore_modes: Collection[int], *, strict: bool
     ) -> RegularCheck | None:
-        """Check of the file in its own order; None where it is not of the form that `regular_check` needs.
+        """Check of the file in its own order; None where its rows do not come node by node.
 
-        ``lines`` are those of the welds of all groups.
+        ``lines`` has the lines of the welds of all groups.
         """
         if len(self._welds.groups) == 1:
             return None
@@ -126,7 +126,7 @@ class ForcesByGroup:
         return pa.concat_tables(found or [self._source.nothing])
 
     def _piece(self, number: int) -> _Piece:
-        """Decode a piece and bring its rows into the order of the groups, those of a group in that of the file."""
+        """Decoded piece, its rows in the order of the groups; the rows of a group keep the order of the file."""
         rows = self._source.read(number)
         if self._welds.skipped:
             rows = rows.filter(pa.array(rows.column(CODE).to_numpy() >= 0))
@@ -139,7 +139,7 @@ class ForcesByGroup:
 
 
 def _nameless(path: Path, header: Table) -> dict[int, pa.ChunkedArray]:
-    """First value, if there is any, of every column without a name: they are told, and not kept in pieces."""
+    """First value, if there is any, of every column without a name: it is told, and not kept in pieces."""
     places = [k for k, name in enumerate(header.columns.names) if not composed(name)]
     if not places:
         return {}
@@ -149,7 +149,7 @@ def _nameless(path: Path, header: Table) -> dict[int, pa.ChunkedArray]:
 
 
 def _renamed(table: Table, welds: WeldCodes) -> Table:
-    """Give the rows of a whole file the names that are asked for, those of skipped welds left out.
+    """Table of a whole file under the names that are asked for, without the rows of skipped welds.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def _renamed(table: Table, welds: WeldCodes) -> Table:
 
 
 def _source(path: Path, welds: WeldCodes, scratch: Path) -> Source:
-    """Read a Parquet file where it is unless its order means decoding the same rows again and again."""
+    """Source of the rows: the file where it is, or a sorted copy if its order meant decoding rows again and again."""
     if path.suffix.lower() == ".parquet":
         source = in_place(path, welds, ROWS_KEPT)
         if source and _rows_decoded(source) <= DETOUR * sum(source.rows):

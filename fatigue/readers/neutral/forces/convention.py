@@ -1,6 +1,6 @@
 """What the forces of a file are: their columns, the side they act on, and the size of the mode they belong to.
 
-`fatigue.readers.convert.audit.sign_proof` proves which convention a solver writes; here it is applied, once.
+``fatigue.readers.convert.audit.sign_proof`` proves which convention a solver writes; here it is applied, once.
 """
 
 from typing import Any, Literal, TypeAlias

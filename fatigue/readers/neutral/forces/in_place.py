@@ -1,4 +1,4 @@
-"""A Parquet file of nodal forces that serves where it is, as it is in about the order of the groups of welds."""
+"""A Parquet file of nodal forces, read where it is: its rows have about the order of the groups of welds."""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -17,7 +17,7 @@ from fatigue.readers.neutral.forces.weld_codes import WeldCodes
 
 
 def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
-    """Look up which row groups of a Parquet file hold which groups of welds; None if one has more than ``most_rows``.
+    """Source that decodes the row groups of a Parquet file; None if one of them has more than ``most_rows``.
 
     Raises
     ------

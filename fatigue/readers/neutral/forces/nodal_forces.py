@@ -63,7 +63,7 @@ def check_nodal_forces(
 def _placed(
     table: Table, lines: LineStack, modes: Modes, ignore_modes: Collection[int], *, strict: bool
 ) -> Grid | Slots:
-    """Find out where the forces of each row belong; every (station, mode) has exactly one row, or it is refused."""
+    """Place of every row; a table is refused unless every (station, mode) has exactly one."""
     table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
     keys = RowKeys(*table.groups("weld"), table.integers("node"), table.integers("mode"))
     regular = None if table.problems else grid(keys, lines, modes, ignore_modes)

@@ -1,7 +1,7 @@
 """The station and the mode of every row of a table of nodal forces.
 
 Most programs write a grid: node by node all modes, or mode by mode all nodes. Then each axis is looked up once. In a
-table of any other order every row is looked up. Here are arrays only; `mistakes` tells what is wrong with the table.
+table of any other order every row is looked up. Only arrays are known here; ``mistakes`` tells what is wrong with them.
 """
 
 from collections.abc import Collection, Sequence
@@ -31,8 +31,8 @@ class RowKeys:
 class Grid:
     """Rows that run node by node through all modes, or mode by mode through all nodes.
 
-    ``shape`` is that of the rows, nodes first if ``by_node``; ``station`` and ``mode`` are positions on its two axes
-    where the stations of all lines and the modes used stand.
+    ``shape`` is (nodes, modes) if ``by_node``, else (modes, nodes). ``station``, (n,), and ``mode``, (m,), are the
+    positions on these axes where the stations of all lines and the modes used stand.
     """
 
     shape: tuple[int, int]

@@ -1,8 +1,8 @@
-"""One pass over nodal forces in the order most programs write them, which shows that nothing in them will be refused.
+"""A check of nodal forces in the order of their file, which shows in one pass that none of them will be refused.
 
-Rows come node by node with all modes, in the same order of modes at every node, and the nodes are those of the lines in
-any order. Then a few comparisons of whole columns take the place of looking up every row. What is not of this form, or
-has any mistake in it, is left to `nodal_forces.check_nodal_forces`, which looks at every row and says what is wrong.
+Most programs write node by node all modes, in the same order of modes at every node. Where they do, a few comparisons
+of whole columns take the place of looking up every row; the nodes may come in any order. A table of another form, or
+with any mistake in it, is left to ``check_nodal_forces``, which looks at every row and says what is wrong.
 """
 
 from collections.abc import Collection, Sequence
@@ -33,8 +33,8 @@ class NotRegular(Exception):
 class RegularCheck:
     """A table of forces under the assumption that row after row it has the modes of ``cycle``, again and again.
 
-    ``batches`` and ``rows`` are those of the `source.Source`; ``welds`` are numbered as in ``lines``. Threads may
-    check different pieces at the same time. ``modes`` repeats the cycle for a batch of rows that begins anywhere in it.
+    ``batches`` and ``rows`` come from the ``Source``; ``welds`` are numbered as in ``lines``. ``modes`` repeats the
+    cycle for a batch of rows that begins anywhere in it. Threads may check different pieces at the same time.
     """
 
     batches: Batches
@@ -45,7 +45,7 @@ class RegularCheck:
     modes: NDArray[np.int64]
 
     def runs(self, piece: int) -> NDArray[np.int64]:
-        """Check a piece; returns its runs of rows of one station, (2, k): the first slot of each, and how many rows.
+        """Runs of rows of one station in a piece, (2, k): the first slot of each run, and how many rows it has.
 
         Slots count through all stations in the order of the lines, and at each through the ``cycle``.
 
@@ -77,7 +77,7 @@ class RegularCheck:
         return bool(np.array_equal(np.append(0, slot + rows), np.append(slot, slots)))
 
     def _runs(self, batch: pa.RecordBatch, phase: int) -> NDArray[np.int64]:
-        """Check rows of which the first has the mode at ``phase`` of the cycle."""
+        """Runs in a batch whose first row has the mode at ``phase`` of the cycle."""
         if any(column.null_count for column in batch.columns):
             raise NotRegular
         for name in COMPONENTS:
@@ -115,7 +115,7 @@ class RegularCheck:
 def regular_check(
     source: Source, welds: WeldCodes, lines: LineFile, modes: Modes, ignore_modes: Collection[int], *, strict: bool
 ) -> RegularCheck | None:
-    """Look at the beginning of a table; None where it is of another form.
+    """Check of a table whose rows begin node by node; None where they do not.
 
     ``welds`` have to be numbered as in ``lines``.
     """
@@ -144,7 +144,7 @@ def regular_check(
 
 
 def _first_modes(batches: Batches, pieces: int, rows: int) -> NDArray[np.int64]:
-    """Read the modes of so many rows at the beginning; pa.ArrowInvalid where one is missing."""
+    """Modes of so many rows at the beginning; ``pa.ArrowInvalid`` where one is missing."""
     found = np.zeros(0, dtype=np.int64)
     for batch in (batch for piece in range(pieces) for batch in batches(piece, rows)):
         found = np.append(found, batch.column("mode").to_numpy().astype(np.int64))

@@ -31,7 +31,7 @@ CSV_ROW = 60  # bytes, about
 
 
 def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
-    """Deal out the rows of a file to buckets in ``scratch`` that hold a few groups each.
+    """Source that decodes buckets in ``scratch``, to which the rows of a file are dealt out.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
 
 
 def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: WeldCodes, scratch: Path) -> Source:
-    """Deal out batches of about so many rows, columns by trimmed name, to files of neighbouring groups."""
+    """Source of batches of about so many ``rows`` together, dealt out to buckets of neighbouring groups."""
     scratch.mkdir(parents=True, exist_ok=True)
     groups = len(welds.groups)
     buckets = min(max(1, math.ceil(rows / ROWS_OF_BUCKET)), groups, MOST_BUCKETS)

@@ -42,7 +42,7 @@ class Source:
 
 
 def force_columns(header: Table) -> dict[str, str]:
-    """Columns that are read: their names in the file, and trimmed.
+    """Columns that are read: their trimmed names, by their names in the file.
 
     Raises
     ------

@@ -13,7 +13,7 @@ MOST_ROWS = 1_000_000  # rows of unknown welds that are looked at
 
 
 class UnknownWelds:
-    """Rows of a file whose weld nobody knows, to be told all together."""
+    """Collects the rows of a file whose weld nobody knows, to refuse them all together."""
 
     def __init__(self, header: Table) -> None:
         self.header = header

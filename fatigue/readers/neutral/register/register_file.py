@@ -21,7 +21,7 @@ _COLUMNS = [
 
 
 def register_text(rows: Iterable[RegisterRow]) -> str:
-    """Register as CSV text."""
+    """Text of the register as CSV, rows to assess first."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     rows = list(rows)

@@ -26,8 +26,8 @@ STATUSES = ("assess", "candidate", "excluded")
 class RegisterRow:
     """One cut in the register; ``thickness`` NaN where the model gives none [mm].
 
-    ``surface`` is empty where the register leaves it open; ``number`` is that of the row in its file, from 1;
-    ``others`` are the cells of columns that nothing reads, kept for the user.
+    ``surface`` is empty where the register leaves it open. ``number`` counts the rows of the file from 1. ``others``
+    are the cells of columns that nothing reads, kept for the user.
     """
 
     weld: str
@@ -68,7 +68,7 @@ class Register:
 
 
 def description_of(rows: Iterable[RegisterRow]) -> str:
-    """Describe a weld by the user's words for its lines, else by their kinds and the properties that meet there."""
+    """Description of a weld: the user's words for its lines, else their kinds and the properties that meet there."""
     rows = list(rows)
     words = [row.description for row in rows if row.description] or [f"{row.kind} {row.pids}".strip() for row in rows]
     return "; ".join(dict.fromkeys(words))
@@ -86,7 +86,7 @@ def contradictions(rows: Iterable[RegisterRow], where: str) -> Iterator[Problem]
 
 
 def kind_of(reason: str) -> str:
-    """Leave the numbers out of a reason."""
+    """Kind of a reason: the reason with every number written as 0."""
     return re.sub(r"\d+(\.\d+)?", "0", reason)
 
 
@@ -120,7 +120,7 @@ def proposed(cut: WeldCut, status: str, reason: str) -> RegisterRow:
 
 
 def merged(rows: Iterable[RegisterRow], register: Register) -> tuple[list[RegisterRow], list[Problem]]:
-    """Put the user's columns of an earlier register over fresh rows; rows whose line is gone are kept, excluded."""
+    """Fresh rows with the user's columns of an earlier register, and warnings; a row whose line is gone is excluded."""
     fresh = {row.line: row for row in rows}
     edited = {row.key: row for row in register.rows}
     result, warnings = [], list(register.warnings)

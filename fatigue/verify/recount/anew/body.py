@@ -23,7 +23,7 @@ _WELDS_AT_ONCE = 1000  # whose geometry is in memory
 
 
 def layout(inputs: RecountInputs) -> Layout:
-    """Find where the points are: the keys of all stations, without the forces and without keeping the geometry."""
+    """Where the points are: the keys of all stations, without the forces and without keeping the geometry."""
     welds = tuple(inputs.register.welds)
     if "nodal_forces" in inputs.case["body"]:
         return _unsplit(inputs, welds)
@@ -38,7 +38,7 @@ def layout(inputs: RecountInputs) -> Layout:
 
 
 def _unsplit(inputs: RecountInputs, welds: tuple[str, ...]) -> Layout:
-    """Lay out lines whose forces are summed already; a kink is then no reason to split."""
+    """Layout of lines whose forces are summed already; a kink is then no reason to split."""
     place = {inputs.register.welds[name].sources[0]: i for i, name in enumerate(welds)}
     welds_of, orders = [], []
     for whole in read_pieces(inputs.path("weld_nodes"), ("weld", "order")):
@@ -51,7 +51,7 @@ def _unsplit(inputs: RecountInputs, welds: tuple[str, ...]) -> Layout:
 
 
 def solved_lines(inputs: RecountInputs, modes: RecountModes, welds: Sequence[str]) -> list[RecountLineStress]:
-    """Read and solve every line part of some welds, in their order."""
+    """Line parts of some welds, read and solved, in their order."""
     lines = _lines(inputs, welds)
     if "nodal_forces" in inputs.case["body"]:
         return list(_with_nodal_forces(lines, inputs, modes))
@@ -59,7 +59,7 @@ def solved_lines(inputs: RecountInputs, modes: RecountModes, welds: Sequence[str
 
 
 def closed_welds(inputs: RecountInputs, welds: Sequence[str]) -> set[str]:
-    """Find which of some welds close: as the tables say, or, of several lines, as these meet."""
+    """Which of some welds close: as the tables say, or, of several lines, as the lines meet."""
     entries = [inputs.register.welds[weld] for weld in welds]
     several = [entry.name for entry in entries if len(entry.sources) > 1]
     closed = {line.weld for line in _lines(inputs, several) if line.closed} if several else set()
@@ -67,7 +67,7 @@ def closed_welds(inputs: RecountInputs, welds: Sequence[str]) -> set[str]:
 
 
 def _lines(inputs: RecountInputs, welds: Sequence[str]) -> list[Line]:
-    """Read the lines of some welds."""
+    """Lines of some welds, read from their tables."""
     entries = [inputs.register.welds[weld] for weld in welds]
     sources = [source for entry in entries for source in entry.sources]
     by_weld = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", sources).groupby("weld")))
@@ -104,7 +104,7 @@ def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | No
 
 
 def _with_nodal_forces(lines: list[Line], inputs: RecountInputs, modes: RecountModes) -> Iterator[RecountLineStress]:
-    """Solve lines whose forces are summed already; a kink is then no reason to split."""
+    """Stress of lines whose forces are summed already; a kink is then no reason to split."""
     source = {line.weld: inputs.register.welds[line.weld].sources[0] for line in lines}
     frame = read_rows_where(inputs.path("nodal_forces"), "weld", list(source.values()))
     frame = frame[frame["mode"].isin(modes.mode)]
@@ -117,7 +117,7 @@ def _with_nodal_forces(lines: list[Line], inputs: RecountInputs, modes: RecountM
 
 
 def _with_element_forces(lines: list[Line], inputs: RecountInputs, modes: RecountModes) -> Iterator[RecountLineStress]:
-    """Split every line at its kinks and sum the forces of the assessed side's elements per part."""
+    """Stress of the parts of every line, each with the forces of the assessed side's elements summed for it."""
     entries = {line.weld: inputs.register.welds[line.weld] for line in lines}
     sources = [source for entry in entries.values() for source in entry.sources]
     sides = read_rows_where(inputs.path("weld_elements"), "weld", sources)
@@ -141,7 +141,7 @@ def _with_element_forces(lines: list[Line], inputs: RecountInputs, modes: Recoun
 
 
 def split(line: Line) -> list[Line]:
-    """Cut a line at its kinks above 30 degrees; a corner node belongs to both parts."""
+    """Parts of a line between its kinks above 30 degrees; a corner node belongs to both parts."""
     n = len(line.node)
     corner = [int(i) for i in np.flatnonzero(kinks(line) > CORNER_DEG)]
     if not corner:
@@ -169,7 +169,7 @@ def split(line: Line) -> list[Line]:
 
 
 def _summed(parts: list[Line], corners: Corners) -> Iterator[tuple[Line, Floats]]:
-    """Sum the element corners at the nodes of each part, those at a kink to the part that is nearest."""
+    """Each part with the element corners summed at its nodes; a corner at a kink goes to the nearest part."""
     touching: dict[int, list[int]] = {}
     for element, node in corners:
         touching.setdefault(node, []).append(element)

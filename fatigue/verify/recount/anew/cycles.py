@@ -19,7 +19,7 @@ class RecountCycles:
 
 
 def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
-    """Count a single pass with half cycles (ASTM E1049-85 5.4.4), or a block that recurs with whole ones (5.4.5).
+    """Cycles of a single pass with half cycles (ASTM E1049-85 5.4.4), of a block that recurs with whole ones (5.4.5).
 
     A block that recurs is turned to begin at its largest sample and closed there; what the package then leaves as two
     halves between the same two reversals is one cycle.
@@ -48,7 +48,7 @@ def _last_of_maximum(stress: Floats) -> int:
 
 
 def _halves_joined(found: list[list[float]], path: Floats) -> list[list[float]]:
-    """Join the two half cycles from a reversal to another and back."""
+    """Cycles with the two halves from a reversal to another and back joined."""
     halves = [cycle for cycle in found if cycle[2] == 0.5]
     there, back = halves[::2], halves[1::2]
     joined = [[a[0], a[1], 1.0] for a in there]

@@ -63,7 +63,7 @@ class RecountEvent:
 
 
 def point_of(components: Floats, surface: str, curve: RecountCurve, thickness: float) -> RecountPoint:
-    """Take one face of a station, whose five stress components are (m, 5)."""
+    """One face of a station, whose five stress components are (m, 5)."""
     side = 1.0 if surface == "top" else -1.0
     return RecountPoint(
         components[:, 0], side * components[:, 1], components[:, 2], side * components[:, 3], curve, thickness
@@ -71,7 +71,7 @@ def point_of(components: Floats, surface: str, curve: RecountCurve, thickness: f
 
 
 def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, mean_stress: MeanStress) -> OnePass:
-    """Count one pass of an event at a point and estimate it from its spectrum."""
+    """One pass of an event at a point, counted, and estimated from its spectrum."""
     curve, size = point.curve, point.curve.size_factor(point.thickness)
     modal_stress = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist])
     m_kept, b_kept, t_m, t_b = modal_stress @ record.kept
@@ -127,7 +127,7 @@ def point_values(
     mission: Mapping[str, Any],
     curve: RecountCurve,
 ) -> Values:
-    """Weight one pass of every event with the mission: the columns of the table of points.
+    """Columns of the table of points: one pass of every event, weighted with the mission.
 
     ``raw_damage`` is the damage of one pass of each event without end treatment.
     """

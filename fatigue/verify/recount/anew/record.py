@@ -64,7 +64,7 @@ def spectrum_rules(case: Mapping[str, Any], modes: RecountModes, step: float) ->
 
 
 def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float) -> RecountRecord:
-    """Read the history of an event and cut its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
+    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
     frame = read_frame(inputs.folder / event["history"])
     time = frame["time_s"].to_numpy(dtype=float)
     step = (time[-1] - time[0]) / (len(time) - 1)
@@ -102,7 +102,7 @@ def _upsample(asked: int | str, step: float, fastest: float) -> int:
 
 
 def finer(q: Floats, factor: int, *, recurs: bool) -> Floats:
-    """Fourier interpolation of each row; of a single pass that of its mirror extension."""
+    """Fourier interpolation of each row; a single pass is interpolated by its mirror extension."""
     if factor == 1:
         return q
     if not recurs:

@@ -26,11 +26,11 @@ class RecountInputs:
     register: WeldEntries
 
     def frame(self, key: str) -> pd.DataFrame:
-        """Read one table of the body."""
+        """Table of the body by its key in the case."""
         return read_frame(self.path(key))
 
     def path(self, key: str) -> Path:
-        """Name the file of one table of the body."""
+        """File of one table of the body."""
         return self.folder / str(self.case["body"][key])
 
 
@@ -51,7 +51,7 @@ class RecountModes:
 
 
 def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> RecountInputs:
-    """Find the input files of a result and make sure they are the very files it was computed from.
+    """Input files of a result, found and proven to be the very files it was computed from.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
 
 
 def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
-    """Name every input that is no longer what it was."""
+    """Problem of every input that is no longer what it was."""
     for known in record["inputs"]:
         path = case_file if known["file"] == record["case_file"] else case_file.parent / known["file"]
         if not path.is_file():
@@ -98,7 +98,7 @@ def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[n
 
 
 def flags(frame: pd.DataFrame, name: str) -> NDArray[np.bool_]:
-    """Tell which cells of a column are true, (r,); none where it is absent."""
+    """Whether each cell of a column is true, (r,); none is where the column is absent."""
     if name not in frame:
         return np.zeros(len(frame), dtype=bool)
     return np.asarray(frame[name].astype(str).str.strip().str.lower().isin(["true", "1", "1.0"]))
@@ -112,7 +112,7 @@ def texts(frame: pd.DataFrame, name: str) -> list[str]:
 
 
 def read_modes(inputs: RecountInputs) -> RecountModes:
-    """Read the modes that are not ignored."""
+    """Modes that are not ignored."""
     body = inputs.case["body"]
     frame = inputs.frame("modes").sort_values("mode")
     frame = frame[~frame["mode"].isin(body.get("ignore_modes", []))]

@@ -153,5 +153,5 @@ def weld_row(weld: RecountWeld, recounted: Mapping[Key, Values], found: Mapping[
 
 
 def place(key: Key) -> str:
-    """Say where a point is."""
+    """Place of a point in words."""
     return f"weld {key[0]}, part {key[1]}, order {key[2]}, {key[3]}"

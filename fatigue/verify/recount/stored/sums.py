@@ -41,7 +41,7 @@ class Sum(NamedTuple):
 
 
 def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> list[ColumnCheck]:
-    """Check every row of the tables of a result against other rows.
+    """Checks of every row of the tables of a result against other rows.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent
 def _of_points(
     stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent], points: NDArray[np.int64]
 ) -> Iterator[Sum]:
-    """Take columns of points from those of their events, and per km from per pass."""
+    """Columns of points as the columns of their events make them, and numbers per km as numbers per pass do."""
     e = len(events)
     keys = (points[:, None] * e + np.arange(e)).ravel()
     node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), _NODES))
@@ -111,7 +111,7 @@ def _of_points(
 
 
 def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
-    """Take the damage of a pass from that of its cycles."""
+    """Damage of a pass as the damage of its cycles makes it."""
     cycles = stored.cycles
     of_run, row = np.zeros(len(cycles.point)), 0
     for columns in number_groups(stored.folder, "cycles", ["damage"], {}):
@@ -128,7 +128,7 @@ def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
 
 
 def _of_welds(stored: Stored) -> Iterator[Sum]:
-    """Take the row of a weld from that of its worst point, which no counted point of a toe exceeds."""
+    """Row of a weld as the row of its worst point makes it, which no counted point of a toe exceeds."""
     welds = stored.welds.loc[list(stored.body.welds)]
     number = np.arange(len(welds))
     point = worst_of_welds(stored, number)
@@ -144,7 +144,7 @@ def _of_welds(stored: Stored) -> Iterator[Sum]:
 
 
 def _check(stored: Stored, events: Sequence[RecountEvent], one: Sum) -> ColumnCheck:
-    """Find the value of a column that differs most from what it should be."""
+    """Check of a column by the value that differs most from what it should be."""
     difference = _differences(one.found, one.expected)
     worst = int(difference.argmax()) if len(difference) else 0
     is_any = len(difference) > 0
