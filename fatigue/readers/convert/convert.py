@@ -52,7 +52,7 @@ class Conversion:
 
 
 def convert(options: ConvertOptions) -> Conversion:
-    """Read, audit and write; nothing is written if a check is red.
+    """Conversion of foreign files into a folder: read, audited and written; a red check stops it before it writes.
 
     Raises
     ------
@@ -118,13 +118,13 @@ def convert(options: ConvertOptions) -> Conversion:
 
 
 def _weld_sources(options: ConvertOptions) -> WeldSources:
-    """Take the register of an earlier conversion into the folder where none is given."""
+    """Where weld lines come from; the register of an earlier conversion into the folder where none is given."""
     own = options.out / REGISTER
     return replace(options.welds, register=options.welds.register or (own if own.exists() else None))
 
 
 def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
-    """Say why no weld line can be assessed: all kinds of reasons, with their numbers."""
+    """Refusal where no weld line can be assessed: all kinds of reasons, with their numbers."""
     if not found.rows:
         return no_welds(mesh)
     kinds = "; ".join(f"{number} because {reason}" for number, reason in reasons(found.rows))

@@ -25,7 +25,7 @@ TABLES = (
 
 
 def read_record(path: Path) -> dict[str, Any]:
-    """Read what a conversion recorded: inputs with hashes, sign convention, audit, warnings.
+    """What a conversion recorded: inputs with hashes, sign convention, audit, warnings.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def recorded_files(folder: Path) -> dict[str, str]:
 
 
 def check_folder(folder: Path, names: list[str], editable: str) -> None:
-    """Refuse to overwrite files that an earlier conversion did not write, or that were changed since.
+    """Refuse to write over files that an earlier conversion did not write, or that were changed since.
 
     Parameters
     ----------

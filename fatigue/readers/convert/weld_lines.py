@@ -48,7 +48,7 @@ class FoundWelds:
 
 
 def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
-    """Find and register the weld lines of a model in mm.
+    """Weld lines of a model in mm, with their register.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
 def list_welds(
     mesh: Path | str, sources: WeldSources, units: str, out: Path | str | None, overwrite: bool
 ) -> FoundWelds:
-    """Find the weld lines of a model file and write their register, to be edited and given back.
+    """Weld lines of a model file; their register is written, to be edited and given back.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def list_welds(
 
 
 def no_welds(mesh: Path) -> Problem:
-    """Say that a mesh has nothing to list."""
+    """Refusal of a mesh that has nothing to list."""
     what = "the mesh has no weld lines: no edge where three shells, two properties or two planes meet"
     return Problem("no_welds", str(mesh), what, "Mark the lines with --node-lists, --set or --marker")
 

@@ -51,7 +51,7 @@ def audit(
     interface_modes: Iterable[int] = (),
     simulated: dict[int, float] | None = None,
 ) -> Audit:
-    """Judge grid point forces against their model, and against the simulation's modes.
+    """Audit of grid point forces against their model, and against the simulation's modes.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ ENDDATA
 
 
 def convention_of(patch: FeResults) -> Convention:
-    """Read the sign convention off the results of the deck: on the element, the pulled grids carry +100 N together.
+    """Sign convention that the results of the deck show: on the element, the pulled grids carry +100 N together.
 
     Raises
     ------
