@@ -9,7 +9,7 @@ from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.count import count
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.rows import count_rows
-from fatigue.life.counting.single.record import single_record
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.curves import DamageLaw, catalogue, damage_law
 from fatigue.life.rule import CycleRule
 

@@ -12,7 +12,7 @@ from fatigue.life.counting.block import BlockStress
 from fatigue.life.counting.count import count
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.rows import count_histories
-from fatigue.life.counting.single.record import single_record
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.rule import CycleRule
 from fatigue.spectrum.methods import dirlik_damage_rate
 

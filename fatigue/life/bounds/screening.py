@@ -1,6 +1,6 @@
 """Proven upper bounds of the damage, for points that need no counting.
 
-Cut a history into its rises and falls. Rainflow gives every piece of them to one cycle: a cycle from v up to p takes
+Cut a history into its rises and falls. Rainflow gives every bit of them to one cycle: a cycle from v up to p takes
 one rise and one fall through [v, p], a half cycle one of the two. So for any rising function f the counted cycles
 satisfy ``sum n (f(p) - f(v)) = TV(f(s)) / 2``, TV the total variation of the counted history (that of a recurring block
 contains the step from its last sample to its first). With ``f(s) = s |s|^(q-1)``, s without its mean,
@@ -15,9 +15,9 @@ range R, and d(x) / x^q never falling, as on every S-N curve with slopes of q an
 For q = 1 this is Markov's inequality, for q equal to the slope the crossing bound of Rychlik (1993). A slope k between
 two powers needs no range: ``sum n S^k <= (sum n S^q)^((p-k)/(p-q)) (sum n S^p)^((k-q)/(p-q))`` (Hoelder), and a curve
 that is steeper for smaller ranges lies nowhere above the straight continuation of any of its segments. The smallest of
-all these bounds is taken. They hold for the record that is counted (upsampled or not) and for shapes that contain the
-event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer, with a loop
-but without counting, from `weld_basis.reduced_bound`.
+all these bounds is taken. They hold for the record that is counted (upsampled or not) and for modal stress that
+contains the event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer,
+with a loop but without counting, from `weld_basis.reduced_bound`.
 """
 
 from collections.abc import Mapping
@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.bounds.forms import FormPair, face_forms, form_pair
-from fatigue.life.records.history import Residue, cached_pieces, mean_and_covariance
+from fatigue.life.records.history import Residue, cached_chunks, mean_and_covariance
 from fatigue.life.records.spool import Samples
 from fatigue.life.rule import CycleRule, cycle_damage, equivalent_range
 
@@ -82,8 +82,8 @@ def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | No
     highest, lowest = np.full(modes, -np.inf), np.full(modes, np.inf)
     before = samples - 1 if residue == "repeat" else 0  # what recurs steps from its last sample to its first one
     last = q[:, before : before + 1].astype(np.float64)
-    for piece in cached_pieces(q):
-        x = np.concatenate([last, piece], axis=1)
+    for chunk in cached_chunks(q):
+        x = np.concatenate([last, chunk], axis=1)
         last = x[:, -1:].copy()
         highest, lowest = np.maximum(highest, x.max(axis=1)), np.minimum(lowest, x.min(axis=1))
         step = np.diff(x, axis=1)

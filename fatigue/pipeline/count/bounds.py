@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.bounds.screening import ModalExtent, PowerSums, damage_bound, may_need_mean_stress
 from fatigue.life.counting.block import BlockCount
-from fatigue.life.counting.single.record import SingleRecord
+from fatigue.life.counting.record import SingleRecord
 from fatigue.life.mission import Plan, mission_sum
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import ModalStress

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.bounds.forms import FormPair, form_pair
-from fatigue.life.counting.record import CountedRecord
-from fatigue.life.counting.single.record import SingleRecord, single_record
+from fatigue.life.counting.record import CountedRecord, SingleRecord
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
 from fatigue.life.records.spool import Samples, Spool, create_spool
 from fatigue.spectrum.moments import MomentMatrices, Spectra

@@ -11,8 +11,9 @@ from fatigue.life.bounds import weld_basis, weld_sums
 from fatigue.life.bounds.screening import ModalExtent, damage_bound, modal_extent
 from fatigue.life.bounds.weld_basis import WeldBases, reduced_bound, weld_bases
 from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.record import SingleRecord
 from fatigue.life.counting.rows import count_histories
-from fatigue.life.counting.single.record import SingleRecord, single_record
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.records.history import Residue
 from fatigue.life.records.spool import create_spool
 from fatigue.life.rule import CycleRule

@@ -13,7 +13,7 @@ from fatigue.life.counting.single.kernels.product import (
     rows_by_blas,
     rows_in_tiles,
 )
-from fatigue.life.counting.single.record import single_record
+from fatigue.life.counting.single.prepare import single_record
 
 Floats = NDArray[np.float64]
 

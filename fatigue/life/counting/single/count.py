@@ -31,14 +31,14 @@ from numpy.typing import NDArray
 
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.chunks import count_chunks
-from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.record import CountedRecord, SingleRecord
 from fatigue.life.counting.signal import not_finite
 from fatigue.life.counting.single.kernels.doubt import Exact
 from fatigue.life.counting.single.kernels.over_time import Workspace, count_in_memory, count_record
 from fatigue.life.counting.single.kernels.power import PowerLaw, power_law
 from fatigue.life.counting.single.kernels.product import block_for, is_in_panels, prepared_rows, space_for_samples
 from fatigue.life.counting.single.kernels.state import PAD, fresh_state, room_for
-from fatigue.life.counting.single.record import CHUNK, SingleRecord
+from fatigue.life.counting.single.prepare import CHUNK
 from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]

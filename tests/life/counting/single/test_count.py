@@ -18,10 +18,10 @@ from fatigue.life.counting.count import count
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.rows import count_rows
 from fatigue.life.counting.single import count as counter
-from fatigue.life.counting.single import record as single
+from fatigue.life.counting.single import prepare
 from fatigue.life.counting.single.kernels import loops, over_time, state
 from fatigue.life.counting.single.kernels.state import SIDE
-from fatigue.life.counting.single.record import single_record
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.records.history import Residue
 from fatigue.life.records.spool import create_spool
@@ -175,7 +175,7 @@ def test_a_thousand_points_of_one_event() -> None:
 def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: Residue, monkeypatch: pytest.MonkeyPatch) -> None:
     """Chunks of 32 samples, and no room for long residues, count what one chunk counts."""
     monkeypatch.setattr(counter, "SHORTEST", 2)
-    for module in (counter, single):
+    for module in (counter, prepare):
         monkeypatch.setattr(module, "CHUNK", 32)
     monkeypatch.setattr(counter, "RESIDUE", 80)
     rng = np.random.default_rng(KINDS.index(kind))
@@ -266,7 +266,7 @@ def test_a_chunk_in_doubt_counts_as_in_double_precision(
     chunk: int, residue: Residue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Chunks of some points taken for doubtful at random, so that both ways follow each other; with mean stresses."""
-    for module in (counter, single):
+    for module in (counter, prepare):
         monkeypatch.setattr(module, "CHUNK", chunk)
     in_single, rng = over_time.count_chunk, np.random.default_rng(3)
 

@@ -33,7 +33,7 @@ Marks = NDArray[np.int32]
 
 
 class Exact(NamedTuple):
-    """What stress in double precision comes from: shapes (n, m) of coordinates as given, and these (m, t), a chunk."""
+    """What stress in double precision comes from: modal stress (n, m) of coordinates as given, and these (m, t)."""
 
     membrane: Floats
     bending: Floats

@@ -74,17 +74,17 @@ def samples_of(record: Samples, first: int, end: int, into: Numbers) -> Numbers:
     return prepared_samples(record[:, first:end], into)
 
 
-def rows_in_tiles(rows: Singles) -> Singles:
-    """Lay rows (n, h) out for `multiply_rows`, tile after tile, the last one filled up with zeros."""
+def rows_in_tiles(matrix: Singles) -> Singles:
+    """Lay a matrix (n, h) out for `multiply_rows`, tile after tile, the last one filled up with zeros."""
     if in_tiles(np.float32):
-        return np.asarray(simd.tiles_of(rows)).ravel()
-    return np.pad(rows, ((0, -len(rows) % TILE), (0, 0))).ravel()
+        return np.asarray(simd.tiles_of(matrix)).ravel()
+    return np.pad(matrix, ((0, -len(matrix) % TILE), (0, 0))).ravel()
 
 
 @compiled()
-def rows_by_blas(rows: Singles, samples: Singles, columns: int, stress: Singles) -> None:
+def rows_by_blas(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
     """Do what `multiply_rows` does, in all columns."""
-    np.dot(rows.reshape(TILE, len(samples)), samples, stress)
+    np.dot(tile.reshape(TILE, len(samples)), samples, stress)
 
 
 # Compiled code calls it: the product of one tile with samples (h, w) that are not laid out, in their own columns.

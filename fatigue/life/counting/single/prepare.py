@@ -1,11 +1,11 @@
 """The modal coordinates of one pass in single precision."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.counting.record import SingleRecord
 from fatigue.life.counting.signal import not_finite
 from fatigue.life.counting.single.kernels.product import prepared_samples, samples_between, space_for_samples
 from fatigue.life.records.history import mean_and_covariance
@@ -15,24 +15,6 @@ Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
 CHUNK = 4096  # samples recovered at a time, a multiple of `product.STEP`
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SingleRecord:
-    """Modal coordinates in single precision, and what takes them back; threads may read it at the same time.
-
-    Attributes
-    ----------
-    q : without their mean and over ``scale``: in memory as `kernels.product` lays them out, or (m, t) on disk
-    scale : (m,) powers of 2 near the standard deviations
-    mean : (m,) time mean
-    covariance : (m, m)
-    """
-
-    q: Singles | Spool
-    scale: Floats
-    mean: Floats
-    covariance: Floats
 
 
 def single_record(q: Samples, into: Spool | None = None, known: tuple[Floats, Floats] | None = None) -> SingleRecord:
