@@ -33,7 +33,8 @@ from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
-from fatigue.results.folder import publish, refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.publish import publish
 from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage

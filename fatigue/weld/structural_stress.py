@@ -1,8 +1,9 @@
 """Dong's structural stress: the line load in the local axes of the weld, over the plate's section.
 
 With z' the plate normal, y' out of the plate across the line, x' = y' x z' and forces on the assessed elements, the
-traction sigma(z) y' has the resultant f_y' = int sigma dz and the moment m_x' = -int z sigma dz, the shear traction
-tau(z) x' the moment m_y' = int z tau dz (Dong, Int. J. Fatigue 23 (2001) 865; ASME VIII-2 5.5.5.2 and Annex 5-A).
+traction sigma(z) y' has the resultant f_y' = int sigma dz and the moment m_x' = -int z sigma dz; the shear traction
+tau(z) x' has the moment m_y' = int z tau dz. Hence the signs of Eq. 3. Sources: Dong, Int. J. Fatigue 23 (2001) 865;
+ASME VIII-2 5.5.5.2 and Annex 5-A.
 """
 
 from dataclasses import dataclass, fields
@@ -22,15 +23,15 @@ Floats = NDArray[np.float64]
 class StructuralStress:
     """Structural stress of each node and mode, (n, m) [MPa per unit modal coordinate].
 
-    Bending and twist are those of the top surface; on the bottom they have the other sign.
+    Bending and twist belong to the top surface; on the bottom they have the other sign.
 
     Attributes
     ----------
-    membrane : mean normal stress across the line
-    bending : normal stress of the bending part, top surface
-    in_plane_shear : mean shear stress along the line
-    twist_shear : shear stress of the twisting part, top surface
-    transverse_shear : mean shear stress through the plate
+    membrane : mean normal stress across the line, f_y' / t
+    bending : normal stress of the bending part, top surface, -6 m_x' / t^2
+    in_plane_shear : mean shear stress along the line, f_x' / t
+    twist_shear : shear stress of the twisting part, top surface, 6 m_y' / t^2
+    transverse_shear : mean shear stress through the plate, f_z' / t
     """
 
     membrane: Floats
@@ -40,15 +41,27 @@ class StructuralStress:
     transverse_shear: Floats
 
 
-def structural_stress(line: Lines, load: Floats) -> StructuralStress:
-    """Structural stress of a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
-    return _of_section(local_axes(line), line.thickness, load)
+def structural_stress(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
+    """Structural stress of a line force and moment, Eq. 3.
 
+    Parameters
+    ----------
+    axes : (n, 3, 3) local axes x', y', z' of each node, as ``local_axes`` returns them
+    t : (n,) thickness [mm]
+    load : (n, m, 6) line force and moment in global axes [N/mm, N]
 
-def _of_section(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
-    """Structural stress at nodes with the given local axes, (n, 3, 3), and thickness, (n,) [mm]."""
-    x, y, z = np.moveaxis(axes, 1, 0) / t[:, np.newaxis]
-    along = np.stack([y, -6 * x / t[:, np.newaxis], x, 6 * y / t[:, np.newaxis], z], axis=1)
+    Examples
+    --------
+    A plate of 10 mm under 100 N/mm across the line and a moment of 50 N mm/mm about it:
+
+    >>> load = np.array([[[0.0, 100.0, 0.0, 50.0, 0.0, 0.0]]])
+    >>> found = structural_stress(np.eye(3)[np.newaxis], np.array([10.0]), load)
+    >>> float(found.membrane[0, 0]), float(found.bending[0, 0])
+    (10.0, -3.0)
+    """
+    x, y, z = np.moveaxis(axes, 1, 0)
+    t = t[:, np.newaxis]
+    along = np.stack([y / t, -6 * x / t**2, x / t, 6 * y / t**2, z / t], axis=1)
     stress = np.empty((5, *load.shape[:2]))
     _components(np.ascontiguousarray(load), along, stress)
     return StructuralStress(*stress)
@@ -56,9 +69,10 @@ def _of_section(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
 
 @compiled()
 def _components(load: Floats, along: Floats, stress: Floats) -> None:
-    """Write the products of the load, (n, m, 6), with the vectors of each node, (n, 5, 3), as (5, n, m).
+    """Write ``f . a`` and ``m . a`` of the load (n, m, 6) and the vectors a of each node (n, 5, 3) as (5, n, m).
 
-    The order is that of `StructuralStress`; bending and twist are those of the moment, its last three components.
+    The five stand in the order of ``StructuralStress``. Bending and twist come from the moment m, the last three
+    components of the load; the others come from the force f.
     """
     for i in range(load.shape[0]):
         across, bending, along_line, twist, through = along[i]
@@ -112,9 +126,9 @@ def line_stress(line: Lines, load: Floats) -> LineStress:
     at_corner[line.begin[:-1]] |= line.corner_start
     at_corner[line.begin[1:] - 1] |= line.corner_end
     mended = np.flatnonzero(ends.treated)
-    stress = _of_section(axes, line.thickness, load)
+    stress = structural_stress(axes, line.thickness, load)
     before = StructuralStress(*(part[mended] for part in _parts(stress)))
-    after = _of_section(axes[mended], line.thickness[mended], ends.mean)
+    after = structural_stress(axes[mended], line.thickness[mended], ends.mean)
     for part, of_mean in zip(_parts(stress), _parts(after), strict=True):
         part[mended] = of_mean
     return LineStress(

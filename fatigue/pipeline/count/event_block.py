@@ -15,7 +15,7 @@ from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import ModalStress, RawEnds, faces
 from fatigue.quotient import quotient
-from fatigue.spectrum.trust import VERDICTS, diagnose
+from fatigue.spectrum.trust import VERDICTS, judge
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,15 +78,15 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> Eve
 
 def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBlock:
     """Judge by what was counted whether the estimate may be trusted at each point of a block."""
-    if load.diagnosis is None:
+    if load.trust is None:
         return event
     law, both = stress.rule.law, load.stress_factor * faces(stress.membrane, stress.bending)
     counted, estimate = event.count, event.estimate
     same_ratio, damage = counted.damage_same_ratio.reshape(-1), counted.damage.reshape(-1)
-    found = diagnose(
+    found = judge(
         both.reshape(-1, both.shape[-1]),
         estimate.moments.reshape(len(estimate.moments), -1),
-        load.diagnosis,
+        load.trust,
         slope=float(law.slopes[0]),
         dirlik_ratio=quotient(estimate.dirlik.reshape(-1), same_ratio),
         tb_ratio=quotient(estimate.tb.reshape(-1), same_ratio),

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.results import JOURNAL
-from fatigue.results.folder import STAGING, STATE, complete, refuse_foreign
+from fatigue.results.folder import STATE, refuse_foreign
+from fatigue.results.publish import STAGING, complete
 
 
 def state_key(record: Mapping[str, Any]) -> str:

@@ -147,7 +147,7 @@ def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
 
 @pytest.mark.parametrize("upsample", [1, 2, "auto"])
 def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypatch, upsample):
-    """Statistics, spectra and diagnosis to 1e-12, for the fast kernel too; the counted samples exactly."""
+    """Statistics, spectra and trust to 1e-12, for the fast kernel too; the counted samples exactly."""
     case = small_case()
     case.counting["upsample"] = upsample
     body = body_of(case, tmp_path / "case")
@@ -171,10 +171,9 @@ def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypat
         pairs = [(a.mean, b.mean), (a.covariance, b.covariance)]
         if a.moments is not None:
             pairs += [(a.moments.matrix, b.moments.matrix)]
-            pairs += [(getattr(a.diagnosis.record, x), getattr(b.diagnosis.record, x)) for x in ("slow", "lines")]
+            pairs += [(getattr(a.trust.record, x), getattr(b.trust.record, x)) for x in ("slow", "lines")]
             pairs += [
-                (x.forms[: x.periods + 1], y.forms[: y.periods + 1])
-                for x, y in [(a.diagnosis.periods, b.diagnosis.periods)]
+                (x.forms[: x.periods + 1], y.forms[: y.periods + 1]) for x, y in [(a.trust.periods, b.trust.periods)]
             ]
         for mine, theirs in pairs:
             close = 1e-6 if mine.dtype == np.float32 else 1e-12
