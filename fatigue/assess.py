@@ -1,4 +1,4 @@
-"""The assessment as a story: files, stress shapes, cycles and spectra, damage, kilometres, tables."""
+"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables."""
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -8,10 +8,13 @@ from numpy.typing import NDArray
 from fatigue.pipeline.count.estimate import estimate_event, member_variances
 from fatigue.pipeline.count.event_block import EventBlock, count_event, judged
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.modal_stress import ModalStress, RawEnds
-from fatigue.weld.structural_stress import StructuralStress
+from fatigue.pipeline.solve.modal_stress import ModalStress
+from fatigue.weld.structural_stress import RawEnds, StructuralStress
 
-NO_RAW_ENDS = RawEnds(np.zeros(0, np.intp), StructuralStress(*np.zeros((5, 0, 0))), np.zeros(0, np.bool_))
+NO_RAW_ENDS = {  # as ModalStress takes them
+    "raw_ends": RawEnds(np.zeros(0, np.intp), StructuralStress(*np.zeros((5, 0, 0)))),
+    "raw_end_matters": np.zeros(0, np.bool_),
+}
 
 
 def assess_event_block(stress: ModalStress, load: EventLoad) -> EventBlock:

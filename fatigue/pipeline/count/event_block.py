@@ -13,9 +13,10 @@ from fatigue.life.shear import shear_factor
 from fatigue.pipeline.count.bounds import Bound
 from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.modal_stress import ModalStress, RawEnds, faces
+from fatigue.pipeline.solve.modal_stress import ModalStress, faces
 from fatigue.quotient import quotient
 from fatigue.spectrum.trust import VERDICTS, judge
+from fatigue.weld.structural_stress import RawEnds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,11 +118,11 @@ def _counted(
 
     That is (n, 2), NaN at raw ends that do not matter.
     """
-    n, ends, f = len(stress), stress.raw_ends, load.stress_factor
-    rows = ends.rows[ends.matters]
+    n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
+    rows = ends.rows[matters]
     block = BlockStress(f * stress.membrane, f * stress.bending, stress.size, one_ratio)
     if rows.size:
-        membrane, bending = f * ends.stress.membrane[ends.matters], f * ends.stress.bending[ends.matters]
+        membrane, bending = f * ends.stress.membrane[matters], f * ends.stress.bending[matters]
         block = block.beside(BlockStress(membrane, bending, stress.size[rows], one_ratio[rows]))
     everything = count(block, load.record, stress.rule)
     counted = everything.at(slice(n))

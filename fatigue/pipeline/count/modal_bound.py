@@ -44,7 +44,7 @@ def without_small_raw_ends(block: Block, screening: Screening) -> Block:
             forms = face_forms(raw.membrane, raw.bending, extent.products)
             bounds.append(_bound(raw, load, extent, forms, mean_stress(raw, load)))
     matters = np.asarray((utilisation(bounds, block.plan) >= screening.share).any(axis=1))
-    return replace(block, stress=replace(block.stress, raw_ends=replace(ends, matters=matters)))
+    return replace(block, stress=replace(block.stress, raw_end_matters=matters))
 
 
 def _bound(

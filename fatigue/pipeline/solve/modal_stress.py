@@ -1,35 +1,13 @@
 """Structural stress of some stations per unit modal coordinate, with what turns its ranges into damage."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.rule import CycleRule
-from fatigue.weld.structural_stress import StructuralStress
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RawEnds:
-    """Stations at weld ends whose stress the end treatment changes, and their raw stress, as it was solved.
-
-    Attributes
-    ----------
-    rows : (e,) these stations, ascending
-    stress : their stress before the end treatment, (e, m)
-    matters : (e,) False where the damage without the treatment is proven to be too small to be worth counting
-    """
-
-    rows: NDArray[np.intp]
-    stress: StructuralStress
-    matters: NDArray[np.bool_]
-
-    def at(self, rows: NDArray[np.intp]) -> Self:
-        """Take those among some stations, ascending, by their places among these."""
-        _, mine, theirs = np.intersect1d(self.rows, rows, assume_unique=True, return_indices=True)
-        stress = StructuralStress(*(getattr(self.stress, part.name)[mine] for part in fields(self.stress)))
-        return type(self)(theirs, stress, self.matters[mine])
+from fatigue.weld.structural_stress import RawEnds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +20,8 @@ class ModalStress:
     in_plane_shear, twist_shear : (n, m) the same of the shear
     size : (n,) factor of the thickness on the range
     rule : how the damage of a cycle follows from its range
-    raw_ends : those among the stations, with their stress before the end treatment
+    raw_ends : e stations whose stress the end treatment changes, and their stress before it
+    raw_end_matters : (e,) False where the damage of a raw end is proven to be too small to be worth counting
     """
 
     membrane: NDArray[np.float64]
@@ -52,6 +31,7 @@ class ModalStress:
     size: NDArray[np.float64]
     rule: CycleRule
     raw_ends: RawEnds
+    raw_end_matters: NDArray[np.bool_]
 
     def __len__(self) -> int:
         """Count the stations."""
@@ -67,6 +47,7 @@ class ModalStress:
             twist_shear=self.twist_shear[rows],
             size=self.size[rows],
             raw_ends=self.raw_ends.at(rows),
+            raw_end_matters=self.raw_end_matters[np.isin(self.raw_ends.rows, rows)],
         )
 
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.pipeline.solve.modal_stress import ModalStress, RawEnds
+from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.readers.neutral.body import Weld
 from fatigue.weld.line import LineStack, line_of_node
 from fatigue.weld.line_geometry import arc_length
-from fatigue.weld.structural_stress import LineStress, StructuralStress
+from fatigue.weld.structural_stress import LineStress, RawEnds, StructuralStress
 
 TOES = {"top": (True, False), "bottom": (False, True), "both": (True, True)}  # on the top and on the bottom face
 
@@ -65,9 +65,9 @@ def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> 
     """Lay out the nodes of solved line parts, which follow each other as their welds do."""
     place = {weld.name: i for i, weld in enumerate(welds)}
     weld = np.array([place[name] for name in lines.weld])[line_of_node(lines)]
-    names = [part.name for part in fields(StructuralStress)]
-    parts = [(getattr(solved.before, name), getattr(solved.treated, name)[solved.mended]) for name in names]
-    changed = np.flatnonzero(np.logical_or.reduce([(before != after).any(axis=1) for before, after in parts]))
+    raw_ends, names = solved.raw_ends, [component.name for component in fields(StructuralStress)]
+    of_ends = [(getattr(raw_ends.stress, name), getattr(solved.treated, name)[raw_ends.rows]) for name in names]
+    changed = np.logical_or.reduce([(raw != treated).any(axis=1) for raw, treated in of_ends])
     return Stations(
         welds=tuple(welds),
         weld=weld,
@@ -81,7 +81,7 @@ def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> 
         at_end=solved.at_end,
         at_corner=solved.at_corner,
         treated=solved.treated,
-        raw_ends=_raw_ends(solved.mended[changed], StructuralStress(*(before[changed] for before, _ in parts))),
+        raw_ends=RawEnds(raw_ends.rows[changed], StructuralStress(*(raw[changed] for raw, _ in of_ends))),
     )
 
 
@@ -95,7 +95,7 @@ def joined(parts: Sequence[Stations]) -> Stations:
     rows = np.concatenate([one.rows + first for one, first in zip(ends, begin[:-1], strict=True)])
     del arrays["welds"]
     together = {name: np.concatenate(some) for name, some in arrays.items()}
-    raw_ends = _raw_ends(rows, _joined([one.stress for one in ends]))
+    raw_ends = RawEnds(rows, _joined([one.stress for one in ends]))
     return Stations(welds=parts[0].welds, **together, treated=treated, raw_ends=raw_ends)
 
 
@@ -104,14 +104,11 @@ def _joined(parts: Sequence[StructuralStress]) -> StructuralStress:
     return StructuralStress(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
-def _raw_ends(rows: NDArray[np.intp], stress: StructuralStress) -> RawEnds:
-    return RawEnds(rows, stress, matters=np.ones(len(rows), dtype=np.bool_))
-
-
 def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) -> ModalStress:
     """Modal stress of some stations, ascending, with the rule of their curve and the size factor of their plates."""
     stress = stations.treated
     some = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
+    raw_ends = stations.raw_ends.at(rows)
     return ModalStress(
         membrane=stress.membrane[some],
         bending=stress.bending[some],
@@ -119,5 +116,6 @@ def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) 
         twist_shear=stress.twist_shear[some],
         size=rated.size(stations.thickness[some]),
         rule=rated.rule,
-        raw_ends=stations.raw_ends.at(rows),
+        raw_ends=raw_ends,
+        raw_end_matters=np.ones(len(raw_ends.rows), dtype=np.bool_),
     )

@@ -35,7 +35,7 @@ def modal_stress(seed=1, stations=3, modes=4, rule=ALUMINIUM):
     """Random stress."""
     rng = np.random.default_rng(seed)
     S = rng.normal(0.0, 10.0, (4, stations, modes))
-    return ModalStress(*S, size=np.full(stations, 1.5), rule=rule, raw_ends=NO_RAW_ENDS)
+    return ModalStress(*S, size=np.full(stations, 1.5), rule=rule, **NO_RAW_ENDS)
 
 
 def load(history, residue="repeat", stress_factor=1.0, segment_s=1.0):
@@ -114,7 +114,7 @@ def test_a_block_is_its_stations():
     one = ModalStress(
         *(getattr(S, n)[2:3] for n in ("membrane", "bending", "in_plane_shear", "twist_shear", "size")),
         rule=S.rule,
-        raw_ends=NO_RAW_ENDS,
+        **NO_RAW_ENDS,
     )
     alone = assess_event_block(one, load(history))
     assert alone.count.damage[0] == pytest.approx(whole.count.damage[2], rel=1e-12)
@@ -131,7 +131,7 @@ def test_one_ratio_is_exact_for_one_mode():
 def test_without_shear_stress_shear_changes_nothing():
     """No shear stress: ratio 0, damage unchanged."""
     S = modal_stress()
-    none = ModalStress(S.membrane, S.bending, 0 * S.membrane, 0 * S.membrane, S.size, S.rule, NO_RAW_ENDS)
+    none = ModalStress(S.membrane, S.bending, 0 * S.membrane, 0 * S.membrane, S.size, S.rule, **NO_RAW_ENDS)
     found = assess_event_block(none, load(record()))
     assert (found.shear_ratio == 0.0).all()
     assert found.damage_shear == pytest.approx(found.count.damage, rel=1e-12)

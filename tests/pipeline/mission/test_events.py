@@ -223,7 +223,7 @@ def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_p
     law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
     S = np.random.default_rng(2).normal(size=(4, 5, 3))
     rule = CycleRule(law, uses_bending_ratio=True, yield_MPa=40.0, mean_stress=True)
-    stress = ModalStress(*S, size=np.full(5, 1.5), rule=rule, raw_ends=NO_RAW_ENDS)
+    stress = ModalStress(*S, size=np.full(5, 1.5), rule=rule, **NO_RAW_ENDS)
     held = numbers_of(assess_event_block(stress, event_load(body, event, 2)))
     monkeypatch.setattr(spool, "CHUNK", 512)
     spooled = event_load(body, event, 2, scratch=tmp_path / "histories")

@@ -8,7 +8,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.pipeline.solve.model import read_model
 from fatigue.pipeline.solve.stations import modal_stress, stations_of
-from fatigue.weld.structural_stress import LineStress, StructuralStress
+from fatigue.weld.structural_stress import LineStress, RawEnds, StructuralStress
 from tests.small_case import small_case
 
 
@@ -45,13 +45,12 @@ def with_raw(model, changed):
     membrane = stations.treated.membrane.copy()
     for row, factor in changed.items():
         membrane[row] = factor * membrane[row] + 1.0
-    mended = np.array(sorted([*changed, 3]))  # that of row 3 is mended, but comes out as it was
-    before = {part.name: getattr(stations.treated, part.name)[mended] for part in fields(StructuralStress)}
+    ends = np.array(sorted([*changed, 3]))  # row 3 is treated, but comes out as it was
+    before = {part.name: getattr(stations.treated, part.name)[ends] for part in fields(StructuralStress)}
     solved = LineStress(
         line=model.lines,
         treated=stations.treated,
-        mended=mended,
-        before=StructuralStress(**(before | {"membrane": membrane[mended]})),
+        raw_ends=RawEnds(ends, StructuralStress(**(before | {"membrane": membrane[ends]}))),
         at_end=stations.at_end,
         at_corner=stations.at_corner,
         unresolved=np.zeros(len(stations), dtype=np.bool_),
