@@ -30,7 +30,8 @@ from fatigue.results import (
     row_count,
     table_writer,
 )
-from fatigue.results.folder import publish, result_log, staging_in
+from fatigue.results.folder import result_log
+from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
 from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point
@@ -58,7 +59,7 @@ def diagnose(
     bin_km: float = BIN_KM,
     progress: Progress = lambda label, done, total: None,
 ) -> Diagnosis:
-    """Say what makes the damage of a finished result, and write the tables that show it into its folder.
+    """What makes the damage of a finished result; the tables that show it are written into its folder.
 
     Parameters
     ----------
@@ -116,9 +117,9 @@ def diagnose(
         stage("writing tables")
         finished = staging / "tables"
         finished.mkdir()
-        for name, pieces in _tables(body, plan, attribution, levers, verdicts).items():
+        for name, blocks in _tables(body, plan, attribution, levers, verdicts).items():
             with table_writer(finished, name, record.get("result", "")) as table:
-                for rows in pieces:
+                for rows in blocks:
                     table.write(rows)
         publish(finished, folder)
     return findings(body, plan, attribution, levers, verdicts, chosen.what)
@@ -127,15 +128,15 @@ def diagnose(
 def _tables(
     body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts]
 ) -> dict[str, Iterator[dict[str, Any]]]:
-    """Rows of all tables by name, event by event and in each of them some points at a time."""
-    of = range(len(plan.passes))
+    """Rows of all tables by name, event by event, within an event block by block of points."""
+    events = range(len(plan.passes))
     firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
     some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
-    pieces = [(attribution.of(few), [verdict.of(few) for verdict in verdicts]) for few in some]
+    blocks = [(attribution.of(few), [verdict.of(few) for verdict in verdicts]) for few in some]
     return {
-        "attribution": (attribution_rows(body.modes, part, part.events[e]) for e in of for part, _ in pieces),
-        "track": (track_rows(part.points, part.events[e]) for e in of for part, _ in pieces),
-        "diagnosis": (diagnosis_rows(part.points, judged[e]) for e in of for part, judged in pieces),
+        "attribution": (attribution_rows(body.modes, block, block.events[e]) for e in events for block, _ in blocks),
+        "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
+        "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
         "levers": iter([lever_rows(body.modes, plan, attribution, levers)]),
     }
 
@@ -163,11 +164,11 @@ def _ascends(edges_hz: Sequence[float]) -> bool:
 
 
 def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.DataFrame]:
-    """Read what ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event.
+    """What ``damage.parquet`` says of some points, given by their rows in ``nodes.parquet``, event by event.
 
     Raises
     ------
-    DataError : the table is missing, damaged, or not that of these points
+    DataError : the table is missing, damaged, or belongs to other points
     """
     columns = [
         "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
@@ -183,7 +184,7 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
 
 
 def _same_body(record: Mapping[str, Any], folder: Path, case_file: Path | None) -> Body:
-    """Read the body of a result again and make sure that none of its files has changed since."""
+    """Body of a result, read again; none of its files may have changed since."""
     path = case_of(record, folder) if case_file is None else named_case(record, case_file)
     if not path.is_file():
         what, remedy = "the case of this result is not there any more", "Name the case file with --case CASE"

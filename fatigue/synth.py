@@ -3,10 +3,10 @@
 Force tables are written weld by weld, so that the size of the case is limited by the disk. What the tables hold is as
 hard to assess as a real body, and no harder:
 
-- Between welds the rms stress is log-normal with the standard deviation `LEVEL_SPREAD` of its logarithm: a few welds
-  carry much, most carry little. `MEDIAN_RMS` makes the design a sound one: of 20 000 welds, about 20 miss the target.
-- The shape of each mode along a weld is a random smooth field, a sum of cosines along the line with amplitudes that
-  decay geometrically, by another factor on every weld. Membrane and bending shapes of a weld together have the
+- Between welds the rms stress is log-normal with the standard deviation ``LEVEL_SPREAD`` of its logarithm: a few welds
+  carry much, most carry little. ``MEDIAN_RMS`` makes the design a sound one: of 20 000 welds, about 20 miss the target.
+- The modal stress of each mode along a weld is a random smooth field, a sum of cosines with amplitudes that decay
+  geometrically, by another factor on every weld. Membrane and bending modal stresses of a weld together have the
   numerical rank 2 to 5 at 1e-1 of the largest singular value, 4 to 11 at 1e-2, 7 to 17 at 1e-3, 11 to 30 at 1e-5;
   on a car body 2 to 4, 3 to 11, 4 to 19, 8 to 35 were found.
 - Stress is concentrated at one end of a weld or at some spot, and varies smoothly elsewhere. On the median weld 6 %,
@@ -98,12 +98,12 @@ def synthesize(folder: Path | str, size: Size, seed: int = 0) -> Path:
 
 
 def _kinds(modes: int) -> list[str]:
-    """All modes normal but the last, which stands for those that carry the local load of the welds."""
+    """Kinds of the modes: normal but the last, which stands for the modes that carry the local load of the welds."""
     return ["normal"] * (modes - 1) + ["interface"]
 
 
 def _welds(size: Size, seed: int) -> Iterator[_Weld]:
-    """Draw welds until all nodes are used up."""
+    """Welds drawn until all nodes are used up."""
     rng = np.random.default_rng([seed, 0])
     first, number = 1, 0
     while first <= size.nodes:
@@ -113,7 +113,7 @@ def _welds(size: Size, seed: int) -> Iterator[_Weld]:
         number += 1
         thickness = float(rng.choice(THICKNESSES))
         level = MEDIAN_RMS * np.exp(LEVEL_SPREAD * rng.normal())
-        membrane, bending = level * _shapes(rng, n, size.modes)
+        membrane, bending = level * _modal_stress(rng, n, size.modes)
         yield _Weld(
             name=f"W{number:06d}",
             first=first,
@@ -125,19 +125,19 @@ def _welds(size: Size, seed: int) -> Iterator[_Weld]:
         first += n
 
 
-def _shapes(rng: np.random.Generator, n: int, modes: int) -> Floats:
-    """Draw membrane and bending shapes along a weld, (2, n, m), of membrane rms 1 under unit modal coordinates."""
+def _modal_stress(rng: np.random.Generator, n: int, modes: int) -> Floats:
+    """Membrane and bending stress per unit modal coordinate along a weld, (2, n, m), drawn with a membrane rms of 1."""
     along = (np.arange(n) + 0.5) / n
     half_waves = np.arange(COSINES)
     cosines = np.cos(np.pi * half_waves * along[:, None])
     amplitude = rng.uniform(*DECAY) ** half_waves
-    shapes = cosines @ (amplitude[:, None] * rng.normal(size=(2, COSINES, modes)))
-    shapes *= _concentration(rng, cosines)[:, None]
-    return np.asarray(shapes / np.sqrt(np.sum(shapes[0] ** 2) / n))
+    stress = cosines @ (amplitude[:, None] * rng.normal(size=(2, COSINES, modes)))
+    stress *= _concentration(rng, cosines)[:, None]
+    return np.asarray(stress / np.sqrt(np.sum(stress[0] ** 2) / n))
 
 
 def _concentration(rng: np.random.Generator, cosines: Floats) -> Floats:
-    """Draw the factor on all shapes at each node of a weld, (n,): smooth, with a peak at an end or another spot."""
+    """Factor on all modal stresses at each node of a weld, (n,), drawn smooth with a peak at an end or another spot."""
     node = np.arange(len(cosines))
     waves = slice(1, SPREAD_WAVES + 1)
     smooth = cosines[:, waves] @ (0.8 ** np.arange(SPREAD_WAVES) * rng.normal(size=SPREAD_WAVES))
@@ -251,7 +251,7 @@ def _nodal(line_load: Floats) -> Floats:
 
 
 def _history(rng: np.random.Generator, frequency: Floats, size: Size) -> pa.Table:
-    """Draw modal coordinates of unit rms: lightly damped resonances under broad-band excitation."""
+    """Modal coordinates of unit rms over time: lightly damped resonances under broad-band excitation."""
     samples = round(size.seconds * size.rate)
     f = np.fft.rfftfreq(samples, 1.0 / size.rate)
     columns: dict[str, NDArray[np.floating]] = {"time_s": np.arange(samples) / size.rate}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.block import TIERS
 from fatigue.spectrum import trust
 from tests import problem_codes, reference
 from tests.small_case import small_case

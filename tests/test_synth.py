@@ -63,13 +63,13 @@ def test_the_levels_of_the_welds_are_log_normal() -> None:
     assert np.log(rms).std() == pytest.approx(synth.LEVEL_SPREAD, rel=0.1)
 
 
-def test_the_shapes_of_a_weld_have_the_rank_of_a_real_one() -> None:
+def test_the_modal_stress_of_a_weld_has_the_rank_of_a_real_one() -> None:
     """Singular values of membrane and bending together above 1e-1 ... 1e-5 of the largest: 5th and 95th percentile."""
     rng = np.random.default_rng(1)
     ranks = []
     for _ in range(100):
-        shapes = synth._shapes(rng, int(rng.integers(20, 101)), 100)
-        values = np.linalg.svd(np.concatenate(shapes), compute_uv=False)
+        stress = synth._modal_stress(rng, int(rng.integers(20, 101)), 100)
+        values = np.linalg.svd(np.concatenate(stress), compute_uv=False)
         ranks.append(np.count_nonzero(values[:, None] > [1e-1 * values[0], 1e-2 * values[0], 1e-5 * values[0]], axis=0))
     low, high = np.percentile(ranks, [5, 95], axis=0)
     assert (low >= [2, 3, 8]).all()
@@ -81,7 +81,7 @@ def test_stress_concentrates_at_a_few_nodes_of_a_weld() -> None:
     rng = np.random.default_rng(2)
     near, far = [], []
     for _ in range(200):
-        rms = np.sqrt((synth._shapes(rng, 60, 50)[0] ** 2).sum(axis=1))
+        rms = np.sqrt((synth._modal_stress(rng, 60, 50)[0] ** 2).sum(axis=1))
         near.append(np.mean(rms > rms.max() / 1.8 ** (1 / 3.5)))
         far.append(np.mean(rms < rms.max() / 30 ** (1 / 3.5)))
     assert 0.03 < np.median(near) < 0.15

@@ -8,12 +8,12 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from fatigue.case.problems import curve_problems, mission_problems, model_problems, read_text, syntax_problem
+from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
-from fatigue.known_formats import misplaced
+from fatigue.files.misplaced import misplaced
+from fatigue.files.naming import missing_case, missing_file
 from fatigue.life.curves import catalogue
-from fatigue.naming import missing_file
 
 CASE_FILE = "this is a case (case.toml)"
 DISTANCE_TOLERANCE = 1e-3  # relative, between length_km and speed times duration
@@ -31,7 +31,7 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
 
 
 def load_case(path: Path | str) -> Case:
-    """Read and check a case file; the files it names are not opened.
+    """Case of a case file, read and checked; the files it names are not opened.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def load_case(path: Path | str) -> Case:
         with every mistake of the file, not only the first
     """
     path = given_path(path, "case")
-    text = read_text(path)
+    text = _text(path)
     problems: list[Problem] = []
     try:
         raw = tomllib.loads(text)
@@ -58,12 +58,12 @@ def load_case(path: Path | str) -> Case:
 
 
 def given_case(case: Case | Path | str) -> Case:
-    """Return the case, read from its file where that is given.
+    """The case itself, or the case of the file that is given.
 
     Raises
     ------
     CaseError
-        as `load_case`
+        as ``load_case``
     """
     return case if isinstance(case, Case) else load_case(case)
 
@@ -107,3 +107,24 @@ def check_distance(event: Event, duration_s: float, where: str) -> None:
 def case_schema() -> dict[str, Any]:
     """JSON Schema of ``case.toml``, for editors that complete and check it."""
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **Case.model_json_schema()}
+
+
+def _text(path: Path) -> str:
+    """Text of a case file in UTF-8, with or without byte order mark."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except (FileNotFoundError, IsADirectoryError):
+        problem = missing_case(path)
+    except OSError as error:
+        problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
+    except UnicodeDecodeError as error:
+        if (other := misplaced(path, path.name, text=False)) is not None:
+            raise CaseError(other) from None
+        line = error.object[: error.start].count(b"\n") + 1
+        problem = Problem(
+            "not_utf8",
+            f"{path.name}: line {line}",
+            f"the byte {error.object[error.start]:#04x} is not UTF-8 text",
+            "Save the file as UTF-8",
+        )
+    raise CaseError(problem)

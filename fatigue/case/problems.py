@@ -7,15 +7,13 @@ import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from fatigue.errors import CaseError, Problem
-from fatigue.known_formats import misplaced
-from fatigue.naming import composed, control_characters, missing_case
+from fatigue.errors import Problem
+from fatigue.files.naming import composed, control_characters
 
 SHARE_TOLERANCE = 1e-6  # of the sum of all shares
 
@@ -32,38 +30,17 @@ class Contradictions(ValueError):
 
 
 def clash(key: str, what: str, remedy: str) -> Problem:
-    """Describe values of one table that do not fit together."""
+    """Refusal of values of one table that do not fit together."""
     return Problem("contradiction", key, what, remedy)
 
 
 def absent(key: str, what: str, remedy: str) -> Problem:
-    """Describe a key that the others of its table call for."""
+    """Refusal of a table without a key that its other keys call for."""
     return Problem("missing_key", key, what, remedy)
 
 
-def read_text(path: Path) -> str:
-    """Read a text file as UTF-8, with or without byte order mark."""
-    try:
-        return path.read_bytes().decode("utf-8-sig")
-    except (FileNotFoundError, IsADirectoryError):
-        problem = missing_case(path)
-    except OSError as error:
-        problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
-    except UnicodeDecodeError as error:
-        if (other := misplaced(path, path.name, text=False)) is not None:
-            raise CaseError(other) from None
-        line = error.object[: error.start].count(b"\n") + 1
-        problem = Problem(
-            "not_utf8",
-            f"{path.name}: line {line}",
-            f"the byte {error.object[error.start]:#04x} is not UTF-8 text",
-            "Save the file as UTF-8",
-        )
-    raise CaseError(problem)
-
-
 def syntax_problem(text: str, error: tomllib.TOMLDecodeError) -> Problem:
-    """Name line and column of a text that is not TOML."""
+    """Refusal of a text that is not TOML, with line and column."""
     lines = text.splitlines()
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", str(error), re.DOTALL)
     what, line, column = found.groups() if found else (str(error), None, None)
@@ -83,7 +60,7 @@ def syntax_problem(text: str, error: tomllib.TOMLDecodeError) -> Problem:
 
 
 def path_problems(files: Mapping[str, str | None]) -> Iterator[Problem]:
-    """Find paths, by their keys, in which a backslash of Windows and the letter after it became one character."""
+    """Refusal of every path in which a backslash of Windows and the letter after it became one character."""
     for key, file in files.items():
         if file is not None and (control := control_characters(file)):
             what = f"the path {_shown(file)} holds {control}, as \\ begins an escape between double quotes"
@@ -91,7 +68,7 @@ def path_problems(files: Mapping[str, str | None]) -> Iterator[Problem]:
 
 
 def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -> Iterator[Problem]:
-    """Translate one finding of the models; ``models`` holds the model of every table by its keys."""
+    """Refusals that one finding of the models stands for; ``models`` holds the model of every table by its keys."""
     place, value = details["loc"], details["input"]
     where = _named(place, raw)
     *table, key = _keys(place)
@@ -120,7 +97,7 @@ def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -
 
 
 def curve_problems(raw: dict[str, Any], catalogue: Collection[str]) -> Iterator[Problem]:
-    """Check the names of the curves: the one chosen exists, none of the user's own hides one of the catalogue."""
+    """Refusal of a chosen curve that is not there, and of a user's own that would hide one of the catalogue."""
     own, chosen = raw.get("curves"), raw.get("curve")
     own = own if isinstance(own, dict) else {}
     for name in own:
@@ -141,7 +118,7 @@ def curve_problems(raw: dict[str, Any], catalogue: Collection[str]) -> Iterator[
 
 
 def mission_problems(raw: dict[str, Any]) -> Iterator[Problem]:
-    """Check the events together, on the file's own values, so that a mistake elsewhere does not hide these."""
+    """Refusals about the events together, on the file's own values, so that a mistake elsewhere does not hide them."""
     mission = raw.get("mission")
     events = mission.get("event") if isinstance(mission, dict) else None
     if not isinstance(events, list) or not all(isinstance(event, dict) for event in events):

@@ -34,7 +34,7 @@ class _Table(BaseModel):
         return self
 
     def _contradictions(self) -> Iterator[Problem]:
-        """Find the keys of this table that are fine alone and wrong together."""
+        """Refusals of keys of this table that are fine alone and wrong together."""
         yield from ()
 
 
@@ -270,18 +270,18 @@ class Case(_Table):
         return self._text
 
     def resolve(self, name: str) -> Path:
-        """Find a file the case names: relative to the folder of the case file."""
+        """Path of a file the case names, relative to the folder of the case file."""
         return self._path.parent / name
 
     def input_files(self) -> dict[str, Path]:
-        """List every file the case names, by its key: ``body.modes``, ``mission.event[1].history``."""
+        """Path of every file the case names, by its key: ``body.modes``, ``mission.event[1].history``."""
         body = {f"body.{key}": getattr(self.body, key) for key in BODY_FILES}
         body["body.register"] = self.body.weld_register
         histories = {f"mission.event[{i}].history": event.history for i, event in enumerate(self.mission.event, 1)}
         return {key: self.resolve(name) for key, name in (body | histories).items() if name is not None}
 
     def residue(self, event: Event) -> Residue:
-        """Residue rule of an event: its own, else ``half`` for one counted by number, else that of ``[counting]``."""
+        """Residue rule of an event: its own, else ``half`` where it is counted by number, else as in ``[counting]``."""
         if event.residue is not None:
             return event.residue
         return self.counting.residue if event.per_1000_km is None else "half"

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from fatigue.cli.arguments import as_json
 from fatigue.cli.early import (
     missing_foreign,
     missing_tables,
@@ -12,8 +13,9 @@ from fatigue.cli.early import (
     refuse_unknown_curve,
     refuse_unknown_units,
 )
-from fatigue.cli.main import as_json, cli, print_json
+from fatigue.cli.main import cli
 from fatigue.cli.options import asking_for
+from fatigue.cli.output import print_json
 from fatigue.cli.progress import narrating
 from fatigue.readers.convert.options import ConvertOptions
 

@@ -5,34 +5,31 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import missing_case, missing_file, missing_foreign_file
+from fatigue.files.naming import missing_case, missing_case_of_result, missing_file, missing_foreign_file
 
 
 def refuse_missing_case(path: Path) -> None:
-    """Refuse a case file that is not there, as `fatigue.case.load_case` does."""
+    """Refuse a case file that is not there, as ``fatigue.case.load_case`` does."""
     if path.is_dir() or not path.exists():
         raise CaseError(missing_case(path))
 
 
 def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
-    """Refuse a folder without result, or a case file named for it that is not there; complete a result cut off."""
+    """Refuse a folder without result, or a missing case file named for it; complete a publication that was cut off."""
     if (folder / ".fatigue-publish").exists():
         from fatigue.pipeline.run.checkpoint import settle_folder
 
         settle_folder(folder)
     if not (folder / "provenance.json").exists():
-        from fatigue.results.store import read_provenance
+        from fatigue.results.provenance import read_provenance
 
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():
-        what, remedy = "there is no such file", "Correct the path after --case"
-        if case_file.is_dir():
-            what, remedy = "this is a folder", "Give the path of the case.toml in it"
-        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+        raise DataError(missing_case_of_result(case_file))
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:
-    """Name FE and simulation files that are not there, as `fatigue.readers.foreign.read.recognise` does."""
+    """Name FE and simulation files that are not there, as ``fatigue.readers.foreign.read.recognise`` does."""
     for path in paths:
         try:
             path.open("rb").close()
@@ -43,7 +40,7 @@ def missing_foreign(*paths: Path) -> Iterable[Problem]:
 
 
 def missing_tables(*paths: Path | None) -> Iterable[Problem]:
-    """Name tables that are not there, as `fatigue.readers.neutral.files.open_columns` does."""
+    """Name tables that are not there, as ``fatigue.readers.neutral.files.open_columns`` does."""
     for path in paths:
         if path is not None and (path.is_dir() or not path.exists()):
             yield missing_file(path)
@@ -68,7 +65,7 @@ def refuse_unknown_curve(name: str) -> None:
 
 
 def refuse_foreign_conversion(folder: Path, *, force: bool, keep_case: bool) -> None:
-    """Refuse a folder to convert into that is a file or holds files of somebody else, as the conversion does later."""
+    """Refuse to convert into a file, or into a folder with files of somebody else, as the conversion does later."""
     if force or not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         return
     from fatigue.readers.convert.folder import RECORD, TABLES, check_folder

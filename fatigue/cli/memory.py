@@ -7,7 +7,7 @@ thread: some 300 MB in a large job. A library call has no business to change tha
 import ctypes
 import os
 
-LARGE = 2 << 20  # bytes; stress shapes of a group of welds are larger: in the heap the gaps they leave add up
+LARGE = 2 << 20  # bytes; modal stresses of a group of welds are larger: in the heap the gaps they leave add up
 SPARE = 64 << 20  # free at the end of the heap: to give it back and take it again for every group takes time
 HEAPS = 1  # a heap for each thread would hold the gaps of each; few calls are made at a time that matters
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD, M_ARENA_MAX = -1, -3, -8  # malloc.h of glibc

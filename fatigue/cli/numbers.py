@@ -1,4 +1,4 @@
-"""Numbers that options take: nan and inf are none, nothing is asked of the files before that is said."""
+"""Numbers that options take; nan and inf are none, which is said before anything is asked of the files."""
 
 import math
 from typing import Any
@@ -7,7 +7,7 @@ import click
 
 
 class FiniteRange(click.FloatRange):
-    """A finite number within bounds; `click.FloatRange` lets nan through, which is neither above nor below any."""
+    """A finite number within bounds; ``click.FloatRange`` lets nan through, which is neither above nor below any."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Turn the text of an option into a number, or fail as wrong usage."""

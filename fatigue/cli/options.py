@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import click
 
+from fatigue.cli.arguments import FOLDER
 from fatigue.cli.numbers import ABOVE_ZERO
 from fatigue.readers.convert.mode_list import mode_list
 from fatigue.readers.convert.option_fields import OptionField, option_fields, parts_with_options
@@ -16,21 +17,21 @@ Command = Callable[..., None]
 Asked = TypeVar("Asked")
 
 FILE = click.Path(path_type=Path)
-FOLDER = click.Path(path_type=Path, file_okay=False)
 
 
 def asking_for(asked: type[Asked], argument: str) -> Callable[[Command], Command]:
-    """Give a command all options of a dataclass, and call it with one object of it."""
+    """Decorator that gives a command all options of a dataclass, and calls it with one object of the dataclass."""
+    every = list(_all_fields(asked))
 
     def decorated(command: Command) -> Command:
         @wraps(command)
         def called(**given: Any) -> None:
-            own = {name: given.pop(name) for name in _names(asked)}
+            own = {field.name: given.pop(field.name) for field in every}
             command(**given, **{argument: _made(asked, own)})
 
         made: Command = called
-        for option in reversed([_option(field) for field in _all_fields(asked)]):
-            made = option(made)
+        for field in reversed(every):
+            made = _option(field)(made)
         return made
 
     return decorated
@@ -43,12 +44,8 @@ def _all_fields(asked: type) -> Iterator[OptionField]:
         yield from _all_fields(part)
 
 
-def _names(asked: type) -> list[str]:
-    return [field.name for field in _all_fields(asked)]
-
-
 def _option(field: OptionField) -> Callable[[Command], Command]:
-    """Make the click option of a field."""
+    """Decorator that gives a command the click option of a field."""
     asked = field.option
     names = [name for name in (asked.short, asked.name) if name]
     if field.kind is bool:
@@ -65,7 +62,7 @@ def _option(field: OptionField) -> Callable[[Command], Command]:
 
 
 def _type(kind: Any) -> Any:
-    """Give the click type of a value."""
+    """Type of a value, as click knows it."""
     if is_dataclass(kind):
         return tuple(_type(field.type) for field in fields(kind))
     if get_origin(kind) is Literal:
@@ -74,7 +71,7 @@ def _type(kind: Any) -> Any:
 
 
 def _made(asked: type[Asked], given: Mapping[str, Any]) -> Asked:
-    """Make an object of what is given on the command line; what is not given has its default."""
+    """Object of what is given on the command line; what is not given has its default."""
     own = {
         field.name: field.value(given[field.name]) for field in option_fields(asked) if given[field.name] is not None
     }
@@ -82,5 +79,5 @@ def _made(asked: type[Asked], given: Mapping[str, Any]) -> Asked:
 
 
 def _modes(_: click.Context, param: click.Parameter, given: str | None) -> tuple[int, ...]:
-    """Read a list of modes, in the words of `mode_list` where it is none."""
+    """Mode numbers of a list, refused in the words of ``mode_list`` where it is none."""
     return mode_list(given, param.opts[0]) if given else ()

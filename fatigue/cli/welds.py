@@ -4,9 +4,11 @@ from pathlib import Path
 
 import click
 
+from fatigue.cli.arguments import as_json
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_all, refuse_existing, refuse_unknown_units
-from fatigue.cli.main import as_json, cli, print_json
+from fatigue.cli.main import cli
 from fatigue.cli.options import FILE, asking_for
+from fatigue.cli.output import print_json
 from fatigue.cli.progress import is_quiet, narrated
 from fatigue.readers.convert.options import WeldSources
 from fatigue.stages import stage

@@ -32,7 +32,7 @@ class Domains:
 
 
 def read_domains(folder: Path, events: Sequence[str]) -> Domains:
-    """Read what is shown of both domains; ``events`` are those of the mission in its order.
+    """What is shown of both domains, read; ``events`` are the events of the mission in its order.
 
     Raises
     ------
@@ -57,7 +57,7 @@ def read_domains(folder: Path, events: Sequence[str]) -> Domains:
 
 
 def _with_kurtosis(drawn: pd.DataFrame, rows: NDArray[np.int64], folder: Path, events: Sequence[str]) -> pd.DataFrame:
-    """Add the kurtosis of the stress in the governing event of each point; NaN where nothing damages.
+    """Points with the kurtosis of the stress in the governing event of each; NaN where nothing damages.
 
     The table of damage lists all events of every point in the order of the table of nodes.
     """

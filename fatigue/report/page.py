@@ -13,8 +13,8 @@ from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.report import figures, wording
-from fatigue.report.figures.scene import Body
-from fatigue.report.inputs import Inputs, find_inputs
+from fatigue.report.figures.scene import BodyOutline
+from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.result import Result, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
@@ -28,9 +28,9 @@ from fatigue.results import PAGE, enlist
 log = logging.getLogger(__name__)
 
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
-MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only those of the worst welds are
+MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
-LONGEST_PLACE = 20_000  # letters of the place of a warning: that of one for many welds names them all
+LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
 WORST_POINTS = 50
 
 
@@ -69,7 +69,7 @@ def write_report(
 def report_page(
     folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
 ) -> str:
-    """Return the page as text; see `write_report`."""
+    """Return the page as text; see ``write_report``."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
@@ -96,7 +96,7 @@ def report_page(
         "warnings": _warnings(record),
         "worst_welds": tables.weld_table(result.assessed, links),
         "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
-        # figures are numbered in the order of these lines, which is that of the page
+        # figures are numbered in the order of these lines, the order of the page
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
@@ -142,8 +142,8 @@ def _environment() -> jinja2.Environment:
     return environment
 
 
-def _details(result: Result, inputs: Inputs, missing: list[Problem]) -> tuple[dict[str, Detail], dict[str, float]]:
-    """Recover what the records say, or note why not."""
+def _details(result: Result, inputs: FoundInputs, missing: list[Problem]) -> tuple[dict[str, Detail], dict[str, float]]:
+    """What the records say of each detailed weld, and the step of each record; or a note why not."""
     try:
         return weld_details(result, inputs)
     except DataError as error:
@@ -151,8 +151,8 @@ def _details(result: Result, inputs: Inputs, missing: list[Problem]) -> tuple[di
         return {}, {}
 
 
-def _body(inputs: Inputs, missing: list[Problem]) -> Body | None:
-    """Read the mesh, or note why not (unless the whole case is gone, which is noted already)."""
+def _body(inputs: FoundInputs, missing: list[Problem]) -> BodyOutline | None:
+    """Outline of the mesh, or a note why not (unless the whole case is gone, which is noted already)."""
     try:
         mesh = inputs.mesh()
     except DataError as error:
@@ -162,7 +162,7 @@ def _body(inputs: Inputs, missing: list[Problem]) -> Body | None:
 
 
 def _head(result: Result) -> dict[str, Any]:
-    """Collect what the first lines of the page say."""
+    """What the first lines of the page say."""
     welds = result.assessed
     mission = result.record["mission"]
     missed = int((~welds["fulfilled"]).sum())
@@ -182,13 +182,13 @@ def _head(result: Result) -> dict[str, Any]:
 
 
 def _listed(result: Result) -> pd.DataFrame:
-    """Keep the welds of the register that have a row: the worst, and those that are not assessed."""
+    """Welds of the register that have a row: the worst, and those that are not assessed."""
     listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
     return result.welds[listed]
 
 
 def _warnings(record: Mapping[str, Any]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
-    """Group the warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
+    """Warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
     for warning in record["warnings"]:
         groups.setdefault(warning["code"], []).append({**warning, "where": _shortened(warning["where"])})
@@ -196,7 +196,7 @@ def _warnings(record: Mapping[str, Any]) -> list[tuple[str, int, list[Mapping[st
 
 
 def _shortened(place: str) -> str:
-    """Cut a long list of welds behind one of them."""
+    """Place of a warning, a long list of welds cut behind one of them."""
     if len(place) <= LONGEST_PLACE:
         return place
     return f"{place[:LONGEST_PLACE].rpartition(', ')[0]} and others, see provenance.json"

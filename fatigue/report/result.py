@@ -83,7 +83,7 @@ class Result:
         cycles = read_rows(self.folder, "cycles", self.cycle_rows[weld], [*POINT, *columns]).to_pandas()
         return self._worst_of(weld, cycles).reset_index(drop=True)
 
-    def stress_shapes(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
+    def modal_stress(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
 
         Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the
@@ -98,7 +98,7 @@ class Result:
         return found
 
     def _worst_of(self, weld: str, rows: pd.DataFrame) -> pd.DataFrame:
-        """Keep the rows of the worst point among those of a weld."""
+        """Rows of the worst point among the rows of a weld."""
         row = self.assessed.set_index("weld").loc[weld]
         at = (rows["part"] == row["worst_part"]) & (rows["order"] == row["worst_order"])
         return rows[at & (rows["surface"] == row["worst_surface"])]
@@ -110,7 +110,7 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     Parameters
     ----------
     most_detailed : welds whose worst point is shown in detail
-    most_stations : on the lines that are drawn; beyond, those of the worst welds are
+    most_stations : on the lines that are drawn; beyond, the lines of the worst welds are
     worst_points : toe points that are listed
 
     Raises

@@ -26,7 +26,7 @@ class Assumptions:
 
 
 def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
-    """Read the assumptions behind one curve of a result from its provenance."""
+    """Assumptions behind one curve of a result, from its provenance."""
     entry, rules = record["curves"][curve], record["rules"]
     return Assumptions(
         curve=SNCurve(
@@ -76,9 +76,9 @@ def variants(
     Returns
     -------
     table with ``assumption``, ``choice``, ``used`` (the choice of the assessment) and ``damage_factor``, its damage
-    over that of the assessment (NaN where nothing damages). Without cycles of a point that is damaged, because they are
-    not kept, the choices that need them are left out. Factors of mean stress, shear and weld end come from
-    the point's own row and are left out where the assessment had no number for them.
+    over the damage of the assessment (NaN where nothing damages). Where the cycles of a damaged point are not kept, the
+    choices that need them are left out. Factors of mean stress, shear and weld end come from the point's own row and
+    are left out where the assessment had no number for them.
     """
     per_km = how_often(cycles, passes_per_km)
     ranges = cycles["equivalent_range_dS"].to_numpy()

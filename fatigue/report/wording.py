@@ -10,7 +10,7 @@ THIN_SPACE = "\u202f"  # groups thousands and does not break
 
 
 def number(value: Any) -> str:
-    """Write a number with four significant digits: ``0.6256``, ``27 330 000``, ``1.360e10``, ``> 1e12``.
+    """Number with four significant digits: ``0.6256``, ``27 330 000``, ``1.360e10``, ``> 1e12``.
 
     What is missing or not a number is written as a dash.
     """
@@ -34,24 +34,24 @@ def number(value: Any) -> str:
 
 
 def whole(value: int) -> str:
-    """Write a count with grouped thousands."""
+    """Count with grouped thousands."""
     return f"{value:,}".replace(",", THIN_SPACE).replace("-", "−")
 
 
 def km(value: Any) -> str:
-    """Write a distance: ``2 209 000 km``, ``> 1e12 km``."""
+    """Distance in words: ``2 209 000 km``, ``> 1e12 km``."""
     return f"{number(value)} km"
 
 
 def years(value: Any) -> str:
-    """Write a time in years of service; beyond a million years the number says nothing."""
+    """Time in years of service; beyond a million years the number says nothing."""
     if value is not None and float(value) > 1e6:
         return "> 1e6 years"
     return f"{number(value)} years"
 
 
 def share(value: Any) -> str:
-    """Write a share as percentage: three digits, and no more than hundredths."""
+    """Share as percentage: three digits, and no more than hundredths."""
     if value is None or value != value:  # noqa: PLR0124
         return NOT_AVAILABLE
     percent = 100.0 * float(value)
@@ -60,7 +60,7 @@ def share(value: Any) -> str:
 
 
 def size(bytes_: int) -> str:
-    """Write the size of a file."""
+    """Size of a file."""
     for unit, scale in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if bytes_ >= scale:
             return f"{number(bytes_ / scale)} {unit}"
@@ -68,7 +68,7 @@ def size(bytes_: int) -> str:
 
 
 def short(name: str, longest: int = 36) -> str:
-    """Shorten a long name in the middle, where names differ least."""
+    """Name, shortened in the middle, where names differ least, if it is long."""
     name = " ".join(name.split())
     if len(name) <= longest:
         return name
@@ -77,7 +77,7 @@ def short(name: str, longest: int = 36) -> str:
 
 
 def in_figure(name: str, longest: int = 36) -> str:
-    """Write a name for a figure: short, its own direction of writing kept apart, and no markup.
+    """Name for a figure: short, its own direction of writing kept apart, and no markup.
 
     Plotly takes ``<b>`` or ``<a href>`` in texts for markup and ``%{...}`` in templates for a variable.
     """
@@ -88,5 +88,5 @@ def in_figure(name: str, longest: int = 36) -> str:
 
 
 def listed(items: Sequence[str]) -> str:
-    """Join words: ``a``, ``a and b``, ``a, b and c``."""
+    """Words joined: ``a``, ``a and b``, ``a, b and c``."""
     return " and ".join(filter(None, [", ".join(items[:-1]), *items[-1:]]))

@@ -1,7 +1,7 @@
 """Which result a file belongs to: everything written of a result carries its hash or stands in a list that does.
 
-The hash of a result is that of everything its numbers depend on: case, inputs, program, and what was counted. Equal
-hashes, equal tables. Parquet tables, HTML, PDF, ParaView file and workbook carry it; CSV files cannot without breaking
+A result has a hash of everything its numbers depend on: case, inputs, program, and what was counted. Equal hashes mean
+equal tables. Parquet tables, HTML, PDF, ParaView file and workbook carry it; CSV files cannot without breaking
 their readers, so ``exports.json`` names it once and lists the SHA-256 of every document.
 """
 
@@ -16,10 +16,15 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
-from fatigue.results.store import read_provenance, sha256, write_json
+from fatigue.results.json_records import write_json
+from fatigue.results.provenance import read_provenance
 
-PICTURE, PAGE, PRINT, WORKBOOK = "weld_lines.vtp", "report.html", "report.pdf", "nodes.xlsx"
+PICTURE = "weld_lines.vtp"
+PAGE = "report.html"
+PRINT = "report.pdf"
+WORKBOOK = "nodes.xlsx"
 CSV_TABLES = ("nodes", "damage", "cycles", "welds")
 DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
@@ -72,7 +77,7 @@ def _list_in(folder: Path) -> dict[str, Any]:
 
 
 def write_list(folder: Path, documents: Iterable[Path], result: str, known: Mapping[str, str] | None = None) -> Path:
-    """Write the list of documents of a result; ``known`` are others, with their SHA-256 when they were written."""
+    """Write the list of documents of a result, and return its path; ``known`` are others, by their SHA-256."""
     files = dict(known or {}) | {path.name: sha256(path) for path in documents}
     write_json(folder / LIST, {"program": "fatigue", "result": result, "files": dict(sorted(files.items()))})
     return folder / LIST
@@ -85,12 +90,12 @@ def enlist(folder: Path, *documents: Path) -> None:
 
 
 def listed_of(folder: Path, result: str) -> Mapping[str, str]:
-    """SHA-256 of every document in the list, where that is the list of this result."""
+    """SHA-256 of every document in the list, where the list is of this result; else none."""
     return listed(folder) if _list_in(folder).get("result") == result else {}
 
 
 def is_derived(folder: Path, name: str, record: Mapping[str, Any] | None) -> bool:
-    """Tell whether the program wrote a file of a result folder, and nobody has changed it since.
+    """Whether the program wrote a file of a result folder, and nobody has changed it since.
 
     ``record`` is the provenance of the result in the folder, None without one. What cannot be told is not ours: a
     document counts when the list has it as it is, page, print and picture also when no list has them and they carry the
@@ -158,6 +163,6 @@ def refuse_mixed(folder: Path, record: Mapping[str, Any], tables: Iterable[str] 
 
     Raises
     ------
-    DataError : every table that is not of the result of this provenance
+    DataError : all tables that belong to another result than this provenance
     """
     refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables]))

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem
-from fatigue.results.store import sha256
+from fatigue.files.hashes import sha256
+from fatigue.files.naming import missing_case_of_result
 
 
 def way_to_case(case_file: Path, folder: Path) -> str:
@@ -28,10 +29,10 @@ def case_of(record: Mapping[str, Any], folder: Path) -> Path:
 
 
 def is_same_case(case_file: Path, record: Mapping[str, Any], folder: Path) -> bool:
-    """Tell whether a case file is the one of a result, perhaps edited since.
+    """Whether a case file is the one of a result, perhaps edited since.
 
-    It is when it is the file that the provenance leads to, however either is spelled. Where that file is gone, the case
-    or the folder was moved: then it is when its text is the one that was assessed.
+    It is if it is the file that the provenance leads to, however either is spelled. Where that file is gone, the case
+    or the folder was moved: then the text of the case file has to be the one that was assessed.
     """
     known = case_of(record, folder)
     if known.exists():
@@ -41,17 +42,14 @@ def is_same_case(case_file: Path, record: Mapping[str, Any], folder: Path) -> bo
 
 
 def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
-    """Take the case file that a user names for a result.
+    """Case file that a user names for a result.
 
     Raises
     ------
     DataError : there is no such file, or it is not the case that was assessed
     """
     if not case_file.is_file():
-        what, remedy = "there is no such file", "Correct the path after --case"
-        if case_file.is_dir():
-            what, remedy = "this is a folder", "Give the path of the case.toml in it"
-        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+        raise DataError(missing_case_of_result(case_file))
     if _text(case_file) != record["case_text"]:
         what = f"is not the case of this result: its text differs from that of {record['case_file']} as it was assessed"
         remedy = "Name the case as it was assessed, or assess again"
@@ -60,7 +58,7 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
 
 
 def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:
-    """Name every input of a result that is not there any more, or not what it was, seen from its case file."""
+    """Refusal of every input of a result that is gone or has changed; the paths start at the case file."""
     problems = []
     for known in record["inputs"]:
         is_case = known["file"] == record["case_file"]
@@ -74,7 +72,7 @@ def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:
 
 
 def new_inputs(record: Mapping[str, Any], paths: Iterable[Path]) -> list[Problem]:
-    """Name files that the case of a result takes in without naming them, and that came after the assessment.
+    """Refusal of files that the case of a result takes in without naming them, and that came after the assessment.
 
     ``paths`` are the register and the record of a conversion that lie beside the welds; they need not be there.
     """

@@ -9,7 +9,10 @@ from typing import Any
 import pandas as pd
 
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
-from fatigue.results import assessed, not_assessed, read_provenance, read_rows, read_welds, refuse_mixed, worst_toes
+from fatigue.results.belonging import refuse_mixed
+from fatigue.results.provenance import read_provenance
+from fatigue.results.rows import read_rows, worst_toes
+from fatigue.results.weld_table import assessed, not_assessed, read_welds
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
@@ -39,7 +42,7 @@ class Summary:
         return bool(self.welds["fulfilled"].all())
 
     def as_record(self) -> dict[str, Any]:
-        """For machines; infinite life is null there."""
+        """Record for machines, where an infinite life is written as null."""
         return {
             "title": self.title,
             "assumptions": self.assumptions,
@@ -51,7 +54,7 @@ class Summary:
         }
 
     def as_text(self) -> str:
-        """For people: units in every heading, four digits, no infinities."""
+        """Text for people: units in every heading, four digits, no infinities."""
         missed = int((~self.welds["fulfilled"]).sum())
         verdict = (
             "every weld meets its target" if not missed else f"{missed} of {len(self.welds)} welds miss their target"
@@ -104,7 +107,7 @@ class Summary:
 
 
 def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = ()) -> Summary:
-    """Read the summary of a result folder: ``top`` points, of all welds or ``only`` some.
+    """Summary of a result folder with its ``top`` worst points, of all welds or ``only`` some.
 
     Raises
     ------

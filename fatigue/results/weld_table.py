@@ -1,7 +1,7 @@
 """The table of welds of a result: which were assessed, worst first, and which were not.
 
-A weld that is listed and not assessed has no numbers, so whole columns of the table would turn into floating-point
-numbers and its flags into nothing; here those of the welds that were assessed keep their types.
+A weld that is listed and not assessed has no numbers. It would turn whole columns of the table into floating-point
+numbers, and flags into nothing; here the columns of the assessed welds keep their types.
 """
 
 from pathlib import Path
@@ -10,13 +10,13 @@ import numpy as np
 import pandas as pd
 
 from fatigue.results.columns import WELDS
-from fatigue.results.store import read_table
+from fatigue.results.tables import read_table
 
 _TYPES = {"int": np.int64, "flag": np.bool_}
 
 
 def read_welds(folder: Path) -> pd.DataFrame:
-    """Read every weld, the assessed ones worst first, the others behind them.
+    """Every weld: the assessed ones worst first, the others behind them.
 
     Raises
     ------
@@ -27,11 +27,11 @@ def read_welds(folder: Path) -> pd.DataFrame:
 
 
 def assessed(welds: pd.DataFrame) -> pd.DataFrame:
-    """Keep the welds that were assessed; ids and counts are whole numbers, flags are flags."""
+    """Welds that were assessed; ids and counts are whole numbers, flags are flags."""
     types = {column.name: _TYPES[column.type] for column in WELDS if column.type in _TYPES}
     return welds[welds["status"] == "assessed"].astype(types)
 
 
 def not_assessed(welds: pd.DataFrame) -> pd.DataFrame:
-    """Keep the welds that are listed with a reason and not assessed: ``weld``, ``reason`` and ``description``."""
+    """Welds that are listed with a reason and not assessed: ``weld``, ``reason`` and ``description``."""
     return welds.loc[welds["status"] != "assessed", ["weld", "reason", "description"]].fillna("").reset_index(drop=True)

@@ -43,12 +43,12 @@ class VerificationTable:
         return all(check.passed for check in self.checks)
 
     def as_record(self) -> dict[str, Any]:
-        """For machines."""
+        """Record for machines."""
         rows = [asdict(check) | {"difference": check.difference, "passed": check.passed} for check in self.checks]
         return {"passed": self.passed, "checks": rows}
 
     def as_text(self) -> str:
-        """For people: one line for each check, the verdict last."""
+        """Text for people: one line for each check, the verdict last."""
         heading = ["topic", "case", "quantity", "expected", "found", "difference", "allowed", ""]
         cells = [heading]
         for check in self.checks:

@@ -9,7 +9,7 @@ from fatigue.verify.known.spectra import spectrum_checks
 
 
 def verification_table() -> VerificationTable:
-    """Compute every case with a known answer, from nodal forces to kilometres; nothing is read, nothing written."""
+    """Every case with a known answer, computed, from nodal forces to kilometres; nothing is read, nothing written."""
     return VerificationTable(
         (*line_checks(), *curve_checks(), *counting_checks(), *spectrum_checks(), *mission_checks())
     )

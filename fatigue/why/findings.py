@@ -26,7 +26,7 @@ HALF = 0.5
 
 @dataclass(frozen=True, slots=True)
 class ModeFinding:
-    """A mode and what it has to do with the damage of a point; see `fatigue.why.attribute.Attribution`."""
+    """A mode and what it has to do with the damage of a point; see ``fatigue.why.attribute.Attribution``."""
 
     mode: int
     kind: str
@@ -62,7 +62,7 @@ class Finding:
     ``relieving_share`` is what all relieving modes take off; ``half_damage_part`` is the smallest part of the governing
     event that holds half of its damage, and its worst bin begins at ``place_km`` (None for an event counted by number)
     and ``place_s``; ``verdict`` and the split of the Dirlik ratio into errors of formula and process, None where it was
-    not made, are those of the governing event.
+    not made, belong to the governing event.
     """
 
     weld: str
@@ -87,7 +87,7 @@ class Finding:
     process_error: float | None
 
     def as_text(self) -> str:
-        """For people: a heading and a line for each question."""
+        """Text for people: a heading and a line for each question."""
         modes = ", ".join(f"{self._mode(m)} {_percent(m.share)}" for m in self.modes)
         bands = ", ".join(f"{_band(b)} {_percent(b.share)}" for b in self.bands)
         place = f"km {self.place_km:.1f} of the record" if self.place_km is not None else f"{self.place_s:.1f} s"
@@ -108,7 +108,7 @@ class Finding:
         return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
 
     def _mode(self, mode: ModeFinding) -> str:
-        """Name a mode; one far above the band it damages in follows its load and does not swing."""
+        """Name of a mode; a mode far above the band it damages in follows its load and does not swing."""
         high = self.bands[0].high_hz if self.bands else None
         follows = high is not None and mode.frequency_hz > FAR_ABOVE * high
         return f"{mode.mode} ({mode.kind}, {mode.frequency_hz:.4g} Hz{', quasi-static' if follows else ''})"
@@ -124,11 +124,11 @@ class Diagnosis:
     notes: tuple[str, ...]
 
     def as_record(self) -> dict[str, Any]:
-        """For machines."""
+        """Record for machines."""
         return asdict(self)
 
     def as_text(self) -> str:
-        """For people."""
+        """Text for people."""
         notes = [_wrapped("  ", note) for note in self.notes]
         return "\n\n".join(
             [
@@ -142,7 +142,7 @@ class Diagnosis:
 def findings(
     body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], points: str
 ) -> Diagnosis:
-    """Sum up a diagnosis; there is a finding for every point the levers were sought at."""
+    """Summary of a diagnosis, with a finding for every point the levers were sought at."""
     found = [_finding(body.modes, plan, attribution, levers, verdicts, row) for row in range(len(levers.point))]
     return Diagnosis(
         title=body.case.title,
@@ -203,7 +203,7 @@ def _finding(
 
 
 def _largest_bands(own: Attribution) -> tuple[BandFinding, ...]:
-    """Take the bands with the largest shares at the only point; none where no event is long enough for bands."""
+    """Bands with the largest shares at the only point; none where no event is long enough for bands."""
     edges = next((event.edges_hz for event in own.events if event.has_bands), None)
     if edges is None:
         return ()
@@ -251,7 +251,7 @@ def _band(band: BandFinding) -> str:
 
 
 def _or_none(value: float) -> float | None:
-    """Turn what is infinite or not a number into None."""
+    """Value as a float; None where it is infinite or not a number."""
     return float(value) if np.isfinite(value) else None
 
 

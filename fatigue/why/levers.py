@@ -37,7 +37,7 @@ class Levers:
 
 
 def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan, point: NDArray[np.int64]) -> Levers:
-    """Rank the modes of some points, which must have damage, by what 10 % less buys; count the best ones again."""
+    """Modes of some points, which must have damage, ranked by what 10 % less buys; the best are counted again."""
     points, exponents = attribution.points.of(point), attribution.mode_exponent[point]
     mode = np.argsort(exponents, axis=1, kind="stable")[:, :CANDIDATES]
     exponent = np.take_along_axis(exponents, mode, axis=1)
@@ -46,7 +46,7 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
         q = np.asarray(load.counted.q)
         scale = load.stress_factor * np.where(mode[:, :, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
         for w, (side, size, rule) in enumerate(zip(points.side, points.size, points.rule, strict=True)):
-            sigma_m, sigma_b = ((scale[w] * shape[w]) @ q for shape in (points.membrane, points.bending))
+            sigma_m, sigma_b = ((scale[w] * modal_stress[w]) @ q for modal_stress in (points.membrane, points.bending))
             counted = [
                 count_credit(m, b, side, size, rule, load.residue) for m, b in zip(sigma_m, sigma_b, strict=True)
             ]

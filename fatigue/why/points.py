@@ -1,4 +1,4 @@
-"""Which points of a result are diagnosed, and what is needed of them: stress shapes and the rule of their damage."""
+"""Which points of a result are diagnosed, and what is needed of them: modal stress and the rule of their damage."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
@@ -34,8 +34,8 @@ class Points:
     ----------
     weld, part, order, node, face : (p,) where they are; face 0 is the top, 1 the bottom
     chosen : (p,) why they were chosen
-    membrane, bending : (p, m) stress shapes with treated ends, bending of the top face [MPa per unit modal coordinate]
-    rule : (p,) from stress range to damage, a `CycleRule` each
+    membrane, bending : (p, m) modal stress with treated ends, bending of the top face [MPa per unit modal coordinate]
+    rule : (p,) from stress range to damage, a ``CycleRule`` each
     size, size_exponent : (p,) factor of the thickness on the range, and d ln(size) / d ln(t)
     """
 
@@ -52,7 +52,7 @@ class Points:
     size_exponent: Floats
 
     def __len__(self) -> int:
-        """Count the points."""
+        """Number of points."""
         return len(self.node)
 
     @property
@@ -61,12 +61,12 @@ class Points:
         return np.where(self.face == 0, 1.0, -1.0)
 
     def of(self, index: NDArray[np.int64] | slice) -> Self:
-        """Take some of the points."""
+        """The same of some of the points."""
         return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self)})
 
 
 def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64], chosen: NDArray[np.object_]) -> Points:
-    """Take points of a model, given by station and face."""
+    """Points of a model, given by station and face."""
     stations = model.stations
     names = np.array([weld.name for weld in model.welds], dtype=object)
     rated_of_weld = model.curve_of_weld
@@ -111,9 +111,9 @@ class Chosen:
 
 
 def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, numbers: int) -> Chosen:
-    """Choose all points if that is affordable, else the worst of every weld and those above a share of the limit.
+    """All points if that is affordable, else the worst of every weld and the points above a share of the limit.
 
-    ``numbers`` are those that are held for each point. Where even the worst points are too many, those with the highest
+    ``numbers`` is how many are held for each point. Where even the worst points are too many, those with the highest
     utilisation stay. Points that a bound has settled have no cycles to share out and are never chosen.
     """
     weld, _ = read_codes(folder, "nodes", "weld")
@@ -154,19 +154,19 @@ def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, n
 
 
 def _highest(rows: NDArray[np.int64], utilisation: NDArray[np.float64], most: int) -> NDArray[np.int64]:
-    """Take the rows with the highest utilisation, ascending."""
+    """Rows with the highest utilisation, ascending."""
     return np.sort(rows[np.argsort(-utilisation[rows], kind="stable")[:most]])
 
 
 def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
-    """Solve the groups of welds in which points are chosen, one after the other, and keep what is needed of these.
+    """Points that were chosen, from the groups of welds they lie in, solved one after the other.
 
     Raises
     ------
     DataError : the result in the folder has other points than the case
     """
     node = read_table(folder, "nodes", ["node"])["node"].to_numpy()
-    pieces, first = [], 0
+    gathered, first = [], 0
     for number, of_case in enumerate(_nodes(groups)):
         end = first + 2 * len(of_case)
         if not np.array_equal(node[first:end], np.repeat(of_case, 2)):
@@ -174,11 +174,11 @@ def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
         here = slice(*np.searchsorted(chosen.rows, [first, end]).tolist())
         rows = chosen.rows[here] - first
         if len(rows):
-            pieces.append(points_of(solve_group(groups, number), rows // 2, rows % 2, chosen.why[here]))
+            gathered.append(points_of(solve_group(groups, number), rows // 2, rows % 2, chosen.why[here]))
         first = end
     if first != len(node):
         raise DataError(_other_points(folder, f"has {len(node)} points where the case has {first}"))
-    return Points(*(np.concatenate([getattr(piece, f.name) for piece in pieces]) for f in fields(Points)))
+    return Points(*(np.concatenate([getattr(points, f.name) for points in gathered]) for f in fields(Points)))
 
 
 def _nodes(groups: WeldGroups) -> Iterator[NDArray[np.int64]]:

@@ -12,9 +12,10 @@ from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.body import Mesh, Modes, Weld, checked_lines, read_lines, read_mesh, read_modes, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
 from fatigue.readers.neutral.register.conversion import convert_record
+from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.register.registered import Registered, registered, unregistered
 from fatigue.readers.neutral.register.registered_lines import Joints, registered_lines, unconfirmed_thickness
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, open_register
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.weld.line_units import unit_problems, unit_warnings
 

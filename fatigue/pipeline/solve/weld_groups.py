@@ -12,14 +12,10 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.body import Mesh, Modes
-from fatigue.readers.neutral.forces.check import NotRegular
-from fatigue.readers.neutral.forces.pieces import ForcePieces
-from fatigue.readers.neutral.forces.tables import (
-    check_nodal_forces,
-    read_element_forces,
-    read_nodal_forces,
-    read_weld_elements,
-)
+from fatigue.readers.neutral.forces.by_group import ForcesByGroup
+from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
+from fatigue.readers.neutral.forces.nodal_forces import check_nodal_forces, read_nodal_forces
+from fatigue.readers.neutral.forces.regular_check import NotRegular
 from fatigue.readers.neutral.register.registered_lines import registered_sides
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.side_by_side import in_order
@@ -59,7 +55,7 @@ class WeldGroups:
     groups: tuple[slice, ...]
     blocks: tuple[slice, ...]
     blocks_of: tuple[range, ...]
-    forces: ForcePieces | SideForces
+    forces: ForcesByGroup | SideForces
 
     def __len__(self) -> int:
         """Count the groups."""
@@ -156,7 +152,7 @@ def _open_groups(body: Body, group: NDArray[np.number], block: NDArray[np.number
     names = [body.lines.weld[some] for some in of_blocks]
     in_file = {weld.name: source for weld, (source,) in zip(body.welds, body.register.sources, strict=True)}
     skipped = {weld.name for weld in body.in_tables} - set(in_file.values())
-    forces = ForcePieces(body.case.resolve(path), names, scratch, in_file, skipped)
+    forces = ForcesByGroup(body.case.resolve(path), names, scratch, in_file, skipped)
     return WeldGroups(body, of_groups, of_blocks, blocks_of, forces)
 
 

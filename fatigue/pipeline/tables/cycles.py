@@ -25,7 +25,7 @@ _SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
 class KeptPoint:
     """A point whose cycles are kept, without the stations it is one of.
 
-    ``membrane`` and ``bending`` (m,) are its stress shapes, of the top face [MPa per unit modal coordinate];
+    ``membrane`` and ``bending`` (m,) are its modal stress, of the top face [MPa per unit modal coordinate];
     ``thickness`` [mm] that of its plate.
     """
 
@@ -89,8 +89,8 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[
     at_once = max(1, _SAMPLES_AT_ONCE // (2 * load.counted.q.shape[1]))
     for first in range(0, len(points), at_once):
         some = points[first : first + at_once]
-        shapes = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
-        membrane, bending = np.split(stress_history(shapes, load.counted.q), 2)
+        stress = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
+        membrane, bending = np.split(stress_history(stress, load.counted.q), 2)
         for i, point in enumerate(some):
             yield _cycle_rows(point, load, membrane[i], bending[i])
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.neutral.register.weld_register import REGISTER
 
 CASE = "case.toml"
@@ -85,7 +85,7 @@ def case_text(
 
 
 def register_named(case_file: Path) -> str:
-    """Name the register that a case is assessed by; a case that was kept may name another than a new one does."""
+    """Name of the register that a case is assessed by; a case that was kept may name another than a new one does."""
     try:
         body = tomllib.loads(case_file.read_text(encoding="utf-8-sig")).get("body", {})
         return str(body.get("register", REGISTER))

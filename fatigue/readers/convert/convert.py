@@ -11,7 +11,7 @@ from fatigue.readers.convert.audit.shell_rows import without_drilling
 from fatigue.readers.convert.case_text import CASE, case_text
 from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, write_folder
 from fatigue.readers.convert.inputs import audited, read_inputs, unknown_checks
-from fatigue.readers.convert.modal_basis import common_modes
+from fatigue.readers.convert.modal_basis import common_modes, coordinate_units
 from fatigue.readers.convert.neutral_tables import (
     elements_table,
     event_tables,
@@ -22,17 +22,12 @@ from fatigue.readers.convert.neutral_tables import (
 )
 from fatigue.readers.convert.options import ConvertOptions, WeldSources
 from fatigue.readers.convert.record import conversion_record
-from fatigue.readers.convert.weld_forces import (
-    coordinate_units,
-    neutral_forces,
-    rows_at_welds,
-    to_mid_surface,
-    with_forces_only,
-)
+from fatigue.readers.convert.weld_forces import neutral_forces, rows_at_welds, to_mid_surface, with_forces_only
 from fatigue.readers.convert.weld_lines import FoundWelds, find_welds, no_welds
 from fatigue.readers.foreign.fe.model import in_mm
 from fatigue.readers.neutral.register.conversion import command_line
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons, register_text
+from fatigue.readers.neutral.register.register_file import register_text
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
 
@@ -57,7 +52,7 @@ class Conversion:
 
 
 def convert(options: ConvertOptions) -> Conversion:
-    """Read, audit and write; nothing is written if a check is red.
+    """Conversion of foreign files into a folder: read, audited and written; a red check stops it before it writes.
 
     Raises
     ------
@@ -123,13 +118,13 @@ def convert(options: ConvertOptions) -> Conversion:
 
 
 def _weld_sources(options: ConvertOptions) -> WeldSources:
-    """Take the register of an earlier conversion into the folder where none is given."""
+    """Where weld lines come from; the register of an earlier conversion into the folder where none is given."""
     own = options.out / REGISTER
     return replace(options.welds, register=options.welds.register or (own if own.exists() else None))
 
 
 def _nothing_to_assess(found: FoundWelds, mesh: Path) -> Problem:
-    """Say why no weld line can be assessed: all kinds of reasons, with their numbers."""
+    """Refusal where no weld line can be assessed: all kinds of reasons, with their numbers."""
     if not found.rows:
         return no_welds(mesh)
     kinds = "; ".join(f"{number} because {reason}" for number, reason in reasons(found.rows))

@@ -45,7 +45,7 @@ class ForeignInputs:
     ----------
     results : forces and shapes of the modes and unit loads that are used
     interface_modes : modes named as such, and unit loads of files of their own
-    histories : modal coordinates of every event, their modes those of ``results``
+    histories : modal coordinates of every event, with the modes of ``results``
     simulated : frequency [Hz] and modal mass of the simulation's modes, by mode of the FE run
     warnings : about the simulation's modes and coordinates
     """
@@ -65,7 +65,7 @@ class ForeignInputs:
 
 
 def read_inputs(options: ConvertOptions) -> ForeignInputs:
-    """Read forces, mesh and coordinates.
+    """Forces, mesh and coordinates, read from their files.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def read_inputs(options: ConvertOptions) -> ForeignInputs:
 
 
 def audited(read: ForeignInputs, options: ConvertOptions) -> Audit:
-    """Judge what was read.
+    """Audit of what was read.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def audited(read: ForeignInputs, options: ConvertOptions) -> Audit:
 
 
 def unknown_checks(judged: Audit, options: ConvertOptions) -> list[Problem]:
-    """Tell which checks to accept the audit does not have: their names are misspelt, or there is nothing to accept."""
+    """Warnings about checks to accept that the audit does not have: misspelt, or there is nothing to accept."""
     known = sorted({row.check for row in judged.rows})
     return [
         Problem("unknown_check", f"--accept {name!r}", "the audit has no such check", f"Choose of {', '.join(known)}")
@@ -128,7 +128,7 @@ def unknown_checks(judged: Audit, options: ConvertOptions) -> list[Problem]:
 
 
 def _displacement_rows(read: ForeignInputs, options: ConvertOptions) -> Iterator[AuditRow]:
-    """Compare the displacements given with mode shapes times coordinates."""
+    """Rows on the displacements that are given, each beside mode shapes times coordinates."""
     units = unit_system(options.force_units, "force units")
     own, scale = unit_system(options.coordinate_units, "coordinate units"), mode_scale(read.results, read.simulated)
     records = [read_displacement(asked.file, own.length) for asked in options.displacements]
@@ -139,7 +139,7 @@ def _displacement_rows(read: ForeignInputs, options: ConvertOptions) -> Iterator
 
 
 def _ignored_nowhere(options: ConvertOptions, numbers: set[int]) -> list[Problem]:
-    """Name modes to ignore that neither side has, as a slip of the pen is."""
+    """Warning about modes to ignore that neither side has, as a slip of the pen is."""
     nowhere = sorted(set(options.ignore_modes) - numbers)
     if not nowhere:
         return []
@@ -150,7 +150,7 @@ def _ignored_nowhere(options: ConvertOptions, numbers: set[int]) -> list[Problem
 def _history(
     path: Path, options: ConvertOptions, results: FeResults, table: SimulationModes
 ) -> tuple[ForeignHistory, dict[int, int]]:
-    """Read one event and match its columns with the modes of the forces; the simulation's number of every FE mode."""
+    """One event, its columns matched with the modes of the forces; and the simulation's number of every FE mode."""
     columns, warnings = (None, []) if options.columns is None else column_map(options.columns)
     stated = read_coordinates(path, columns, options.time_column)
     if options.match == "order":

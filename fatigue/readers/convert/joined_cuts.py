@@ -16,26 +16,26 @@ from fatigue.weld.join import Joint, joined, joined_elements
 def joined_cuts(
     topo: Topology, rows: Sequence[RegisterRow], cuts: Mapping[str, WeldCut], register: Path | None
 ) -> dict[str, WeldCut]:
-    """Join the cuts to assess that have one name, by this name.
+    """Cuts to assess that have one name, each joined to one cut, by this name.
 
     Raises
     ------
     DataError : they do not join end to end on one plate side, or their rows contradict each other
     """
-    groups: dict[str, list[RegisterRow]] = {}
+    of_weld: dict[str, list[RegisterRow]] = {}
     for row in rows:
         if row.status == "assess":
-            groups.setdefault(row.weld, []).append(row)
+            of_weld.setdefault(row.weld, []).append(row)
     found: dict[str, WeldCut] = {}
     problems: list[Problem] = []
-    for name, group in groups.items():
-        if len(group) == 1:
+    for name, own in of_weld.items():
+        if len(own) == 1:
             continue
         where = f"{register.name if register else 'weld lines'}: weld {name}"
-        problems += (here := list(contradictions(group, where)))
+        problems += (here := list(contradictions(own, where)))
         if not here:
             try:
-                found[name] = _joined(topo, [cuts[row.line] for row in group], [row.line for row in group], where)
+                found[name] = _joined(topo, [cuts[row.line] for row in own], [row.line for row in own], where)
             except DataError as error:
                 problems += error.problems
     refuse(DataError, problems)
@@ -43,7 +43,7 @@ def joined_cuts(
 
 
 def _joined(topo: Topology, cuts: Sequence[WeldCut], names: Sequence[str], where: str) -> WeldCut:
-    """Join cuts of one plate side: the elements round a joint are those of the plate between the two lines."""
+    """Cuts of one plate side as one: the elements round a joint lie on the plate between the two lines."""
     line, joints = joined([cut.line for cut in cuts], names, where)
     sides = [cut.elements for cut in cuts]
     together = np.unique(np.concatenate(sides))

@@ -1,4 +1,4 @@
-"""The modes of the forces and those of the simulation: one modal basis, or a refusal that names the difference."""
+"""The modes of the forces and the modes of the simulation: one basis, or a refusal that names the difference."""
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
@@ -15,7 +15,7 @@ from fatigue.readers.foreign.histories.mode_frequencies import StatedFrequencies
 from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.coordinate_units import SYSTEM_UNITS, compared
-from fatigue.readers.units.systems import Normalisation
+from fatigue.readers.units.systems import Normalisation, UnitSystem
 
 Floats = NDArray[np.float64]
 SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency [Hz] and modal mass by mode
@@ -24,7 +24,7 @@ _NORMALISED: dict[Normalisation, str] = {"mass": "unit generalised mass", "lengt
 
 
 def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
-    """Leave modes out of a run.
+    """FE results without some modes.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
 
 
 def column_map(path: Path) -> tuple[dict[str, int], list[Problem]]:
-    """Read the mode of each column by its name, from a table of the columns ``column, mode``; and warnings."""
+    """Mode of each column by its name, from a table of the columns ``column, mode``; and warnings."""
     table = open_table(path, texts=("column",))
     table.expect(("column", "mode"), (), strict=False)
     names, code = table.groups("column")
@@ -58,7 +58,7 @@ def column_map(path: Path) -> tuple[dict[str, int], list[Problem]]:
 
 
 def with_known_frequencies(history: ForeignHistory, table: SimulationModes, source: Path) -> ForeignHistory:
-    """Add the frequencies that the table of the simulation's modes has; by the simulation's own numbers.
+    """History with the frequencies that the table of the simulation's modes has, by the simulation's own numbers.
 
     Raises
     ------
@@ -79,9 +79,9 @@ def with_known_frequencies(history: ForeignHistory, table: SimulationModes, sour
 def with_declared_units(
     history: ForeignHistory, system: str, normalisation: Normalisation, analysis: str
 ) -> ForeignHistory:
-    """Compare the unit and the normalisation a file states for its coordinates with those of the options.
+    """History whose stated unit and normalisation do not contradict the options; a warning where they may.
 
-    Coordinates of load cases are multiples of the loads; what a file states of their unit is a warning.
+    Coordinates of load cases are multiples of the loads; whatever a file states of their unit is a warning.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def with_declared_units(
 
 
 def simulation_modes(path: Path | None) -> tuple[SimulationModes, list[Problem]]:
-    """Read frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and warnings."""
+    """Frequency [Hz] and generalised mass (NaN: not given) of the simulation's modes; and warnings."""
     if path is None:
         return {}, []
     table = open_table(path)
@@ -127,7 +127,7 @@ def simulation_modes(path: Path | None) -> tuple[SimulationModes, list[Problem]]
 
 
 def numbered(history: ForeignHistory, table: SimulationModes, source: Path) -> ForeignHistory:
-    """Give columns without a mode number, which are joined in order, those of the simulation's modes in order.
+    """History whose columns without a mode number have the numbers of the simulation's modes, in order.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def simulated_frequencies(histories: Sequence[ForeignHistory], table: Simulation
 def common_modes(
     results: FeResults, histories: Sequence[ForeignHistory], source: Path, interface_modes: Collection[int]
 ) -> tuple[FeResults, list[Problem]]:
-    """Leave out rigid modes the simulation does not have; any other difference of the bases is refused."""
+    """FE results without the rigid modes that the simulation lacks, and warnings; any other difference is refused."""
     problems, warnings = [], []
     have = set(results.mode.tolist())
     for history in histories:
@@ -191,7 +191,7 @@ def common_modes(
 
 
 def _in_order(history: ForeignHistory, results: FeResults) -> str:
-    """Propose to join one after the other where the simulation seems to count its modes from another number."""
+    """Proposal to join in order, where the simulation seems to count its modes from another number; else empty."""
     own, fe = np.sort(history.mode), results.mode
     count = own.size
     rigid = fe[results.frequency <= LOWEST_HZ]
@@ -210,7 +210,7 @@ def _in_order(history: ForeignHistory, results: FeResults) -> str:
 
 
 def _left_out(results: FeResults) -> str:
-    """Remind of static subcases that the force file has and that were not asked for."""
+    """Reminder of static subcases that the force file has and that were not asked for; empty without any."""
     found = [warning.what for warning in results.warnings if warning.code == "static_left_out"]
     return f"; {found[0]}, name them with --interface-modes if it is these" if found else ""
 
@@ -231,8 +231,14 @@ def mode_scale(results: FeResults, table: SimulationModes) -> Floats:
     return np.where(np.isfinite(simulated), np.sqrt(simulated / mass), 1.0)
 
 
+def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
+    """Unit of each mode's coordinate, (m,); the coordinate of a static subcase is a plain number of its loads."""
+    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
+
+
 def assumed_masses(results: FeResults, table: SimulationModes) -> list[Problem]:
-    """Tell which modes are scaled to the simulation's masses although the FE run states none of its own."""
+    """Warning about modes scaled to the simulation's masses although the FE run states none of its own."""
     _, simulated = mode_masses(results, table)
     assumed = results.mode[np.isfinite(simulated) & ~(results.modal_mass > 0)].tolist()
     if not assumed:

@@ -8,7 +8,7 @@ MOST_MODES = 100_000  # of one range
 
 
 def mode_list(text: str, where: str = "list of modes") -> tuple[int, ...]:
-    """Read a list of modes such as ``1-6,31-52``.
+    """Mode numbers of a list such as ``1-6,31-52``.
 
     Raises
     ------

@@ -14,18 +14,18 @@ from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.neutral.body import LOWEST_HZ
-from fatigue.readers.neutral.forces.tables import COMPONENTS
+from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 
 
 def nodes_table(model: FeModel) -> pa.Table:
-    """Nodes of a model in mm."""
+    """Table of the nodes of a model in mm."""
     mesh = model.mesh
     return pa.table({"node": mesh.node, **{f"{a}_mm": mesh.xyz[:, k] for k, a in enumerate("xyz")}})
 
 
 def elements_table(model: FeModel) -> pa.Table:
-    """Shells with their corners n1 ... n4 and, where there are any, mid-side nodes n5 ... n8; 0 for none."""
+    """Table of the shells, their corners n1 ... n4 and, where there are any, mid-side nodes n5 ... n8; 0 for none."""
     mesh = model.mesh
     around = np.concatenate([mesh.corner, mesh.mid], axis=1)
     ids = np.where(around >= 0, mesh.node[around], 0)
@@ -35,7 +35,7 @@ def elements_table(model: FeModel) -> pa.Table:
 
 
 def forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[np.int64]) -> pa.Table:
-    """Put the forces (m, r, 6) of the chosen ``rows``, one line for each mode, element and node, in a table."""
+    """Table of the forces (m, r, 6) of the chosen ``rows``, one line for each mode, element and node."""
     modes = results.mode.size
     flat = force[:, rows].reshape(-1, 6)
     return pa.table(
@@ -49,7 +49,7 @@ def forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[
 
 
 def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
-    """Build the tables welds, weld_nodes and weld_elements of the welds to assess."""
+    """Tables welds, weld_nodes and weld_elements of the welds to assess."""
     chosen = found.assessed()
     of_weld: dict[str, list[RegisterRow]] = {}
     for row in found.rows:
@@ -94,7 +94,7 @@ def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
 
 
 def modes_table(results: FeResults, interface_modes: Sequence[int], simulated: SimulationModes) -> pa.Table:
-    """Modes of both sides: frequencies of the FE run, masses of the simulation where it gives them, and the scale."""
+    """Table of the modes: frequencies of the FE run, masses of the simulation where it gives them, and the scale."""
     is_static = results.analysis == "static"
     interface = np.isin(results.mode, np.array(interface_modes, np.int64))
     rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
@@ -114,7 +114,7 @@ def modes_table(results: FeResults, interface_modes: Sequence[int], simulated: S
 def event_tables(
     histories: Sequence[ForeignHistory], mode: NDArray[np.int64], factor: NDArray[np.float64]
 ) -> dict[tuple[str, str], pa.Table]:
-    """Build a table of coordinates for each event, by the name of the event and that of its file."""
+    """Tables of the coordinates of all events, by the names of the event and of its file."""
     tables: dict[tuple[str, str], pa.Table] = {}
     for history in histories:
         event = Path(history.source).stem
@@ -124,7 +124,7 @@ def event_tables(
 
 
 def _history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDArray[np.float64]) -> pa.Table:
-    """Coordinates of the modes, (m,), each times its ``factor``, (m,)."""
+    """Table of the coordinates of the modes, (m,), each times its ``factor``, (m,)."""
     row = {int(m): k for k, m in enumerate(history.mode)}
     return pa.table(
         {
@@ -142,7 +142,7 @@ def _slug(name: str) -> str:
 
 
 def _unused(name: str, files: Collection[str]) -> str:
-    """Return the name, with a number if two events have the same."""
+    """The name, with a number if two events have the same."""
     stem, number = name.removesuffix(".parquet"), 2
     while name in files:
         name, number = f"{stem}_{number}.parquet", number + 1

@@ -60,13 +60,13 @@ class OptionField:
         return self.default is MISSING
 
     def value(self, given: Any) -> Any:
-        """Make the value of what a command line gives: of every group of words the record that they are."""
+        """Value of what a command line gives; words that belong together become one record."""
         if isinstance(self.kind, type) and is_dataclass(self.kind):
             return tuple(self.kind(*words) for words in given)
         return given
 
     def words(self, value: Any) -> list[str]:
-        """Give the words of a command line that state a value, none for the default; paths are absolute."""
+        """Words of a command line that state a value, none for the default; paths are absolute."""
         if value == self.default:
             return []
         if self.kind is bool:
@@ -77,7 +77,7 @@ class OptionField:
 
 
 def option_fields(asked: type) -> Iterator[OptionField]:
-    """Find the fields of a dataclass that are options of its own, in their order."""
+    """Fields of a dataclass that are options of its own, in their order."""
     hints = get_type_hints(asked, include_extras=True)
     for field in fields(asked):
         if (option := _option(hints[field.name])) is None:
@@ -90,13 +90,13 @@ def option_fields(asked: type) -> Iterator[OptionField]:
 
 
 def parts_with_options(asked: type) -> dict[str, type]:
-    """Find the fields of a dataclass that are dataclasses with options of their own."""
+    """Fields of a dataclass that are dataclasses with options of their own, and these."""
     hints = get_type_hints(asked, include_extras=True)
     return {field.name: hints[field.name] for field in fields(asked) if is_dataclass(hints[field.name])}
 
 
 def words_of(asked: Any) -> list[str]:
-    """Give the words of a command line that ask for the same: every recorded option that has not its default."""
+    """Words of a command line that ask for the same: every recorded option that has not its default."""
     own = [
         word
         for field in option_fields(type(asked))

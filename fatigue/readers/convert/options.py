@@ -20,9 +20,10 @@ class WeldSources:
         Path | None,
         Option("--register", "Edited weld register; its status, names and thicknesses win.", is_recorded=False),
     ] = None
-    node_lists: Annotated[Path | None, Option("--node-lists", "CSV weld,order,node with weld lines of your own.")] = (
-        None
-    )
+    node_lists: Annotated[
+        Path | None,
+        Option("--node-lists", "CSV weld,order,node with weld lines of your own."),
+    ] = None
     sets: Annotated[tuple[int, ...], Option("--set", "Id of a node set whose mesh edges are welds; repeatable.")] = ()
     markers: Annotated[
         tuple[str, ...], Option("--marker", "Card that lies on welds: PLOTEL, CBAR, CBEAM; repeatable.")
@@ -94,9 +95,10 @@ class ConvertOptions:
         Literal["id", "frequency", "order"], Option("--match", "How columns of coordinates find their modes.")
     ] = "id"
     columns: Annotated[Path | None, Option("--columns", "CSV column,mode: which column belongs to which mode.")] = None
-    time_column: Annotated[str | None, Option("--time-column", "Name of the time column, or its position from 1.")] = (
-        None
-    )
+    time_column: Annotated[
+        str | None,
+        Option("--time-column", "Name of the time column, or its position from 1."),
+    ] = None
     resample_s: Annotated[
         float | None,
         Option("--resample", "Interpolate records with uneven steps onto this step [s].", metavar="STEP_S"),

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
+from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
-from fatigue.readers.convert.folder import sha256
 from fatigue.readers.convert.option_fields import words_of
 from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.neutral.register.conversion import COMMAND, LINES
 from fatigue.readers.neutral.register.weld_register import RegisterRow
 
@@ -24,7 +24,7 @@ def conversion_record(
     warnings: Iterable[Problem],
     welds: Sequence[RegisterRow],
 ) -> dict[str, Any]:
-    """Put together what ``convert.json`` holds besides the hashes of the files that were written."""
+    """What ``convert.json`` holds besides the hashes of the files that were written."""
     return {
         "inputs": {str(path): sha256(path) for path in inputs},
         "convention": convention,
@@ -36,7 +36,7 @@ def conversion_record(
 
 
 def _lines_of_welds(rows: Sequence[RegisterRow]) -> dict[str, dict[str, float | None]]:
-    """Name the lines of every weld that is assessed, with the thickness confirmed for each."""
+    """Lines of every weld that is assessed, with the thickness confirmed for each."""
     welds: dict[str, dict[str, float | None]] = {}
     for row in rows:
         if row.status == "assess":

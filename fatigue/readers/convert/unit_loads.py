@@ -15,7 +15,7 @@ from fatigue.readers.foreign.fe.results import FeResults, ForceBlock
 
 
 def with_unit_loads(modes: FeResults, loads: FeResults) -> FeResults:
-    """Join static subcases to a run; each becomes a mode that has the number of its subcase.
+    """FE results with static subcases joined to the modes, each as a mode that has the number of its subcase.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def with_unit_loads(modes: FeResults, loads: FeResults) -> FeResults:
 
 
 def _problems(modes: FeResults, loads: FeResults) -> Iterator[Problem]:
-    """Name what keeps two files from being one basis."""
+    """Mistakes that keep two files from being one basis."""
     if loads.analysis != "static":
         remedy = "Give the file with modes as the forces, and the one with static subcases as unit loads"
         yield Problem("no_unit_loads", loads.source, "it holds modes, no static subcases", remedy)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.readers.convert.modal_basis import coordinate_units
 from fatigue.readers.convert.weld_lines import FoundWelds
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import SHELL_KINDS, FeResults
@@ -38,7 +39,7 @@ _CONNECTORS = frozenset(
 
 
 def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
-    """Exclude welds whose side lacks forces, or which an element of unknown kind touches."""
+    """Weld lines, excluded where their side lacks forces or an element of unknown kind touches them."""
     present: dict[int, set[int]] = {}
     for element, node in zip(results.element[results.of_element], results.node[results.of_element], strict=True):
         present.setdefault(int(element), set()).add(int(node))
@@ -72,21 +73,15 @@ def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int,
 
 
 def rows_at_welds(found: FoundWelds, results: FeResults) -> NDArray[np.int64]:
-    """Find the force rows of the elements beside the welds to assess."""
+    """Force rows of the elements beside the welds to assess."""
     elements = np.unique(np.concatenate([cut.elements for _, cut in found.assessed()]))
     return np.flatnonzero(np.isin(results.element, elements) & results.of_element)
-
-
-def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
-    """Give the unit of each mode's coordinate, (m,); that of a static subcase is a plain number of its loads."""
-    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
-    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
 
 
 def neutral_forces(
     results: FeResults, model: FeModel, units: UnitSystem, normalisation: Normalisation
 ) -> NDArray[np.floating]:
-    """Turn the forces of all rows into basic axes and N, N mm per unit modal coordinate of the mm, t, s system."""
+    """Forces of all rows in basic axes, (m, r, 6) [N, N mm per unit modal coordinate of the mm, t, s system]."""
     coordinate = coordinate_units(results, units, normalisation)
     factor = units.force / coordinate[:, None, None] * np.array([1.0] * 3 + [units.length] * 3)
     force = to_basic(results.force, results.node, model)
@@ -96,7 +91,7 @@ def neutral_forces(
 def to_mid_surface(
     force: NDArray[np.floating], results: FeResults, model: FeModel, rows: NDArray[np.int64]
 ) -> NDArray[np.floating]:
-    """Move moments from the grids to the mid-surface: the grid lies at -offset along the element normal."""
+    """Forces with moments about the mid-surface: the grid lies at -offset along the element normal."""
     mesh = model.mesh
     at = np.searchsorted(mesh.element, results.element[rows])
     offset = mesh.offset[at]

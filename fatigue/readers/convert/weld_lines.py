@@ -12,18 +12,12 @@ from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.read import read_model
-from fatigue.readers.neutral.register.weld_register import (
-    RegisterRow,
-    kind_of,
-    merged,
-    open_register,
-    proposed,
-    register_text,
-)
+from fatigue.readers.neutral.register.register_file import open_register, register_text
+from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of, merged, proposed
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace
-from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
+from fatigue.weld.detection import CANDIDATES, WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
 
 
@@ -54,7 +48,7 @@ class FoundWelds:
 
 
 def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
-    """Find and register the weld lines of a model in mm.
+    """Weld lines of a model in mm, with their register.
 
     Raises
     ------
@@ -72,7 +66,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     elements = _unconfirmed_elements(model)
     rows, unconfirmed = [], {}
     for cut in cuts:
-        is_weld = cut.kind not in ("flat", "fold") or sources.candidates
+        is_weld = cut.kind not in CANDIDATES or sources.candidates
         rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
         unconfirmed[cut.name] = _unconfirmed(cut, elements)
     edited = open_register(sources.register, strict=False) if sources.register else None
@@ -98,7 +92,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
 def list_welds(
     mesh: Path | str, sources: WeldSources, units: str, out: Path | str | None, overwrite: bool
 ) -> FoundWelds:
-    """Find the weld lines of a model file and write their register, to be edited and given back.
+    """Weld lines of a model file; their register is written, to be edited and given back.
 
     Parameters
     ----------
@@ -125,7 +119,7 @@ def list_welds(
 
 
 def no_welds(mesh: Path) -> Problem:
-    """Say that a mesh has nothing to list."""
+    """Refusal of a mesh that has nothing to list."""
     what = "the mesh has no weld lines: no edge where three shells, two properties or two planes meet"
     return Problem("no_welds", str(mesh), what, "Mark the lines with --node-lists, --set or --marker")
 

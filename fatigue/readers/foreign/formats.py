@@ -1,9 +1,9 @@
 """The foreign formats that are read, one entry each: recognition, reading, refusals and help are made of them.
 
-A new format is one entry at the end of ``FORMATS``; its line in ``fatigue.known_formats``, which refuses it, goes.
-``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",), extra=Extra("nptdms", "NI TDMS
-input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` would be a binary one; a text, as
-an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
+A new format is one entry at the end of ``FORMATS``; in ``files.known_formats`` its line moves from the formats that are
+refused to ``OWN``. ``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",),
+extra=Extra("nptdms", "NI TDMS input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` is
+a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
 """
 
 from collections.abc import Callable, Mapping
@@ -167,22 +167,22 @@ FORMATS = (
 
 
 def formats_called(content: Content) -> str:
-    """List the formats that hold a content, as messages call them."""
+    """Formats that hold a content, as messages call them."""
     return one_of([form.reads[content].called for form in FORMATS if content in form.reads])
 
 
 def formats_in_help(content: Content, last: str = " or ") -> str:
-    """List the formats that hold a content, as the help of its option calls them."""
+    """Formats that hold a content, as the help of its option calls them."""
     return one_of([reader.in_help for form in FORMATS if (reader := form.reads.get(content)) and reader.in_help], last)
 
 
 def all_formats() -> str:
-    """List all formats that are read."""
+    """All formats that are read, in one sentence."""
     return one_of([form.ending for form in sorted(FORMATS, key=lambda form: form.place)])
 
 
 def one_of(words: list[str], last: str = " or ") -> str:
-    """Join words to a choice: ``a, b or c``."""
+    """Choice of words: ``a, b or c``."""
     return last.join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.extras import install_command
-from fatigue.known_formats import HEAD, known_format, own_format, unknown_binary
-from fatigue.naming import missing_foreign_file
+from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
+from fatigue.files.naming import missing_foreign_file
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.formats import (
@@ -27,7 +27,7 @@ from fatigue.readers.text.encoding import marked_encoding
 
 
 def recognise(path: Path) -> ForeignFormat:
-    """Tell the format of a file by its content.
+    """Format of a file, told by its content.
 
     Raises
     ------
@@ -55,25 +55,25 @@ def recognise(path: Path) -> ForeignFormat:
 
 
 def read_forces(path: Path, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
-    """Read grid point forces from any format that holds them, with static subcases named as interface modes."""
+    """Grid point forces from any format that holds them, with static subcases named as interface modes."""
     results: FeResults = _reader(path, FORCES)(path, subcase, interface)
     return results
 
 
 def read_model(path: Path) -> FeModel:
-    """Read geometry from any format that holds it."""
+    """Geometry from any format that holds it."""
     model: FeModel = _reader(path, MESH)(path)
     return model
 
 
 def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
-    """Read modal coordinates from any format that holds them."""
+    """Modal coordinates from any format that holds them."""
     history: ForeignHistory = _reader(path, COORDINATES)(path, columns, time_column)
     return history
 
 
 def _reader(path: Path, content: Content) -> Callable[..., Any]:
-    """Find the function that reads a content of a file; refuse a file that is sound and in the wrong place."""
+    """Function that reads a content of a file; a file that is sound and in the wrong place is refused."""
     form = recognise(path)
     own = own_format(path) if form.is_plain_text else None  # the case itself and its register are texts, too
     reader = form.reads.get(content)
@@ -89,7 +89,7 @@ def _reader(path: Path, content: Content) -> Callable[..., Any]:
 
 
 def _misplaced(path: Path, content: Content, what: str, remedy: str) -> Problem:
-    """Say what a file is, where it belongs, and what to give in its place."""
+    """Refusal that says what a file is, where it belongs, and what to give in its place."""
     wanted = f"{content.option} {formats_called(content)}"
     return Problem(content.code, str(path), f"{what}, which holds no {content.name}", f"{remedy}, and to {wanted}")
 

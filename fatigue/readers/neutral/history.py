@@ -1,6 +1,6 @@
 """Histories of modal coordinates in the neutral format: ``time_s`` and one column ``q_<mode>`` for every mode.
 
-One column of a Parquet file is in memory at a time, besides what has been read if that is wanted as an array.
+One column of a Parquet file is in memory at a time, beside the samples read so far where an array is wanted.
 """
 
 import re
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Samples, create_spool
-from fatigue.readers.neutral.table_units import stated_unit_doubt
+from fatigue.readers.neutral.table_units import stated_unit_problem
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.readers.units.channel_names import channel
 
@@ -62,7 +62,7 @@ def read_history(
 def check_history(
     path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], *, strict: bool
 ) -> tuple[TimeGrid, list[Problem]]:
-    """Read a record and keep nothing but its times; raises what `read_history` raises."""
+    """Times of a record that is read, checked and not kept; raises what ``read_history`` raises."""
     table, names, grid = _open(path, modes, ignore_modes, strict)
     for name in names:
         table.numbers(name)
@@ -86,9 +86,9 @@ def _open(
 
 
 def _check_statements(table: Table) -> None:
-    """Note what the names and the metadata of columns state against the neutral format: time in s, q in N, mm, t, s."""
+    """Note where names or metadata of columns contradict the neutral format: time in s, q in N, mm, t, s."""
     for name, unit in zip(table.columns.names, table.columns.units or (), strict=False):
-        problem = stated_unit_doubt(table.where(name.strip()), name, unit) if unit else None
+        problem = stated_unit_problem(table.where(name.strip()), name, unit) if unit else None
         if problem is not None and problem.code == "unit":
             table.problems.append(problem)
     for name in table.position:
@@ -104,12 +104,12 @@ def _check_statements(table: Table) -> None:
 
 
 def _mode_of(column: str) -> int | None:
-    """Mode id of a column ``q_<mode>``; None for any other column."""
+    """Mode id of a column ``q_<mode>``; None of any other column."""
     return int(column[2:]) if re.fullmatch(r"q_-?\d+", column) else None
 
 
 def _mode_columns(table: Table, modes: NDArray[np.int64], ignore_modes: Collection[int]) -> list[str]:
-    """Names of the columns of the modes; modes and columns have to match."""
+    """Names of the columns of the modes; what has no partner is noted."""
     columns: dict[int, str] = {}
     for name in table.position:
         if (mode := _mode_of(name)) is None:

@@ -1,7 +1,7 @@
 """The weld lines of a body in a scratch file, so that memory does not grow with the body.
 
-A million nodes are some 100 MB, and every line is needed but two or three times in a job, together with its neighbours
-in the register.
+The lines of a million nodes take some 100 MB. A job needs every line but two or three times, together with its
+neighbours in the register.
 """
 
 import weakref
@@ -24,8 +24,8 @@ NODES_AT_ONCE = 16_384  # nodes written together
 class LineFile:
     """Weld lines one after another, k lines with n nodes in all, their nodes on disk.
 
-    ``heads`` is the stack of the lines without their nodes, ``begin``, (k + 1,), the position of each line's first
-    node, and n. The file goes with the object. Threads may read at the same time.
+    ``heads`` is the stack of the lines without their nodes; ``begin``, (k + 1,), is the position of each line's first
+    node, n at its end. The file is closed with the object. Threads may read at the same time.
     """
 
     heads: LineStack
@@ -61,7 +61,7 @@ class LineFile:
 
 
 def line_file(lines: LineStack) -> LineFile:
-    """Put lines into a scratch file that nobody else sees."""
+    """Lines in a scratch file that nobody else sees."""
     columns: dict[str, Any] = {name: getattr(lines, name) for name in NODE_COLUMNS}
     record = np.dtype([(name, column.dtype, column.shape[1:]) for name, column in columns.items()])
     file = TemporaryFile(prefix="fatigue-")  # noqa: SIM115 (closed with the object that reads it)

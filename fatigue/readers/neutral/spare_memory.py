@@ -1,4 +1,4 @@
-"""Memory that is free and still held: the allocators of Arrow and of C keep what large tables took for the next one."""
+"""Memory that is free and still held: the allocators of Arrow and C keep for the next table what a large one took."""
 
 import ctypes
 
@@ -8,8 +8,8 @@ import pyarrow as pa
 def give_back() -> None:
     """Give freed memory back to the system; nothing is lost by it, and it takes some milliseconds.
 
-    After a body of a million nodes has been read that is some 100 MB; in an assessment of its welds, group after group,
-    what is free between what is held would grow to 300 MB.
+    Some 100 MB are free after a body of a million nodes has been read. In an assessment of its welds, group after
+    group, the gaps between what is held would grow to 300 MB.
     """
     pa.default_memory_pool().release_unused()
     try:

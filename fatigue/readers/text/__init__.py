@@ -1,1 +1,1 @@
-"""Text tables of any program: encoding, layout, numbers, rows."""
+"""Text tables of any program: encoding, lines, separator, layout, numbers, flags, rows."""

@@ -26,7 +26,7 @@ _TEXT_START_BIG = re.compile(rb"(?:\0[\t\n\r\x20-\x7e]){4}")
 
 
 def marked_encoding(head: bytes) -> Encoding:
-    """Tell the encoding by the first bytes of a file; ``utf-8`` where they do not tell, Windows-1252 included."""
+    """Encoding by the first bytes of a file; ``utf-8`` where they do not tell, also for Windows-1252."""
     for mark, encoding in _MARKS:
         if head.startswith(mark):
             return encoding
@@ -38,7 +38,7 @@ def marked_encoding(head: bytes) -> Encoding:
 
 
 def encoding_of(path: Path, data: bytes) -> Encoding:
-    """Tell the encoding of a whole file.
+    """Encoding of a whole file.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def decoded(path: Path, data: bytes) -> tuple[str, Encoding]:
 
 
 def read_text(path: Path) -> tuple[str, Encoding]:
-    """Read a whole text file; as ``decoded``.
+    """Text and encoding of a whole file, as ``decoded``.
 
     Raises
     ------
@@ -83,8 +83,8 @@ def read_text(path: Path) -> tuple[str, Encoding]:
     return decoded(path, data)
 
 
-def not_utf8_remark(path: Path, data: bytes) -> Problem:
-    """Doubt about a file that is read as Windows-1252: its first byte beyond UTF-8, and the letter it is taken for."""
+def not_utf8_warning(path: Path, data: bytes) -> Problem:
+    """Warning of a file that is read as Windows-1252: its first byte beyond UTF-8, and the letter it is taken for."""
     at = _first_stray(data)
     letter = bytes([data[at]]).decode("cp1252")
     what = f"byte {data[at]:#04x} is not UTF-8; the file is read as Windows-1252, where it is {letter!r}"
@@ -132,7 +132,7 @@ def _line(data: bytes, at: int) -> int:
 
 
 def read_head(path: Path) -> tuple[str, Encoding, bool]:
-    """Read the beginning of a text file: text, encoding, and whether that is all of it.
+    """Beginning of a text file: its text, its encoding, and whether it is the whole file.
 
     Raises
     ------

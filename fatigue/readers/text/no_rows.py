@@ -17,7 +17,7 @@ _LOOKED_AT = 300
 
 
 def no_rows_problem(path: Path, lines: Sequence[str]) -> Problem:
-    """Describe a text without two rows of numbers."""
+    """Refusal of a text without two rows of numbers."""
     head = lines[:_LOOKED_AT]
     for separator in _SEPARATORS:
         rows = [split_fields(line, separator) for line in head]
@@ -44,7 +44,7 @@ def _on_its_side(cells: Sequence[str]) -> bool:
 
 
 def _nearest(head: Sequence[str], separator: str | None) -> tuple[float, int, str] | None:
-    """Find the first line with most numbers: their share of its cells, its number, its first cell that is none."""
+    """First line with most numbers: their share of its cells, its line number, its first cell that is no number."""
     best: tuple[float, int, str] | None = None
     for k, line in enumerate(head):
         cells = split_fields(line, separator)

@@ -37,7 +37,7 @@ def is_gap(text: str) -> bool:
 
 
 def plain_number(text: str, decimal: Decimal) -> str:
-    """Write a number as Python and Arrow read it: decimal point, exponent after an E; any other text as it is."""
+    """Number as Python and Arrow read it: decimal point, exponent after an E; any other text as it is."""
     if not is_number(text, decimal):
         return text
     text = re.sub("[DQ]", "E", text.upper().replace(",", ".").replace("\u2212", "-"))
@@ -45,7 +45,7 @@ def plain_number(text: str, decimal: Decimal) -> str:
 
 
 def written_apart(line: str) -> str:
-    """Put a blank between numbers of Fortran's fixed columns where a sign follows an exponent at once."""
+    """Line with a blank between numbers of Fortran's fixed columns, where a sign follows an exponent at once."""
     return _TOUCHING.sub(r"\1 ", line)
 
 
@@ -64,7 +64,7 @@ def split_fields(line: str, separator: str | None) -> list[str]:
 
 
 def as_numbers(column: pa.ChunkedArray, decimal: Decimal | None) -> pa.ChunkedArray | None:
-    """Read a column of texts as numbers, empty cells as null; None if a cell is anything else.
+    """Numbers of a column of texts, empty cells as null; None if a cell is anything else.
 
     Where the decimal sign is not known, all have one or the other.
     """

@@ -7,10 +7,11 @@ from io import StringIO
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.known_formats import misplaced
-from fatigue.naming import composed
+from fatigue.files.misplaced import misplaced
+from fatigue.files.naming import composed
 from fatigue.readers.text.encoding import read_text
-from fatigue.readers.text.layout import TableLayout, layout_of, text_lines
+from fatigue.readers.text.layout import TableLayout, layout_of
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.numbers import plain_number
 
 
@@ -24,7 +25,7 @@ class TextRow:
 
 
 def read_rows(path: Path, numbers: Collection[str] = ()) -> tuple[tuple[str, ...], list[TextRow]]:
-    """Read a table of texts as a whole: names of its columns, and its rows.
+    """Names of the columns of a table of texts, and its rows.
 
     Parameters
     ----------
@@ -83,7 +84,7 @@ def _cells(path: Path, layout: TableLayout, lines: Sequence[str]) -> list[tuple[
 
 
 def _refuse_open_quotation(lines: Sequence[str], separator: str) -> None:
-    """Refuse a cell whose quotation never ends: it has swallowed the rows below; other freedoms of quoting are fine."""
+    """Refuse a cell whose quotation never ends, as it swallows the rows below; other freedoms of quoting are fine."""
     try:
         for _ in csv.reader(StringIO("\n".join(lines)), delimiter=separator, strict=True):
             pass

@@ -70,7 +70,7 @@ class Channel:
 
 
 def channel(name: str) -> Channel:
-    """Read the name of a channel."""
+    """What the name of a channel states."""
     time_unit = time_unit_in(name)
     if time_unit is not None:
         return Channel(name, _time_base(name), True, time_unit, 0, float("nan"), float("nan"))
@@ -85,7 +85,7 @@ def channel(name: str) -> Channel:
 
 
 def without_unit_one(names: Sequence[str]) -> list[str]:
-    """Leave ``[1]`` out where it ends all names but that of time: a unit, as the numbers of modes differ."""
+    """Names without ``[1]`` where it ends all names but time: it is a unit then, as the numbers of modes differ."""
     coordinates = [name for name in names if time_unit_in(name) is None]
     if len(coordinates) > 1 and all(_UNIT_ONE.search(name) for name in coordinates):
         return [_UNIT_ONE.sub("", name) for name in names]
@@ -93,13 +93,13 @@ def without_unit_one(names: Sequence[str]) -> list[str]:
 
 
 def _time_base(name: str) -> str:
-    """Leave the unit out of a name of time."""
+    """Name of time without its unit."""
     found = _BRACKETS.search(name) or _LOOSE.search(name)
     return name[: found.start()].strip() if found else name.strip()
 
 
 def time_unit_in(name: str) -> str | None:
-    """Find the unit in a name of time, empty where it states none; None if it is no name of time."""
+    """Unit in a name of time, empty where it states none; None if it is no name of time."""
     bare = name.strip().strip("\"'")
     if _SECONDS_NAMED.match(bare):
         return bare
@@ -117,7 +117,7 @@ def time_unit_in(name: str) -> str | None:
 
 
 def unit_of_time(name: str) -> str:
-    """Find the unit in the name of a column that is time by the user's word, as ``now [ms]``; empty where none is."""
+    """Unit in the name of a column that is time by the user's word, as ``now [ms]``; empty where there is none."""
     known = time_unit_in(name)
     if known is not None:
         return known
@@ -151,7 +151,7 @@ def written(number: str) -> tuple[float, float]:
 
 
 def _without_unit(name: str) -> tuple[str, str]:
-    """Divide a name from the unit at its end."""
+    """Name without the unit at its end, and the unit."""
     if found := _SQUARE.search(name):
         return name[: found.start()], "" if states_no_unit(found[1]) else found[1].strip()
     if (

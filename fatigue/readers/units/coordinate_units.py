@@ -47,7 +47,7 @@ def states_no_unit(unit: str) -> bool:
 
 
 def parse_unit(text: str) -> CoordinateUnit | None:
-    """Read ``m``, ``mm*sqrt(t)``, ``kg^0.5 m``; None if it is no unit of a modal coordinate."""
+    """Unit written as ``m``, ``mm*sqrt(t)``, ``kg^0.5 m``; None if it is no unit of a modal coordinate."""
     plain = re.sub(r"(?:sqrt|√|root|wurzel)\s*\(?\s*([A-Za-zµ]+)\s*\)?", r"\1^0.5", text.strip(), flags=re.IGNORECASE)
     plain = plain.replace("½", "^0.5").replace("**", "^")
     plain = re.sub(r"\^\s*\(?\s*(?:1\s*/\s*2|0?[.,]5)\s*\)?", "^0.5 ", plain)
@@ -76,9 +76,9 @@ def compared(
 
     Returns
     -------
-    contradictions, one for each unit, and doubts
+    contradictions, one for each unit, and warnings
     """
-    problems, doubts = [], []
+    problems, warnings = [], []
     for unit in dict.fromkeys(u for u in units if u):
         having = [name for name, u in zip(names, units, strict=True) if u == unit]
         more = f" and {len(having) - 1} more columns" if len(having) > 1 else ""
@@ -88,12 +88,12 @@ def compared(
             problems.append(problem)
         elif (parse_unit(unit) or CoordinateUnit(None, None)).mass is None and normalisation == "mass":
             what = f"the file states {unit}, a length; --normalisation mass takes it as {_expected(system, 'mass')}"
-            doubts.append(Problem("coordinate_unit", where, what, "State --normalisation length if it is one"))
-    return problems, doubts
+            warnings.append(Problem("coordinate_unit", where, what, "State --normalisation length if it is one"))
+    return problems, warnings
 
 
 def _contradiction(where: str, unit: str, system: str, normalisation: Normalisation) -> Problem | None:
-    """Refusal of a unit that is not that of the options; None if it is."""
+    """Refusal of a unit that contradicts the options; None if it agrees."""
     options = (
         f"--coordinate-units {system} and --normalisation {normalisation} make it {_expected(system, normalisation)}"
     )

@@ -22,9 +22,9 @@ class UnitSystem:
         return self.mass * self.length
 
     def modal_coordinate(self, normalisation: Normalisation) -> float:
-        """Give the unit of the modal coordinate: sqrt(t) mm for modes of unit mass, mm for modes of unit displacement.
+        """Unit of the modal coordinate: in sqrt(t) mm for modes of unit mass, in mm for modes of unit displacement.
 
-        A displacement is shape times coordinate, so modes of unit generalised mass have shapes in 1/sqrt(mass).
+        A displacement is mode shape times coordinate, so mode shapes of unit generalised mass are in 1/sqrt(mass).
         """
         return self.length * (self.mass**0.5 if normalisation == "mass" else 1.0)
 
@@ -37,7 +37,7 @@ SYSTEMS = {
 
 
 def unit_system(name: str, where: str) -> UnitSystem:
-    """Look up a unit system by its name.
+    """Unit system of this name.
 
     Raises
     ------

@@ -20,7 +20,7 @@ from fatigue.report.figures.style import (
     single,
     upright,
 )
-from fatigue.report.signals import Envelope, Excerpt, Spectrum
+from fatigue.report.signals import Envelope, Excerpt, StressSpectrum
 from fatigue.report.wording import in_figure, number, share
 
 PSD_POINTS = 400
@@ -94,7 +94,10 @@ def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, *, named: bool
 
 
 def stress_spectrum(
-    spectra: Sequence[Spectrum], colours: Mapping[str, str], modes: Mapping[str, tuple[float, float]], governing: str
+    spectra: Sequence[StressSpectrum],
+    colours: Mapping[str, str],
+    modes: Mapping[str, tuple[float, float]],
+    governing: str,
 ) -> go.Figure:
     """Stress spectra of some events with the natural frequencies that matter; the cumulative variance below.
 
@@ -162,7 +165,7 @@ def _mode_note(name: str, frequency: float, part: float) -> Trace:
 
 
 def _thinned(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Keep the largest value of each of many equal spans of log x, so that no peak is lost."""
+    """Largest value of each of many equal spans of log x, so that no peak is lost."""
     if len(x) <= PSD_POINTS:
         return x, y
     span = np.floor(np.interp(np.log(x), np.log(x[[0, -1]]), [0.0, PSD_POINTS - 1e-9]))

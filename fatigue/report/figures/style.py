@@ -69,7 +69,7 @@ Trace = dict[str, Any]
 
 
 def figure(data: Sequence[Trace], height: int, **layout: Any) -> go.Figure:
-    """Make a figure in the common look."""
+    """Figure in the common look."""
     return go.Figure(data=list(data), layout={"template": TEMPLATE, "height": height, **layout})
 
 
@@ -94,7 +94,7 @@ def log_axis(title: str, low: float, high: float, **more: Any) -> dict[str, Any]
 
 
 def power(exponent: int) -> str:
-    """Write a power of ten as figures do."""
+    """Power of ten as figures write it."""
     return f"10<sup>{exponent}</sup>".replace("-", "−")
 
 
@@ -107,7 +107,7 @@ def across(y: float, colour: str = INK, width: float = 1.5, dash: str = "solid",
 def upright(
     x: float, colour: str = QUIET, width: float = 1, dash: str = "dot", on: str = "x", y: str = "paper"
 ) -> Trace:
-    """Line up a panel, or all panels, at x."""
+    """Upright line through a panel, or all panels, at x."""
     line = {"color": colour, "width": width, "dash": dash}
     return {"type": "line", "xref": on, "yref": y, "x0": x, "x1": x, "y0": 0, "y1": 1, "line": line}
 
@@ -125,12 +125,12 @@ def colour_bar(title: str, **more: Any) -> dict[str, Any]:
 
 
 def single(values: ArrayLike) -> NDArray[np.float32]:
-    """Keep drawn data in single precision: it halves the page, and no eye sees more."""
+    """Drawn data in single precision: it halves the page, and no eye sees more."""
     return np.asarray(values, dtype=np.float32)
 
 
 def drawn_life(life_km: ArrayLike) -> NDArray[np.float64]:
-    """Lives as a logarithmic axis can show them: those beyond 1e12 km at 1e12 km."""
+    """Lives as a logarithmic axis can show them: longer ones at 1e12 km."""
     return np.minimum(np.asarray(life_km, dtype=np.float64), LONGEST)
 
 
@@ -146,7 +146,7 @@ def life_axis(title: str, lives_km: ArrayLike, target_km: float, **more: Any) ->
 
 
 def life_scale(target_km: float) -> dict[str, Any]:
-    """Build the one colour scale of lives: log10 of km, from a decade below the target to four above."""
+    """The one colour scale of lives: log10 of km, from a decade below the target to four above."""
     low = int(np.floor(np.log10(target_km))) - 1
     decades = list(range(low, low + 6))
     bar = colour_bar("life [km]", tickvals=decades, ticktext=[power(d) for d in decades])

@@ -129,7 +129,7 @@ def _write_sheet(sheet, pieces: Iterable[pa.Table], columns: tuple[Column, ...],
 
 
 def _rows(pieces: Iterable[pa.Table], columns: tuple[Column, ...]) -> Iterator[tuple[str | bool | float | None, ...]]:
-    """Give the cells of a table row by row."""
+    """Cells of a table row by row."""
     for piece in pieces:
         frame = piece.to_pandas()
         yield from zip(*(_cells(frame[column.name], column) for column in columns), strict=True)

@@ -53,14 +53,16 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
     mark = marked(read_provenance(folder).get("result", ""))
     data = _point_data(folder, rows, register)
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, _pieces(folder, rows["top"], register), data, mark))
+        file.writelines(_poly_lines(xyz, _line_points(folder, rows["top"], register), data, mark))
     if into is None:
         enlist(folder, path)
     return path
 
 
-def _pieces(folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequence[Any]]) -> list[NDArray[np.integer]]:
-    """Find the points of every line part, the first repeated at the end of a ring."""
+def _line_points(
+    folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequence[Any]]
+) -> list[NDArray[np.integer]]:
+    """Points of every line part, the first repeated at the end of a ring."""
     weld, names = read_codes(folder, "nodes", "weld")
     part = read_table(folder, "nodes", ["part"])["part"].to_numpy()
     rings = {
@@ -78,7 +80,7 @@ def _pieces(folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequen
 def _point_data(
     folder: Path, rows: Mapping[str, NDArray[np.int64]], register: Mapping[str, Sequence[Any]]
 ) -> Iterator[str]:
-    """Encode the columns of the table of nodes, one in memory at a time."""
+    """Columns of the table of nodes, encoded, one in memory at a time."""
     of_station = {column.name: column for column in NODES if column.name in STATION}
     for name in STATION:
         if name not in _XYZ:
@@ -93,7 +95,7 @@ def _point_data(
 
 
 def _arrays(folder: Path, column: Column, wanted: Mapping[str, NDArray[np.int64]]) -> Iterator[str]:
-    """Encode some rows of a column, each under a name of its own: flags as 0 and 1, texts as strings."""
+    """Some rows of a column, encoded, each under a name of its own: flags as 0 and 1, texts as strings."""
     if column.type == "text":
         codes, texts = read_codes(folder, "nodes", column.name)
         for name, rows in wanted.items():
@@ -118,7 +120,7 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
         raise DataError(Problem("foreign_file", str(path), "is there already", "Use --force to overwrite it"))
     number = np.repeat(np.arange(1, len(lines) + 1), [len(line.node) for line in lines])
     first = np.cumsum([0, *(len(line.node) for line in lines)])
-    pieces = [
+    points = [
         np.append(rows, rows[0]) if line.closed else rows
         for line, rows in zip(lines, (np.arange(i, j) for i, j in pairwise(first)), strict=True)
     ]
@@ -132,27 +134,27 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
     ]
     xyz = np.concatenate([line.xyz for line in lines])
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, pieces, data))
+        file.writelines(_poly_lines(xyz, points, data))
 
 
 def _poly_lines(
-    xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Iterable[str], remark: str = ""
+    xyz: NDArray[np.float64], lines: Sequence[NDArray[np.integer]], point_data: Iterable[str], comment: str = ""
 ) -> Iterator[str]:
-    """Lay out points, poly-lines and the arrays of the points, behind a comment."""
+    """Text of the file: a comment, points, poly-lines and the arrays of the points."""
     yield '<?xml version="1.0"?>\n'
-    yield f"<!-- {remark} -->\n" if remark else ""
+    yield f"<!-- {comment} -->\n" if comment else ""
     yield '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(pieces)}">\n'
+    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(lines)}">\n'
     yield f"<Points>\n{_data('Points', 'f8', xyz, components=3)}</Points>\n<Lines>\n"
-    yield _data("connectivity", "i8", np.concatenate(pieces))
-    yield _data("offsets", "i8", np.cumsum([len(piece) for piece in pieces]))
+    yield _data("connectivity", "i8", np.concatenate(lines))
+    yield _data("offsets", "i8", np.cumsum([len(line) for line in lines]))
     yield "</Lines>\n<PointData>\n"
     yield from point_data
     yield "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n"
 
 
 def _texts(name: str, codes: NDArray[np.integer], texts: Sequence[str]) -> str:
-    """Encode ``texts[codes]``; a missing text, code -1, is empty."""
+    """Data array of ``texts[codes]``; a missing text, code -1, is empty."""
     plain = np.array([*(text.replace("\0", " ") for text in texts), ""], dtype=object)
     return _element(name, "String", ("\0".join(plain[codes]) + "\0").encode(), components=1)
 
@@ -162,7 +164,7 @@ def _data(name: str, dtype: str, values: NDArray[np.generic], components: int = 
 
 
 def _element(name: str, kind: str, content: bytes, components: int) -> str:
-    """Write a data array as base64, headed by its length in bytes."""
+    """Data array as base64, headed by its length in bytes."""
     encoded = base64.b64encode(len(content).to_bytes(8, "little") + content).decode()
     return (
         f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{components}" format="binary">'

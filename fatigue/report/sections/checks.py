@@ -22,7 +22,7 @@ class Recomputed:
 
 
 def recomputed(result: Result) -> list[Recomputed]:
-    """Recompute the damage of every detailed weld's worst point from its cycles, and from the damage of its events."""
+    """Damage of every detailed weld's worst point, recomputed from its cycles and from the damage of its events."""
     from_cycles, from_events = [0.0], [0.0]
     welds = result.assessed.set_index("weld")
     for weld in result.detailed:

@@ -30,7 +30,7 @@ class Figures:
     shown: list[Shown] = field(default_factory=list)
 
     def add(self, id_: str, fig: go.Figure, caption: str, *, wide: bool = False) -> Shown:
-        """Keep a figure; the template they all share is in the page once and not in each."""
+        """Figure as the page shows it; the template that all share is in the page once and not in each."""
         content = json.loads(fig.to_json(remove_uids=True))
         content["layout"].pop("template")
         height = int(content["layout"].pop("height"))
@@ -46,7 +46,7 @@ def embedded(value: Any) -> Markup:
 
 
 def packed(values: NDArray[np.generic]) -> dict[str, str]:
-    """Write an array as plotly.js reads it: type and base64 of its bytes, infinite and missing values included.
+    """Array as plotly.js reads it: type and base64 of its bytes, infinite and missing values included.
 
     Whole numbers take the smallest type that holds them, ids too large for 32 bits double precision.
     """

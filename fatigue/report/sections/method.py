@@ -17,7 +17,7 @@ class Rule:
 
 
 def rules(record: Mapping[str, Any]) -> list[Rule]:
-    """List every rule of an assessment with its source, in the order of the calculation."""
+    """Every rule of an assessment with its source, in the order of the calculation."""
     chosen, mission = record["rules"], record["mission"]
     return [
         Rule(
@@ -82,7 +82,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
 
 
 def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Say in a few lines what the life on the first page assumes."""
+    """What the life on the first page assumes, in a few lines."""
     chosen, mission = record["rules"], record["mission"]
     curves = [
         f"{name}, {_survival(chosen['survival'][name])} ({curve['source']})" for name, curve in record["curves"].items()
@@ -136,7 +136,7 @@ def _extension(chosen: Mapping[str, Any]) -> str:
 
 
 def _screening(screening: Mapping[str, Any]) -> str:
-    """Say which points have bounds in place of counted damage."""
+    """Which points have bounds in place of counted damage, in words."""
     share, stations = screening["share_of_limit"], screening["stations"]
     if share == 0.0:
         return "none: cycles are counted at every point"

@@ -11,9 +11,9 @@ from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
 from fatigue.report.result import Result
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
-from fatigue.report.sections.tables import Table
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
 
@@ -33,17 +33,17 @@ class WeldPage:
     facts: list[tuple[str, str]]
     along: Shown
     point: list[Shown]
-    variants: Table
-    events: Table
+    variants: PageTable
+    events: PageTable
     events_left_out: int
-    levers: Table | None
+    levers: PageTable | None
     reasons: list[tuple[str, str, str]]
     exponents: Mapping[str, float]
     bounded: int
 
 
 def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
-    """Gather all that is shown of one weld; ``detail`` is None where the records were not found."""
+    """All that is shown of one weld; ``detail`` is None where the records were not found."""
     row = result.assessed.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
     cycles = result.cycles(weld)
@@ -120,7 +120,7 @@ def _cycle_figures(
 def _record_figures(
     result: Result, detail: Detail, event: str | None, figs: Figures, id_: str, *, modes_too: bool
 ) -> list[Shown]:
-    """Draw the records, none where nothing damages; with the modes' shares of the variance if asked."""
+    """Figures of the records, none where nothing damages; with the modes' shares of the variance if asked."""
     if event is None or detail.envelope is None or detail.variance_share is None:
         return []
     colours = figures.event_colours([e["event"] for e in result.events])
@@ -145,7 +145,7 @@ def _record_figures(
 
 
 def _why_figures(result: Result, why: Why, event: str, figs: Figures, id_: str) -> list[Shown]:
-    """Draw the modes, frequency bands and places that make the damage of a weld's worst point."""
+    """Figures of the modes, frequency bands and places that make the damage of a weld's worst point."""
     names, natural = _mode_names(result.record["modes"])
     shown = []
     modes = mode_shares(why).head(MODES_DRAWN)

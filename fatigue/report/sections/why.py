@@ -23,7 +23,7 @@ class Why:
     levers: pd.DataFrame
 
     def of_weld(self, weld: str) -> "Why":
-        """Keep the rows of one weld."""
+        """Rows of one weld."""
         return Why(
             *(rows[rows["weld"] == weld] for rows in (self.attribution, self.track, self.diagnosis, self.levers))
         )
@@ -35,7 +35,7 @@ class Why:
 
 
 def read_why(folder: Path, result: Result) -> Why | None:
-    """Read the tables of a diagnosis; None where the result was not diagnosed."""
+    """Tables of a diagnosis, read; None where the result was not diagnosed."""
     if not all((folder / f"{name}.parquet").is_file() for name in TABLES):
         return None
     return Why(*(rows_of_worst_points(folder, name, result.assessed, result.detailed) for name in TABLES))
@@ -60,6 +60,6 @@ def band_shares(why: Why) -> pd.DataFrame:
 
 
 def exponents(why: Why) -> Mapping[str, float]:
-    """Give d ln(life) / d ln of load, plate thickness through its stress, and thickness through the rule."""
+    """Exponents d ln(life) / d ln of load, of plate thickness through its stress, of thickness through the rule."""
     rows: Any = why.attribution[why.attribution["kind"].isin(["load", "thickness", "thickness_rule"])]
     return {str(kind): float(total) for kind, total in rows.groupby("kind")["life_exponent"].sum().items()}

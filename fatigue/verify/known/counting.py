@@ -36,7 +36,7 @@ SEQUENCES: tuple[tuple[str, Sequence[float], Residue, dict[float, float], str], 
 
 
 def counting_checks() -> Iterator[Check]:
-    """Rainflow counting, ranges of membrane and bending at the same instants, upsampling."""
+    """Checks of rainflow counting, of ranges of membrane and bending at the same instants, and of upsampling."""
     for name, sequence, residue, expected, source in SEQUENCES:
         yield _sequence(name, np.array(sequence, dtype=np.float64), residue, expected, source)
     i = np.arange(1001)
@@ -50,7 +50,7 @@ def counting_checks() -> Iterator[Check]:
 def _sequence(
     name: str, sequence: NDArray[np.float64], residue: Residue, expected: Mapping[float, float], source: str
 ) -> Check:
-    """Compare a count by its sum of n (S^3 + 1), which every one of its cycles changes."""
+    """Check of a count by its sum of n (S^3 + 1), which every one of its cycles changes."""
     cycles = rainflow(sequence, residue)
     found = float(cycles.count @ (cycles.range**3 + 1))
     total = sum(n * (S**3 + 1) for S, n in expected.items())
@@ -58,7 +58,7 @@ def _sequence(
 
 
 def _paired_ranges() -> Iterator[Check]:
-    """Membrane 10 sin and bending 5 sin, 0, 90 and 180 degrees apart: ranges of one instant, not of each component."""
+    """Checks on membrane 10 sin and bending 5 sin, 0, 90, 180 degrees apart: their ranges at the same two instants."""
     cube = CycleRule(DamageLaw(np.array([3.0]), np.array([0.0]), np.array([]), 0.0), uses_bending_ratio=True)
     for degrees, S, r in ((0, 30.0, 1 / 3), (90, np.sqrt(500.0), 0.2), (180, 10.0, 1 / 3)):
         shift = np.radians(degrees)
@@ -84,7 +84,7 @@ def _paired_ranges() -> Iterator[Check]:
 
 
 def _upsampling() -> Check:
-    """Make a sine of 5 samples per period 4 times finer."""
+    """Check of a sine of 5 samples per period, made 4 times finer."""
     sine = ModalHistory("sine", np.array([1]), np.sin(2 * np.pi * np.arange(50) / 5)[None], 0.2, 0.0)
     fine = np.asarray(upsampled(sine, 4, "repeat").q)[0]
     worst = float(np.abs(fine - np.sin(2 * np.pi * np.arange(200) / 20)).max())

@@ -22,7 +22,7 @@ SIX_DIGITS, EIGHT_DIGITS, ROUNDING = 5e-6, 5e-8, 1e-9
 
 
 def curve_checks() -> Iterator[Check]:
-    """Master curves, other curves, corrections."""
+    """Checks of master curves, other curves and corrections."""
     yield from _master_curves()
     yield from _other_curves()
     yield from _corrections()

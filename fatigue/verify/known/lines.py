@@ -16,7 +16,7 @@ ROUNDING = 1e-9
 
 
 def line_checks() -> Iterator[Check]:
-    """Line loads, weld ends and structural stress."""
+    """Checks of line loads, weld ends and structural stress."""
     yield from _constant_loads()
     yield from _polynomial_loads()
     yield from _rings_and_steps()
@@ -71,7 +71,7 @@ def _parabolic_forces(load: Floats, lengths: Floats) -> Floats:
 
 
 def _constant_loads() -> Iterator[Check]:
-    """Load 7 N/mm on edges of 1e-4 to 5 mm, linear and parabolic, open and closed."""
+    """Checks of a load of 7 N/mm on edges of 1e-4 to 5 mm, linear and parabolic, open and closed."""
     lengths = np.array([2.0, 1e-4, 5.0, 1.3, 0.7, 3.1])
     s = np.concatenate([[0.0], np.cumsum(lengths)])
     halves = np.concatenate([[0.0], np.cumsum(np.repeat(lengths / 2, 2))])
@@ -119,7 +119,7 @@ def _rings_and_steps() -> Iterator[Check]:
 
 
 def _weld_ends() -> Iterator[Check]:
-    """Means of f = s over end zones that do not end at a node."""
+    """Checks of means of f = s over end zones that do not end at a node."""
     s = np.array([0.0, 1.0, 4.0, 4.5, 6.5, 10.5])
     ends = treat_ends(_straight(s, end_length=2.5), s.copy()).value
     short = treat_ends(_straight(np.array([0.0, 7.0]), end_length=10.0), np.array([0.0, 7.0])).value
@@ -136,7 +136,7 @@ def _weld_ends() -> Iterator[Check]:
 
 
 def _plates() -> Iterator[Check]:
-    """Plates whose stress statics decides, in a frame turned away from the axes."""
+    """Checks on plates whose stress statics decides, in a frame turned away from the axes."""
     axis = np.array([1.0, 2.0, 2.0]) / 3
     K = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
     turn = np.eye(3) + np.sin(0.7) * K + (1 - np.cos(0.7)) * K @ K

@@ -12,7 +12,7 @@ PLAIN = "arithmetic"
 
 
 def mission_checks() -> Iterator[Check]:
-    """Mission sum, life, load factors, equivalent range."""
+    """Checks of the mission sum, life, load factors and the equivalent range."""
     passes = (
         Pass("run", samples=1000, length=2.5, share=1.0, per_1000_km=None),
         Pass("load", samples=2, length=None, share=None, per_1000_km=4.0),

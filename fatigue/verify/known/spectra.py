@@ -33,7 +33,7 @@ NINE_DIGITS, EIGHT_DIGITS = 2e-9, 2e-8
 
 
 def spectrum_checks() -> Iterator[Check]:
-    """Moments, bandwidth, Dirlik, Tovo-Benasciutti."""
+    """Checks of moments, bandwidth, Dirlik and Tovo-Benasciutti."""
     yield from _flat_band()
     yield from _three_spectra()
     yield from _bent_law()
@@ -42,7 +42,7 @@ def spectrum_checks() -> Iterator[Check]:
 
 
 def _straight(k: float, constant: float = 1.0) -> DamageLaw:
-    """Law ``N = constant / a^k`` in amplitudes a, as one in ranges."""
+    """Law in ranges that is ``N = constant / a^k`` in amplitudes a."""
     return DamageLaw(np.array([k]), np.array([np.log(2**k * constant)]), np.array([]), 0.0)
 
 
@@ -89,7 +89,7 @@ def _three_spectra() -> Iterator[Check]:
 
 
 def _bent_law() -> Iterator[Check]:
-    """Three resonances on a law with a knee at an amplitude of 20 MPa, a range of 40 MPa."""
+    """Checks of three resonances on a law with a knee at an amplitude of 20 MPa, a range of 40 MPa."""
     f = np.arange(100, 40001) / 500
     density = sum(
         a / ((1 - (f / f0) ** 2) ** 2 + (2 * zeta * f / f0) ** 2)
@@ -130,7 +130,7 @@ def _narrow_bands() -> Iterator[Check]:
 
 
 def _sine() -> Iterator[Check]:
-    """Take a sine at 5 Hz in segments of 2 s: Hann spreads it over three bins, 1/6, 2/3, 1/6."""
+    """Checks on a sine at 5 Hz in segments of 2 s: Hann spreads it over three bins, 1/6, 2/3, 1/6."""
     t = np.arange(4000) / 200
     history = ModalHistory("sine", np.array([1]), (3 * np.sin(2 * np.pi * 5 * t))[None], 1 / 200, 0.0)
     moments = point_moments(np.array([[2.0]]), moment_matrices(segment_spectra(history, 2.0, 80.0)))[:, 0]

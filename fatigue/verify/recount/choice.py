@@ -29,7 +29,7 @@ class Choice:
 
 
 def worst_points(body: Layout, toe: NDArray[np.bool_], utilisation: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Find the worst toe point of every weld, of equal ones the first; arrays are (p,)."""
+    """Worst toe point of every weld, of equal ones the first; arrays are (p,)."""
     severity = np.where(toe & ~np.isnan(utilisation), utilisation, -1.0)
     first = 2 * body.first
     return np.array([a + severity[a:b].argmax() for a, b in pairwise(first)], dtype=np.int64)
@@ -46,7 +46,7 @@ def choose(
     samples: int,
     most_samples: int,
 ) -> Choice:
-    """Choose the worst and the named points of every weld, and draw some of the other points.
+    """The worst and the named points of every weld, and some drawn from the others.
 
     Where counting these takes more than ``most_samples`` it is done for fewer welds: half of them are those with the
     highest utilisation, half are drawn from the others.
@@ -85,18 +85,18 @@ def choose(
     return Choice(np.union1d(_of_welds(body, must, welds), drawn), welds, what)
 
 
-def batches(body: Layout, welds: Sequence[int], modes: int, most: int) -> list[list[int]]:
-    """Divide welds into batches of so many forces, stations times modes; one at least."""
+def groups_of_welds(body: Layout, welds: Sequence[int], modes: int, most: int) -> list[list[int]]:
+    """Neighbouring welds in groups that have at most so many forces, stations times modes, or are one weld."""
     stations = np.diff(body.first)
-    found: list[list[int]] = [[]]
+    groups: list[list[int]] = [[]]
     held = 0
     for weld in welds:
-        if found[-1] and held + stations[weld] * modes > most:
-            found.append([])
+        if groups[-1] and held + stations[weld] * modes > most:
+            groups.append([])
             held = 0
-        found[-1].append(weld)
+        groups[-1].append(weld)
         held += int(stations[weld]) * modes
-    return found
+    return groups
 
 
 def _of_welds(body: Layout, points: NDArray[np.int64], welds: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -30,12 +30,12 @@ class Layout:
     order: NDArray[np.int64]
 
     def __len__(self) -> int:
-        """Count the stations."""
+        """Number of stations."""
         return len(self.weld)
 
     @property
     def points(self) -> int:
-        """Count the points."""
+        """Number of points."""
         return 2 * len(self)
 
     @property
@@ -53,7 +53,7 @@ class Layout:
 
 
 def station_finder(body: Layout) -> Callable[[NDArray[Any], NDArray[Any], NDArray[Any]], NDArray[np.int64]]:
-    """Make the function that finds stations by index of the weld, part and order, (r,) each; -1 where there is none."""
+    """Function that finds stations by index of the weld, part and order, (r,) each; -1 where there is none."""
     parts, orders = np.unique(body.part), np.unique(body.order)
 
     def code(weld: NDArray[Any], part: NDArray[Any], order: NDArray[Any]) -> NDArray[np.int64]:

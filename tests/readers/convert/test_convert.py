@@ -14,10 +14,11 @@ from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.folder import TABLES
 from fatigue.readers.convert.options import ConvertOptions, WeldSources
 from fatigue.readers.convert.weld_lines import list_welds
-from fatigue.readers.neutral.body import read_mesh, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.neutral.forces.tables import read_element_forces, read_weld_elements
+from fatigue.readers.neutral.body import read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.history import read_history
 from fatigue.weld.element_forces import balance, side_forces
+from tests.readers.neutral_tables import read_weld_nodes
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
 

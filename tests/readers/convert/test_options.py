@@ -11,7 +11,7 @@ from fatigue.cli.options import asking_for
 from fatigue.readers.convert.option_fields import option_fields, words_of
 from fatigue.readers.convert.options import ConvertOptions, Displacement, WeldSources
 from fatigue.readers.foreign.histories.matching import Match
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 FILES = ConvertOptions("a.op2", "a.bdf", "out")
 MANY = ConvertOptions(

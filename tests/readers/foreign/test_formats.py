@@ -5,6 +5,7 @@ import inspect
 import pytest
 
 from fatigue.extras import REQUIREMENTS
+from fatigue.files.known_formats import OWN
 from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, all_formats, formats_called
 
 PARAMETERS = {
@@ -32,6 +33,14 @@ def test_an_entry_leads_to_its_readers(form):
         assert list(inspect.signature(reader.load()).parameters) == PARAMETERS[content]
     assert not form.looks_like or form.fits_text("nothing at all") is False
     assert form.extra is None or form.extra.package in REQUIREMENTS
+
+
+@pytest.mark.parametrize("form", [form for form in FORMATS if not form.is_plain_text], ids=lambda form: form.key)
+def test_a_format_that_is_read_is_known_where_it_is_not(form):
+    """Given for a table of a case, it is told by the same name and by the same first bytes."""
+    known = [own for own in OWN if own.name.startswith(form.name)]
+    assert known
+    assert {start for own in known for start in own.starts if start} == set(form.starts)
 
 
 def test_what_messages_say_of_the_formats():

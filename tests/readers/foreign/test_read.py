@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from fatigue.errors import DataError
+from fatigue.readers.foreign.histories.mcf import read_mcf
 from fatigue.readers.foreign.read import read_forces, recognise
 
 
@@ -43,3 +44,23 @@ def test_missing_h5py_is_told(monkeypatch):
     monkeypatch.setitem(sys.modules, "h5py", None)
     with pytest.raises(DataError, match=r'Run: pip install "h5py>=[\d.]+"'):
         read_forces(Path("data/nastran/modes_elements.h5"), None)
+
+
+def test_missing_files(tmp_path):
+    """Missing, empty and unknown binary files are named."""
+    for read in (read_mcf, recognise):
+        with pytest.raises(DataError, match=r"none\.mcf"):
+            read(tmp_path / "none.mcf")
+    (tmp_path / "empty").touch()
+    with pytest.raises(DataError, match="empty"):
+        recognise(tmp_path / "empty")
+    (tmp_path / "binary").write_bytes(b"abc\0def")
+    with pytest.raises(DataError, match="unknown binary"):
+        recognise(tmp_path / "binary")
+
+
+def test_formats_by_content():
+    """Real files are recognised by content."""
+    folder = Path("data/nastran")
+    names = {"modes_elements.op2": "op2", "modes_elements.h5": "h5", "modes_elements.bdf": "bdf", "geom.inc": "bdf"}
+    assert {name: recognise(folder / name).key for name in names} == names

@@ -21,7 +21,7 @@ from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.audit.sign_proof import sign_row
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def audit(
     interface_modes: Iterable[int] = (),
     simulated: dict[int, float] | None = None,
 ) -> Audit:
-    """Judge grid point forces against their model, and against the simulation's modes.
+    """Audit of grid point forces against their model, and against the simulation's modes.
 
     Parameters
     ----------

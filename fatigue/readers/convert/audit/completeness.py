@@ -1,4 +1,4 @@
-"""Whether the shells of the mesh are those that have forces, at all their nodes and in all modes."""
+"""Whether the shells of the mesh have forces at all their nodes and in all modes, and no other shells have."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from fatigue.readers.neutral.body import LOWEST_HZ
 
 
 def completeness_row(results: FeResults, model: FeModel) -> AuditRow:
-    """Compare the shells of the mesh with those that have force rows."""
+    """Row on the shells of the mesh that have force rows."""
     mesh = model.mesh
     listed = np.unique(results.element[results.of_element])
     is_shell = results.of_element & (

@@ -1,4 +1,4 @@
-"""Whether the forces on every shell balance: those of a stiffness do, and only in the frames they are written in."""
+"""The balance of the forces on every shell: stiffness forces are in equilibrium, in the frames they are written in."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ BALANCE_GREEN = 1e-3
 def _element_forces(
     results: FeResults, force: NDArray[np.floating], rows: NDArray[np.bool_] | slice = slice(None)
 ) -> ElementForces:
-    """Put the forces (m, r, 6) of chosen rows of all modes in one table."""
+    """Table of the forces (m, r, 6) of chosen rows in all modes."""
     node, element = results.node[rows], results.element[rows]
     modes = results.mode.size
     return ElementForces(
@@ -41,7 +41,7 @@ def _worst_balance(results: FeResults, model: FeModel, force: NDArray[np.floatin
 
 
 def balance_row(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> tuple[AuditRow, bool]:
-    """Judge the worst shell; also tell whether only the moments about the shells' normals are out of balance."""
+    """Row on the worst shell; and whether only the moments about the shells' normals are out of balance."""
     worst, element, mode, count = _worst_balance(results, model, force)
     if not count:
         return AuditRow(
@@ -66,7 +66,7 @@ def balance_row(results: FeResults, model: FeModel, force: NDArray[np.floating])
 
 
 def frames_row(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> AuditRow:
-    """Check that the rotation out of the displacement frames does what it should."""
+    """Row on the rotation out of the displacement frames: the forces balance after it, and not before."""
     count = int(np.isin(model.frame_node, results.node).sum())
     if not count:
         return AuditRow("displacement frames", "green", 0.0, "all forces are in the basic frame")

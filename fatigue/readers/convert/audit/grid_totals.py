@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 TOLERANCE = 1e-3
 """Of the largest row of the grid, or a thousandth of the mode's largest."""
@@ -80,7 +80,7 @@ class _Total(NamedTuple):
 
 
 def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
-    """Compare the stated totals of every grid with its rows: where they follow, a checksum over every number."""
+    """Row on the totals that the file states: where they follow from the rows, a checksum over every number."""
     found = check_totals(results, convention)
     if found is None:
         return AuditRow(
@@ -123,7 +123,7 @@ def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
 
 
 def check_totals(results: FeResults, convention: Convention | None) -> TotalsCheck | None:
-    """Compare the totals of every grid with its rows, by the rule that explains them best; None without totals.
+    """Comparison of the totals of every grid with its rows, by the rule that explains them best; None without totals.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def check_totals(results: FeResults, convention: Convention | None) -> TotalsChe
     if not is_total.any():
         return None
     of_element = results.of_element
-    groups = [np.flatnonzero(rows) for rows in (~of_element & ~is_total, of_element, is_total)]
+    kinds = [np.flatnonzero(rows) for rows in (~of_element & ~is_total, of_element, is_total)]
     grids, at = np.unique(results.node, return_inverse=True)
     added = _Tally(1.0, "add up to")
     subtracted = _Tally(-1.0, "give, loads less forces on elements,")
@@ -144,7 +144,7 @@ def check_totals(results: FeResults, convention: Convention | None) -> TotalsChe
         of_mode = float(np.abs(force[is_here]).max(initial=0.0))
         for part in (slice(0, 3), slice(3, 6)):
             values = np.where(is_here[:, None], force[:, part], 0.0).astype(np.float64)
-            loads, elements, totals = (_sums(values[rows], at[rows], grids.size) for rows in groups)
+            loads, elements, totals = (_sums(values[rows], at[rows], grids.size) for rows in kinds)
             size = np.abs(values).max(axis=1, initial=0.0)
             largest = np.zeros(grids.size)
             np.maximum.at(largest, at, size)
@@ -184,7 +184,7 @@ def _forbidden(totals: list[_Total], results: FeResults, hides_inertia: bool) ->
 
 
 def _sums(values: NDArray[np.float64], at: NDArray[np.int64], size: int) -> NDArray[np.float64]:
-    """Sum of the rows of every grid, (grids, 3)."""
+    """Sums of the rows of every grid, (grids, 3)."""
     return np.stack([np.bincount(at, values[:, c], size) for c in range(3)], axis=1)
 
 

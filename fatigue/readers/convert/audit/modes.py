@@ -1,4 +1,4 @@
-"""What the modes tell: interface modes among them, frequencies, generalised masses, and those of the simulation."""
+"""What the modes tell: interface modes, frequencies and generalised masses, and the frequencies of the simulation."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ FREQUENCY_LIMIT = 0.01
 
 
 def interface_rows(results: FeResults, marked: set[int]) -> list[AuditRow]:
-    """Local welds lose nearly all of their force without static modes of the interface loads."""
+    """Row on the interface modes: without them local welds lose nearly all of their force."""
     if results.analysis == "static":
         return []
     count = len(marked & set(results.mode.tolist()))
@@ -32,7 +32,7 @@ def interface_rows(results: FeResults, marked: set[int]) -> list[AuditRow]:
 
 
 def unknown_frequency_rows(results: FeResults, marked: set[int]) -> list[AuditRow]:
-    """Modes of vibration have a frequency; static subcases have none by nature."""
+    """Row on modes of vibration without a frequency, if there are any; static subcases have none by nature."""
     if results.analysis == "static":
         return []
     is_unknown = np.isnan(results.frequency) & ~np.isin(results.mode, sorted(marked))
@@ -53,7 +53,7 @@ def unknown_frequency_rows(results: FeResults, marked: set[int]) -> list[AuditRo
 
 
 def mass_rows(results: FeResults) -> list[AuditRow]:
-    """Report the generalised masses, which a simulation may have normalised otherwise."""
+    """Row on the generalised masses, which a simulation may have normalised otherwise."""
     mass = results.modal_mass[np.isfinite(results.modal_mass)]
     if not mass.size:
         return []
@@ -72,7 +72,7 @@ def mass_rows(results: FeResults) -> list[AuditRow]:
 
 
 def frequency_match_rows(results: FeResults, simulated: dict[int, float] | None) -> list[AuditRow]:
-    """Compare the frequencies of both sides mode by mode."""
+    """Row on the frequencies of both sides, compared mode by mode."""
     if not simulated:
         return []
     pairs = [

@@ -54,7 +54,7 @@ def elastic_modes(results: FeResults) -> NDArray[np.bool_]:
 
 
 def own_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Position in the mesh of each row's element, and whether the row is that of a shell at one of its nodes."""
+    """Position in the mesh of each row's element, and whether the row belongs to a shell and one of its nodes."""
     mesh = model.mesh
     around = np.concatenate([mesh.corner, mesh.mid], axis=1)
     at = np.minimum(np.searchsorted(mesh.element, results.element), mesh.element.size - 1)
@@ -64,7 +64,7 @@ def own_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.int64], NDA
 
 
 def without_drilling(force: NDArray[np.floating], results: FeResults, model: FeModel) -> NDArray[np.floating]:
-    """Take the moments of shells about their own normals out of forces (m, r, 6) in basic axes."""
+    """Forces (m, r, 6) in basic axes without the moments of shells about their own normals."""
     at, is_own = own_rows(results, model)
     rows = np.flatnonzero(is_own)
     normal = normals(model.mesh)[at[rows]].astype(force.dtype)

@@ -10,7 +10,7 @@ from fatigue.readers.convert.audit.shell_rows import shell_rows, whole_rows
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults
 from fatigue.readers.neutral.body import LOWEST_HZ
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 WORK_TOLERANCE = 2e-3
 _CLEAR = 1e-4
@@ -22,7 +22,7 @@ _ONE_SIGN = 0.8
 class SignProof(NamedTuple):
     """What decides the sign: the number, the convention it proves (None: nothing), and the number in words.
 
-    ``contradiction``: why forces and shapes cannot be those of one run, empty if nothing says so; ``odd``: elements
+    ``contradiction``: why forces and shapes cannot come from one run, empty if nothing says so; ``odd``: elements
     that do work of the other sign, in words, empty if there are none.
     """
 
@@ -53,7 +53,7 @@ class _Works(NamedTuple):
 
 
 def sign_row(results: FeResults, model: FeModel, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
-    """Compare the proven sign convention with the stated one."""
+    """Row on the sign, proven beside stated; and the convention that holds, None if nothing decides it."""
     value, found, finding, contradiction, odd = prove_sign(
         results, whole_rows(results, model), shell_rows(results, model)
     )
@@ -73,10 +73,10 @@ def sign_row(results: FeResults, model: FeModel, stated: Convention | None) -> t
 
 
 def prove_sign(results: FeResults, whole: NDArray[np.bool_], shells: NDArray[np.bool_]) -> SignProof:
-    """Find the sign convention from the work of the shapes, or else from loads and reactions.
+    """Proof of the sign convention from the work of the shapes, or else from loads and reactions.
 
     ``whole``: (r,) rows of elements that have forces at all their nodes, as far as known; only their work is a strain
-    energy. ``shells``: those of them that the mesh proves to be whole; they alone can contradict.
+    energy. ``shells``: the rows among them that the mesh proves to be whole; they alone can contradict.
     """
     if results.shape_node.size:
         proof = _by_work(results, whole, shells)
@@ -144,7 +144,7 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_], shells: NDArray[np.bo
 
 
 def _odd_elements(mode: NDArray[np.int64], works: _Works, usable: NDArray[np.bool_], sign: float) -> str:
-    """Name elements whose work is clearly negative, which that of a stiffness never is."""
+    """Elements whose work is clearly negative, in words; the work of a stiffness never is."""
     is_odd = usable[:, None] & (sign * works.work < -_CLEAR * works.terms)
     if not is_odd.any():
         return ""
@@ -157,7 +157,7 @@ def _odd_elements(mode: NDArray[np.int64], works: _Works, usable: NDArray[np.boo
 
 
 def _by_energy(ratio: NDArray[np.float64], has_mass: bool) -> SignProof:
-    """Judge work over omega^2 times the generalised mass; without masses its size tells nothing."""
+    """Proof by work over omega^2 times the generalised mass; without masses its size tells nothing."""
     worst = float(ratio[np.argmax(np.abs(ratio))])
     over = "omega^2 m" if has_mass else "omega^2, the generalised mass,"
     text = f"work over {over} from {ratio.min():.5g} to {ratio.max():.5g} in {ratio.size} modes"

@@ -4,7 +4,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 LOAD_N = 100.0
 _LOADED = (2, 3)
@@ -36,7 +36,7 @@ ENDDATA
 
 
 def convention_of(patch: FeResults) -> Convention:
-    """Read the sign convention off the results of the deck: on the element, the pulled grids carry +100 N together.
+    """Sign convention that the results of the deck show: on the element, the pulled grids carry +100 N together.
 
     Raises
     ------

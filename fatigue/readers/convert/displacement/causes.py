@@ -53,7 +53,7 @@ class Cause:
 
 
 def explain(comparison: Comparison, in_time: list[Cause], base: float) -> tuple[Cause, ...]:
-    """Find the causes that explain a displacement alike: one is an answer, several are none.
+    """Causes that explain a displacement alike: one is an answer, several are none.
 
     Where a simple cause leaves as little as any other, only simple ones count: every flip of one mode has pairs of
     flips that do as well. A fit of all modes is asked last.
@@ -78,7 +78,7 @@ def explain(comparison: Comparison, in_time: list[Cause], base: float) -> tuple[
 
 
 def _whole(c: Comparison) -> Iterator[Cause]:
-    """Give what concerns all modes alike: direction, sign and units."""
+    """Causes that concern all modes alike: direction, sign and units."""
     for axis in range(3):
         weight = c.shape[c.number, axis]
         for factor, units in {1.0: "", **_UNITS, **{1 / f: text for f, text in _UNITS.items()}}.items():
@@ -119,7 +119,7 @@ def _flip_cause(modes: tuple[int, ...], misfit: float) -> Cause:
 
 
 def _flips(c: Comparison) -> Iterator[Cause]:
-    """Give the signs of two modes, and of all modes that a fit finds opposite."""
+    """Opposite signs of two modes, and of all modes that a fit finds opposite."""
     square, left = c.rest
     one = c.weight * left
     size = np.diagonal(c.parts)
@@ -136,7 +136,7 @@ def _flips(c: Comparison) -> Iterator[Cause]:
 
 
 def _swaps(c: Comparison) -> Iterator[Cause]:
-    """Two modes changed places."""
+    """Two modes that changed places."""
     square, left = c.rest
     qq = c.products[0]
     size = np.diagonal(qq)
@@ -153,7 +153,7 @@ def _swaps(c: Comparison) -> Iterator[Cause]:
 
 
 def _numbering(c: Comparison) -> Iterator[Cause]:
-    """Give coordinates that belong to modes so many places further on."""
+    """Coordinates that belong to modes so many places further on."""
     total = len(c.shape)
     for step in range(1 - total, total):
         to = c.number + step
@@ -170,7 +170,7 @@ def _numbering(c: Comparison) -> Iterator[Cause]:
 
 
 def _factors(c: Comparison) -> Iterator[Cause]:
-    """Give one factor on all modes, or on one of them."""
+    """One factor on all modes, or on one of them."""
     qq, qy, _ = c.products
     square, left = c.rest
     summed = float(c.weight @ qq @ c.weight)
@@ -194,7 +194,7 @@ def _factors(c: Comparison) -> Iterator[Cause]:
 
 
 def _fit(c: Comparison) -> Iterator[Cause]:
-    """Give the modes whose factors a fit of all modes tells apart from 1."""
+    """Modes whose factors a fit of all modes tells apart from 1."""
     if not (off := fitted_factors(c)):
         return
     misfit, _ = best_fit(c)

@@ -15,8 +15,8 @@ from fatigue.readers.convert.displacement.nodes import with_other_node
 from fatigue.readers.convert.displacement.record import DisplacementRecord
 from fatigue.readers.convert.displacement.side_by_side import causes_of, compared
 from fatigue.readers.convert.displacement.verdict import CHECK, judged
+from fatigue.readers.convert.modal_basis import coordinate_units
 from fatigue.readers.convert.options import Displacement
-from fatigue.readers.convert.weld_forces import coordinate_units
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
@@ -39,12 +39,12 @@ def displacement_row(
     history_units: UnitSystem,
     normalisation: Normalisation,
 ) -> AuditRow:
-    """Compare a displacement with the sum of the modes at its node; of several events the one that it fits best.
+    """Row on a displacement beside the sum of the modes at its node; of several events the one that it fits best.
 
     Parameters
     ----------
     results, model : as read, in the file's own units and displacement frames
-    histories : modal coordinates of the events on uniform times, their modes those of ``results``
+    histories : modal coordinates of the events on uniform times, with the modes of ``results``
     scale : (m,) factor on the coordinates of each mode of the FE run, where the simulation normalises differently
     units, history_units, normalisation : of the force file, of the coordinates, and of the modes
 
@@ -104,14 +104,14 @@ def displacement_row(
 
 
 def _basic(grids: NDArray[np.int64], results: FeResults, model: FeModel) -> Floats:
-    """Give the translations of grids in every mode (m, n, 3), basic frame, in the file's own units."""
+    """Translations of grids in every mode (m, n, 3), basic frame, in the file's own units."""
     order = np.argsort(results.shape_node, kind="stable")
     at = order[np.searchsorted(results.shape_node, grids, sorter=order)]
     return np.asarray(to_basic(results.shape[:, at].astype(np.float64), grids, model)[:, :, :3], np.float64)
 
 
 def _shape(asked: Displacement, name: str, results: FeResults, model: FeModel) -> Floats:
-    """Give the translation of the node in every mode (m, 3), basic frame, in the file's own units."""
+    """Translation of the node in every mode (m, 3), basic frame, in the file's own units."""
     at = np.flatnonzero(results.shape_node == asked.node)
     if not at.size:
         grids = results.shape_node

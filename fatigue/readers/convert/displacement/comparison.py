@@ -12,7 +12,7 @@ Floats = NDArray[np.float64]
 SHARE = 0.03
 """Of the rms of the displacement: a mode that contributes less is not blamed."""
 
-_COLOURED = 5.0  # standard errors take samples as independent; those of a vibration are not
+_COLOURED = 5.0  # standard errors take samples as independent; the samples of a vibration are not
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ class Comparison:
         return float(yy - self.weight @ qy - self.weight @ left), left
 
     def misfit(self, weights: Floats) -> Floats:
-        """Rms of measured - weights @ q over that of the displacement, means left out; (..., m) -> (...)."""
+        """Rms of measured - weights @ q over the rms of the displacement, means left out; (..., m) -> (...)."""
         qq, qy, yy = self.products
         square = yy - 2 * weights @ qy + np.einsum("...i,ij,...j->...", weights, qq, weights, optimize=True)
         return self.relative(square)

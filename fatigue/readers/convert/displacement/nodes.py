@@ -1,4 +1,4 @@
-"""Whether a displacement is that of another node: the sum of the modes at every node that has mode shapes."""
+"""Whether a displacement belongs to another node: the sum of the modes at every node that has mode shapes."""
 
 from collections.abc import Callable
 
@@ -19,7 +19,7 @@ def with_other_node(
     node: NDArray[np.int64],
     shapes: Callable[[NDArray[np.int64]], NDArray[np.float64]],
 ) -> tuple[Cause, ...]:
-    """Add the node whose displacement it is to causes that a wrong node passes for.
+    """Causes that a wrong node passes for, and the node whose displacement it is.
 
     Factors fitted to all modes can imitate any node; they are no cause where a node explains the displacement.
 
@@ -31,9 +31,9 @@ def with_other_node(
     if any(cause.kind not in _ASKED for cause in causes):
         return causes
     others = np.flatnonzero(node != own)
-    chunks = [others[k : k + _AT_ONCE] for k in range(0, others.size, _AT_ONCE)]
+    blocks = [others[k : k + _AT_ONCE] for k in range(0, others.size, _AT_ONCE)]
     number, axis = comparison.number, comparison.direction
-    misfits = [comparison.misfit(shapes(chunk)[number, :, axis].T) for chunk in chunks]
+    misfits = [comparison.misfit(shapes(block)[number, :, axis].T) for block in blocks]
     if not misfits:
         return causes
     misfit = np.concatenate(misfits)

@@ -28,7 +28,7 @@ class DisplacementRecord:
 
 
 def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRecord:
-    """Read a table of time and one displacement, as text or Parquet.
+    """Displacement over time from a table of time and one displacement, as text or Parquet.
 
     A unit at the end of the column's name (``displacement_mm``, ``uz [m]``) holds; without one it is
     ``unit_of_length`` [mm].
@@ -57,7 +57,7 @@ def read_displacement(path: Path | str, unit_of_length: float) -> DisplacementRe
 
 
 def _stated_unit(path: Path | str, name: str, unit: str) -> str:
-    """Give the unit that the column's name or the row of units states; empty if neither does."""
+    """Unit that the column's name or the row of units states; empty if neither does."""
     stated = _UNIT.search(name) or _OTHER_UNIT.search(name)
     label = stated[1] if stated else "" if states_no_unit(unit) else unit
     label = label.strip().lower().replace("μ", "µ")

@@ -46,7 +46,7 @@ def compared(
     factor: Floats,
     history: ForeignHistory,
 ) -> EventComparison:
-    """Put a displacement and one event side by side, at the instants of the coarser of the two.
+    """A displacement and one event side by side, at the instants of the coarser of the two.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def _at(time: Floats, own: Floats, values: NDArray[np.floating]) -> Floats:
 
 
 def causes_of(event: EventComparison, record: DisplacementRecord) -> tuple[Cause, ...]:
-    """Find the causes that explain the misfit of one event alike."""
+    """Causes that explain the misfit of one event alike."""
     if event.comparison is not None and not np.isfinite(event.misfit):
         return ()
     records = (event.time, event.summed, record.time, record.value)

@@ -13,7 +13,7 @@ _FEW = 8  # instants: fewer tell nothing
 
 
 def shifted(time: Floats, summed: Floats, at: Floats, measured: Floats) -> list[Cause]:
-    """Find shifts in time with which a displacement fits the sum: two records over their own times.
+    """Shifts in time with which a displacement fits the sum: two records over their own times.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def shifted(time: Floats, summed: Floats, at: Floats, measured: Floats) -> list[
 
 
 def derived(time: Floats, summed: Floats, at: Floats, measured: Floats) -> list[Cause]:
-    """Compare with the derivatives of the sum; parameters as for `shifted`."""
+    """Derivatives of the sum that a displacement is; parameters as for ``shifted``."""
     inside = (at >= time[0]) & (at <= time[-1])
     level = float(np.std(measured[inside])) if np.count_nonzero(inside) >= _FEW else 0.0
     if time.size < _FEW or level == 0.0:

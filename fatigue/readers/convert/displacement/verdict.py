@@ -19,7 +19,7 @@ _OF_MODES = frozenset({"mode sign", "mode order"})
 
 
 def judged(name: str, found: EventComparison, causes: tuple[Cause, ...], lacking: Sequence[int]) -> AuditRow:
-    """Put a comparison into a row.
+    """Row of the audit that a comparison makes.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def _numbers(c: Comparison, misfit: float) -> str:
 
 
 def _likely_cause(c: Comparison, misfit: float, causes: tuple[Cause, ...], lacking: Sequence[int]) -> tuple[str, str]:
-    """Give the likely cause of a misfit and its remedy, or what is known where no single cause is certain."""
+    """Likely cause of a misfit and its remedy, or what is known where no single cause is certain."""
     if len(causes) == 1:
         return f"likely cause: {causes[0].text} (error then {causes[0].misfit:.2g})", causes[0].remedy
     if causes:
@@ -94,7 +94,7 @@ def _likely_cause(c: Comparison, misfit: float, causes: tuple[Cause, ...], lacki
 
 
 def _proof(c: Comparison) -> str:
-    """Name the modes whose wrong sign this displacement would show, and those it says nothing about."""
+    """Modes whose wrong sign this displacement would show, and the modes it says nothing about, in words."""
     seen = c.flipped > EXPLAINED
     shows = f"a wrong sign would show for mode{'s' if seen.sum() != 1 else ''} {_short(c.mode[seen])}"
     if seen.all():
@@ -105,6 +105,6 @@ def _proof(c: Comparison) -> str:
 
 
 def _short(modes: NDArray[np.int64]) -> str:
-    """Give mode numbers, at most ten of them."""
+    """Mode numbers as text, at most ten of them."""
     some = ", ".join(map(str, modes[:10].tolist()))
     return some + (f" and {modes.size - 10} more" if modes.size > 10 else "")

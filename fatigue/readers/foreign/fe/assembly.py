@@ -43,7 +43,7 @@ def assemble(
     unusable: Collection[UnusableBlock] = (),
     interface: Collection[int] = (),
 ) -> FeResults:
-    """Join the blocks of a file into one run.
+    """FE run that the blocks of a file make.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def assemble(
 
 
 def _subcases_without_forces(source: str, shapes: list[ShapeBlock], having: set[int]) -> list[Problem]:
-    """Tell static subcases that have displacements only: unit loads are missing if they are some."""
+    """Warning about static subcases that have displacements only: they may be unit loads."""
     silent = sorted({block.subcase for block in shapes if block.mode == 0} - having)
     if not silent:
         return []
@@ -139,7 +139,7 @@ def _subcases_without_forces(source: str, shapes: list[ShapeBlock], having: set[
 def _unstable(
     source: str, mode: NDArray[np.int64], frequency: NDArray[np.float64], eigenvalue: NDArray[np.float64]
 ) -> list[Problem]:
-    """Doubt about modes with a negative eigenvalue beyond the round-off of rigid ones."""
+    """Warning about modes with a negative eigenvalue beyond the round-off of rigid ones."""
     bad = np.flatnonzero((eigenvalue < 0) & (frequency > _UNSTABLE_HZ))
     if not bad.size:
         return []
@@ -201,7 +201,7 @@ def _is_named(block: ForceBlock, interface: Collection[int]) -> bool:
 
 
 def _unusable_problems(unusable: Collection[UnusableBlock], usable: list[int]) -> list[Problem]:
-    """One problem of each kind, with the subcases that could be read instead."""
+    """One refusal of each kind, with the subcases that could be read instead."""
     found: dict[str, Problem] = {}
     for other in unusable:
         problem = other.problem
@@ -214,7 +214,7 @@ def _unusable_problems(unusable: Collection[UnusableBlock], usable: list[int]) -
 
 
 def _superelements(source: str, unusable: Collection[UnusableBlock]) -> list[Problem]:
-    """Say that the results of superelements beside those of the residual structure are not used."""
+    """Warning that the results of superelements beside the residual structure are not used."""
     found = [other.problem for other in unusable if other.problem.code == "superelement"]
     if not found:
         return []
@@ -226,7 +226,7 @@ def _superelements(source: str, unusable: Collection[UnusableBlock]) -> list[Pro
 
 
 def _left_out(source: str, subcases: list[int], modes: set[int]) -> list[Problem]:
-    """Say which static subcases are not used: a preload is none of the modes, a unit load of an interface is one."""
+    """Warning about static subcases that are not used: a preload is no mode, a unit load of an interface is one."""
     if not subcases:
         return []
     some = ", ".join(str(number) for number in subcases[:10]) + (" ..." if len(subcases) > 10 else "")
@@ -259,7 +259,7 @@ def _summary_of(
 
 
 def _given(source: str, stated: Mapping[Key, Sequence[float]], wanted: list[Key]) -> dict[Key, float]:
-    """Eigenvalues that are numbers; zero counts only beside others, as that of a rigid mode."""
+    """Eigenvalues that are numbers; a zero counts only beside others, as a rigid mode has it."""
     found = {}
     for key in wanted:
         values = [v if abs(v) > _NOT_GIVEN else 0.0 for v in stated.get(key, ()) if np.isfinite(v)]

@@ -25,7 +25,7 @@ class CommonRows(NamedTuple):
 
 
 def sharing_rows(block: ForceBlock, before: list[ForceBlock]) -> ForceBlock:
-    """Let a block use the ids and names of the one before where they are equal, which saves most of the memory."""
+    """Block that shares the ids and names of the one before where they are equal, which saves most of the memory."""
     if not before:
         return block
     last = before[-1]
@@ -38,7 +38,7 @@ def sharing_rows(block: ForceBlock, before: list[ForceBlock]) -> ForceBlock:
 
 
 def common_rows(blocks: list[ForceBlock]) -> CommonRows:
-    """Bring the rows of all modes into one order; it is the file's own where all modes have it.
+    """Rows of all modes in one order, the file's own where all modes have it.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def common_rows(blocks: list[ForceBlock]) -> CommonRows:
 
 
 def _with_one_total(block: ForceBlock) -> ForceBlock:
-    """Give every total the same name."""
+    """Block whose totals all have the same name."""
     other = names_total(block.kind) & (block.kind != TOTALS)
     return replace(block, kind=np.where(other, TOTALS, block.kind)) if other.any() else block
 
@@ -97,7 +97,7 @@ def _sorted_rows(block: ForceBlock, rows: NDArray[np.int64]) -> NDArray[np.int64
 def _other_rows(
     blocks: list[ForceBlock], is_element: list[NDArray[np.bool_]]
 ) -> tuple[list[tuple[int, str, int]], list[NDArray[np.int64]]]:
-    """List the rows of any block that are no element's, by grid, name and repetition, and where each block has them."""
+    """Rows of any block that are no element's, by grid, name and repetition, and where each block has them."""
     node = np.concatenate([block.node[~which] for block, which in zip(blocks, is_element, strict=True)])
     names, kind = np.unique(
         np.concatenate([block.kind[~which] for block, which in zip(blocks, is_element, strict=True)]),
@@ -119,7 +119,7 @@ def _other_rows(
 
 
 def _problems(blocks: list[ForceBlock], is_element: list[NDArray[np.bool_]]) -> Iterator[Problem]:
-    """Look at every block by itself, and at the element rows of all blocks together."""
+    """Mistakes in every block by itself, and in the element rows of all blocks together."""
     for block in blocks:
         if (bad := np.flatnonzero(~is_sound(block.force).all(axis=1))).size:
             yield Problem(

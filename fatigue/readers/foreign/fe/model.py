@@ -68,7 +68,7 @@ class Shell:
 def shell_mesh(
     source: str, grids: Mapping[int, NDArray[np.float64]], shells: list[Shell], sections: Mapping[int, Section]
 ) -> ShellMesh:
-    """Join grids, shells and sections to a mesh.
+    """Mesh of grids, shells and sections.
 
     Raises
     ------
@@ -125,14 +125,14 @@ def _shell_problems(source: str, shells: list[Shell], index: Mapping[int, int]) 
 
 
 def in_mm(model: FeModel, unit_length: float) -> FeModel:
-    """Turn a model whose unit of length is ``unit_length`` mm into one in mm."""
+    """Model in mm, from one whose unit of length is ``unit_length`` mm."""
     mesh = model.mesh
     scaled = {name: getattr(mesh, name) * unit_length for name in ("xyz", "thickness", "offset")}
     return replace(model, mesh=replace(mesh, **scaled))
 
 
 def to_basic(values: NDArray[np.floating], node: NDArray[np.int64], model: FeModel) -> NDArray[np.floating]:
-    """Rotate (m, r, 6) forces or shapes at ``node`` (r,) from the displacement frames to the basic one."""
+    """Forces or shapes (m, r, 6) at ``node`` (r,) in the basic frame, from the displacement frames."""
     at = np.minimum(np.searchsorted(model.frame_node, node), max(model.frame_node.size - 1, 0))
     turned = np.flatnonzero(model.frame_node[at] == node) if model.frame_node.size else np.empty(0, np.int64)
     if not turned.size:

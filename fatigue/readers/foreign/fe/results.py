@@ -123,13 +123,13 @@ def frequency_of(eigenvalue: float) -> float:
 
 
 def names_element(kind: NDArray[np.str_]) -> NDArray[np.bool_]:
-    """Whether row names are those of elements: letters and digits, and none of the words for other rows."""
+    """Whether row names belong to elements: letters and digits, and none of the words for other rows."""
     is_word = np.strings.isalnum(kind) | (kind == "")
     return np.asarray(is_word & ~np.isin(kind, sorted(_OTHER_ROWS)))
 
 
 def names_total(kind: NDArray[np.str_]) -> NDArray[np.bool_]:
-    """Whether row names are those of totals."""
+    """Whether row names belong to totals."""
     return np.asarray((np.strings.find(kind, "*") >= 0) | np.isin(kind, ["TOTAL", "TOTALS"]))
 
 

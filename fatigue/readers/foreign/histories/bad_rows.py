@@ -12,7 +12,7 @@ from fatigue.readers.units.channel_names import time_unit_in
 
 
 def row_problem(path: Path, body: Sequence[str], rows: NumberRows, names: Sequence[str]) -> Problem:
-    """Describe the first line that is no row of numbers."""
+    """Refusal of the first line that is no row of numbers."""
     for k, line in enumerate(body):
         if not line.strip():
             continue
@@ -39,7 +39,7 @@ def row_problem(path: Path, body: Sequence[str], rows: NumberRows, names: Sequen
 
 
 def _cell_problem(where: str, cell: str, column: int, rows: NumberRows, names: Sequence[str]) -> Problem:
-    """Describe a cell that is no number."""
+    """Refusal of a cell that is no number."""
     name = names[column] if column < len(names) and names[column] else f"column {column + 1}"
     what = f"{cell!r} in {name} is no number; the table does not hold numbers only"
     remedy = "Export plain columns of numbers below one line of names"
@@ -54,7 +54,7 @@ def _cell_problem(where: str, cell: str, column: int, rows: NumberRows, names: S
 
 
 def _count_problem(where: str, count: int, rows: NumberRows) -> Problem:
-    """Describe a row of another number of cells."""
+    """Refusal of a row of another number of cells."""
     what = f"{count} numbers in a table of {rows.width} columns; the table does not hold numbers only in full rows"
     remedy = "Export again; the file may be cut"
     if rows.separator == "," and rows.width <= count <= 2 * rows.width:

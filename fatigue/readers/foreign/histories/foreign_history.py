@@ -49,7 +49,7 @@ class ForeignHistory:
 
 
 def check_values(history: ForeignHistory) -> ForeignHistory:
-    """Refuse values that are no numbers, and times that run backwards."""
+    """The history, unless values are no numbers, or times run backwards."""
     bad = ~np.isfinite(history.time) | ~np.isfinite(history.q).all(axis=0)
     if bad.any():
         row = int(bad.argmax())

@@ -27,8 +27,8 @@ from fatigue.readers.foreign.histories.header_problems import (
     some_of,
 )
 from fatigue.readers.foreign.histories.number_rows import NumberRows
-from fatigue.readers.text.layout import declared_separator
 from fatigue.readers.text.numbers import Decimal, is_number, plain_number
+from fatigue.readers.text.separator import declared_separator
 from fatigue.readers.units.channel_names import (
     TIME_UNITS,
     Channel,
@@ -59,7 +59,7 @@ class Header:
 
 
 def read_header(path: Path, lines: Sequence[str], rows: NumberRows) -> Header:
-    """Read the lines above the numbers.
+    """Header that the lines above the numbers make.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def read_header(path: Path, lines: Sequence[str], rows: NumberRows) -> Header:
 
 
 def _merged(path: Path, rows: Sequence[HeaderRow], channels: Sequence[Sequence[Channel]]) -> list[Channel]:
-    """Take the row of names that names most modes; another that names other modes is refused."""
+    """Channels of the row of names that names most modes; another row that names other modes is refused."""
     problems = []
     modes = [[c.mode for c in row if not c.is_time] for row in channels]
     complete = [k for k, m in enumerate(modes) if m and all(m) and len(set(m)) == len(m)]
@@ -114,7 +114,7 @@ def _merged(path: Path, rows: Sequence[HeaderRow], channels: Sequence[Sequence[C
 
 
 def _completed(path: Path, row: HeaderRow, other: HeaderRow, own: Channel, more: Channel) -> Channel:
-    """Add what another row of names states about a column."""
+    """Channel with what another row of names states about its column."""
     unit, frequency, resolution = own.unit, own.frequency, own.resolution
     if more.unit and own.is_time == more.is_time:
         if unit and unit.lower() != more.unit.lower():
@@ -136,7 +136,7 @@ def _completed(path: Path, row: HeaderRow, other: HeaderRow, own: Channel, more:
 
 
 def _with_unit(path: Path, row: HeaderRow, own: Channel, cell: str) -> Channel:
-    """Add the unit of a row of units."""
+    """Channel with the unit of a row of units."""
     unit = cell.strip().strip("[](){}<>").strip()
     if states_no_unit(unit) or UNIT_LABEL.match(cell):
         return own
@@ -153,7 +153,7 @@ def _same_unit(a: str, b: str) -> bool:
 
 
 def _with_number(path: Path, row: HeaderRow, own: Channel, cell: str, decimal: Decimal) -> Channel:
-    """Add the number of a mode or its frequency from a row with a label."""
+    """Channel with the number of its mode or its frequency from a row with a label."""
     if not (is_number(cell, ".") or is_number(cell, decimal)) or own.is_time:
         return own
     value, half = written(plain_number(cell, "." if is_number(cell, ".") else decimal))
@@ -170,7 +170,7 @@ def _with_number(path: Path, row: HeaderRow, own: Channel, cell: str, decimal: D
 
 
 def header_frequencies(free: Sequence[tuple[int, str]]) -> dict[int, tuple[int, float, float]]:
-    """Find frequencies listed by mode above the table, as ``Mode 3: 12.5 Hz``: line, frequency, half its last digit."""
+    """Frequencies listed by mode above the table, as ``Mode 3: 12.5 Hz``: line, frequency, half its last digit."""
     found: dict[int, tuple[int, float, float]] = {}
     for line, text in free:
         mode = re.search(r"\bmode[ _]*(?:no\.?|nr\.?|number|#)?[ _]*(\d{1,6})\b", text, re.IGNORECASE)

@@ -60,7 +60,7 @@ class HeaderLines:
 
 
 def header_lines(head: Sequence[str], rows: NumberRows, listed: Collection[int]) -> HeaderLines:
-    """Sort the lines above the numbers into rows of cells, one for every column, and free text."""
+    """Lines above the numbers, sorted into rows of cells, one for every column, and free text."""
     found = HeaderLines()
     for k, line in enumerate(head):
         if is_rule(line) or k + 1 in listed:
@@ -83,7 +83,7 @@ def header_lines(head: Sequence[str], rows: NumberRows, listed: Collection[int])
 
 
 def decimal_sign(rows: NumberRows) -> Decimal:
-    """Tell the decimal sign that numbers of the header may have besides a point: the rows may be whole numbers."""
+    """Decimal sign that numbers of the header may have besides a point: the rows may be whole numbers."""
     return "." if rows.separator == "," else ","
 
 
@@ -114,7 +114,7 @@ def _cell_count(text: str, separator: str | None) -> int:
 
 
 def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
-    """Tell names, units, types of data, and rows of numbers with and without a label."""
+    """Kind of a row: names, units, types of data, or numbers with and without a label."""
     label, rest = cells[0], [cell for cell in cells[1:] if cell]
     filled = [cell for cell in cells if cell]
     numbers = [is_number(cell, ".") or is_number(cell, decimal) for cell in rest]
@@ -140,7 +140,7 @@ def _kind(cells: tuple[str, ...], decimal: Decimal) -> str:
 
 
 def _counts(columns: int) -> list[list[float]]:
-    """Give the numbers of so many columns after the first, counted from 0, 1 or 2."""
+    """Numbers of so many columns after the first, counted from 0, 1 or 2."""
     return [[float(k + first) for k in range(columns)] for first in (0, 1, 2)]
 
 
@@ -150,7 +150,7 @@ def _counts_columns(cells: Sequence[str]) -> bool:
 
 
 def _kind_of_label(label: str) -> str:
-    """Tell what numbers are by the word in front of them."""
+    """Kind of numbers by the word in front of them."""
     if not label or time_unit_in(label) is not None:
         return "names"
     return "frequencies" if _HZ_LABEL.match(label) else "modes" if _MODE_LABEL.match(label) else "label"
@@ -163,14 +163,14 @@ def _is_unit(cell: str) -> bool:
 
 
 def _is_lone_time_unit(line: str) -> bool:
-    """Whether a line below the names holds nothing but a unit of time, which is that of the first column."""
+    """Whether a line below the names holds nothing but a unit of time, the unit of the first column."""
     bare = line.strip().strip("\"'")
     inside = _BRACKETED.fullmatch(bare)
     return (bare[1:-1] if inside else bare).strip().lower() in TIME_UNITS
 
 
 def listed_names(path: Path, head: Sequence[str], width: int) -> tuple[HeaderRow | None, Collection[int]]:
-    """Read names from a list of channels, one a line and numbered; it has to have as many as there are columns.
+    """Names in a list of channels, one a line and numbered; it has to have as many as there are columns.
 
     Returns
     -------

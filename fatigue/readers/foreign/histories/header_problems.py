@@ -7,8 +7,9 @@ from pathlib import Path
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.histories.header_lines import HeaderRow, decimal_sign
 from fatigue.readers.foreign.histories.number_rows import NumberRows, is_rule
-from fatigue.readers.text.layout import COMMENTS, SEPARATORS
+from fatigue.readers.text.layout import COMMENTS
 from fatigue.readers.text.numbers import is_number, split_fields
+from fatigue.readers.text.separator import SEPARATORS
 from fatigue.readers.units.channel_names import (
     channel,
     time_unit_in,

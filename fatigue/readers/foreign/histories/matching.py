@@ -19,7 +19,7 @@ Match = Literal["id", "frequency", "order"]
 def matched(
     history: ForeignHistory, mode: NDArray[np.int64], frequency: NDArray[np.float64], match: Match
 ) -> ForeignHistory:
-    """Give every column the number of an FE mode.
+    """History whose every column has the number of an FE mode.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def matched(
 
 
 def _in_order(history: ForeignHistory, mode: NDArray[np.int64], frequency: NDArray[np.float64]) -> ForeignHistory:
-    """Give the columns the FE modes one after the other."""
+    """History whose columns have the FE modes one after the other."""
     if history.mode.size != mode.size:
         elastic = int(np.count_nonzero(~(frequency <= LOWEST_HZ)))
         remedy = "Export one column for every mode, or match by number"
@@ -81,7 +81,7 @@ def _in_order(history: ForeignHistory, mode: NDArray[np.int64], frequency: NDArr
 def with_own_frequencies(
     history: ForeignHistory, mode: NDArray[np.int64], frequency: NDArray[np.float64]
 ) -> ForeignHistory:
-    """Refuse columns whose frequency fits another FE mode than their own better.
+    """The history, unless the frequency of a column fits another FE mode better than its own.
 
     Raises
     ------

@@ -23,7 +23,7 @@ _TABLE = re.compile(r"^\s*(Time|Freq\w*)\s+Coordinates.*$", re.MULTILINE | re.IG
 
 
 def is_mcf(head: str) -> bool:
-    """Whether the beginning of a text file is that of a modal coordinates file."""
+    """Whether a text file begins like a file of modal coordinates."""
     return _COUNT.search(head) is not None and (_TABLE.search(head) or _TITLE.search(head)) is not None
 
 
@@ -78,7 +78,7 @@ def read_mcf(path: Path, columns: Mapping[str, int] | None = None, time_column: 
 
 
 def _not_understood(path: Path, head: str) -> tuple[Problem, ...]:
-    """Doubts about lines of numbers in the header that are neither mode numbers nor frequencies."""
+    """Warnings about lines of numbers in the header that are neither mode numbers nor frequencies."""
     rest = _FREQUENCIES.sub("", _NUMBERS.sub("", head))
     lines = [
         line.strip() for line in rest.split("\n") if re.search(r"\d[\d.]*[ED][+-]?\d|(?:\s\d+){2}", line, re.ASCII)

@@ -1,4 +1,4 @@
-"""Frequencies that a simulation states for its modes, compared with those of the FE run mode by mode."""
+"""Frequencies that a simulation states for its modes, compared with the frequencies of the FE run mode by mode."""
 
 from dataclasses import dataclass
 
@@ -38,9 +38,9 @@ class StatedFrequencies:
 def other_mode_problems(
     source: str, columns: StatedFrequencies, mode: NDArray[np.int64], frequency: NDArray[np.float64]
 ) -> list[Problem]:
-    """Find columns whose frequency fits another FE mode better, by more than its written digits explain.
+    """Mistakes of columns whose frequency fits another FE mode better, by more than its written digits explain.
 
-    ``mode`` and ``frequency``, (k,) [Hz], are those of the FE run. Frequencies of rigid modes are not compared.
+    ``mode`` and ``frequency``, (k,) [Hz], belong to the FE run. Frequencies of rigid modes are not compared.
     """
     of_mode = dict(zip(mode.tolist(), frequency.tolist(), strict=True))
     known = np.isfinite(frequency)

@@ -35,7 +35,7 @@ class NumberRows:
 
 
 def find_rows(path: Path, lines: Sequence[str]) -> NumberRows:
-    """Find the first row of numbers: the separator and the decimal sign that explain the most rows.
+    """Place of the rows of numbers, and the separator and the decimal sign that explain the most of them.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def _first(head: Sequence[str], separator: str | None, decimal: Decimal) -> int 
 
 
 def _below_names(head: Sequence[str], start: int, separator: str | None, decimal: Decimal) -> int:
-    """Pass over a few rows of numbers that stand above a row of names of as many cells."""
+    """First row below names of as many cells, which a few rows of numbers may stand above."""
     width = _width(head[start], separator, decimal)
     for k in range(start + 1, min(start + 6, len(head) - 1)):
         if _width(head[k], separator, decimal) == width or not head[k].strip():
@@ -109,12 +109,12 @@ def _below_names(head: Sequence[str], start: int, separator: str | None, decimal
 
 
 def _cells(line: str, separator: str | None, width: int) -> int:
-    """Count the cells of a row with the empty ones at its end."""
+    """Number of cells of a row with the empty ones at its end."""
     return width if separator is None else max(width, re.sub(r'"[^"]*"', "", line).count(separator) + 1)
 
 
 def _width(line: str, separator: str | None, decimal: Decimal) -> int:
-    """Count the cells of a row of numbers, some of which may be empty; 0 for any other line."""
+    """Number of cells of a row of numbers, some of which may be empty; 0 for any other line."""
     if not NUMERIC_START.match(line) or (separator is not None and separator not in line):
         return 0
     cells, numbers = split_fields(line, separator), 0

@@ -14,7 +14,8 @@ from fatigue.errors import DataError
 from fatigue.readers.foreign.histories.bad_rows import row_problem
 from fatigue.readers.foreign.histories.number_rows import NUMERIC_START, NumberRows, is_rule
 from fatigue.readers.text.encoding import Encoding, read_text
-from fatigue.readers.text.layout import COMMENTS, text_lines
+from fatigue.readers.text.layout import COMMENTS
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.numbers import is_gap, split_fields, written_apart
 
 _ERROR = re.compile(r"#(?:N/?A|NV|[A-Z]+[!?]|[A-Z]+/0!)\Z")  # a spreadsheet's, which is no comment
@@ -39,7 +40,7 @@ _NULLS = [
 def read_values(
     path: Path, encoding: Encoding, rows: NumberRows, headers: Sequence[Sequence[str]], names: Sequence[str]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Read the rows of numbers, from the file itself or, where it holds more than these, line by line.
+    """Values of the rows of numbers, from the file itself or, where it holds more than these, line by line.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def _file_of(body: Sequence[str]) -> BytesIO:
 
 
 def _line_count(path: Path, encoding: Encoding) -> int:
-    """Count the lines of a file with letters of one byte; -1 where they are not simply told."""
+    """Number of lines of a file with letters of one byte; -1 where they are not simply told."""
     if encoding not in ("utf-8", "cp1252"):
         return -1
     count, last = 0, b"\n"
@@ -124,7 +125,7 @@ def _folded(source: Path | BytesIO, encoding: Encoding) -> BytesIO:
 
 
 def _value_line(line: str, headers: Sequence[Sequence[str]], rows: NumberRows) -> str:
-    """Leave out comments and repeated lines of the header; give every row as many separators as the first has."""
+    """Line with as many separators as the first row has; empty for comments and repeated lines of the header."""
     if is_rule(line):
         return ""
     if not NUMERIC_START.match(line):
@@ -140,6 +141,6 @@ def _value_line(line: str, headers: Sequence[Sequence[str]], rows: NumberRows) -
 
 
 def _plain_exponents(line: str) -> str:
-    """Write exponents of Fortran after an E."""
+    """Line with exponents of Fortran after an E."""
     line = re.sub(r"(?<=[\d.,])[DQdq](?=[+-]?\d)", "E", written_apart(line).replace("\u2212", "-"))
     return re.sub(r"(?<![\w])([+-]?(?:\d+[.,]\d*|[.,]\d+))([+-]\d{1,3})(?![\w.])", r"\1E\2", line)

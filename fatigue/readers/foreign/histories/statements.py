@@ -42,7 +42,7 @@ Free = Sequence[tuple[int, str]]
 
 
 def normalisation_in(path: Path, free: Free) -> Normalisation | None:
-    """Find the normalisation of the modes that a header declares, to unit mass or to unity.
+    """Normalisation of the modes that a header declares, to unit mass or to unity.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def normalisation_in(path: Path, free: Free) -> Normalisation | None:
 
 
 def stated_time_unit(path: Path, free: Free) -> tuple[int, str] | None:
-    """Find line and unit of time in free text, as ``Time unit: ms``; a word that is no such unit is refused.
+    """Line and unit of time in free text, as ``Time unit: ms``; a word that is no such unit is refused.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def stated_time_unit(path: Path, free: Free) -> tuple[int, str] | None:
 
 
 def stated_length(free: Free) -> str:
-    """Find the unit of length in a statement of the units, as ``Units: m, kg, s``; empty where there is none."""
+    """Unit of length in a statement of the units, as ``Units: m, kg, s``; empty where there is none."""
     for _, text in free:
         if found := _UNITS.match(text):
             lengths = {word for word in re.split(r"[\s,;/\-]+", found[1]) if word in LENGTHS}
@@ -100,7 +100,7 @@ def stated_length(free: Free) -> str:
 
 
 def statement_problems(path: Path, free: Free, width: int, time: NDArray[np.float64]) -> list[Problem]:
-    """Compare counts and sampling in free text with the table of so many columns and its times (t,) [s]."""
+    """Contradictions of counts and sampling in free text to the table of so many columns and its times (t,) [s]."""
     problems: list[Problem] = []
 
     def contradicted(line: int, what: str, remedy: str) -> None:

@@ -16,7 +16,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, check_values
 from fatigue.readers.foreign.histories.header import Header, header_frequencies, read_header
 from fatigue.readers.foreign.histories.number_rows import find_rows
@@ -27,10 +27,10 @@ from fatigue.readers.foreign.histories.statements import (
     stated_time_unit,
     statement_problems,
 )
+from fatigue.readers.neutral.column_values import seconds_of
 from fatigue.readers.neutral.files import open_columns
-from fatigue.readers.neutral.tables import seconds_of
 from fatigue.readers.text.encoding import read_head
-from fatigue.readers.text.layout import text_lines, whole_cells
+from fatigue.readers.text.lines import text_lines, whole_cells
 from fatigue.readers.units.channel_names import Channel, channel, seconds_per, unit_of_time, without_unit_one
 
 _COUNT_NAME = re.compile(
@@ -45,7 +45,7 @@ Vectors = NDArray[np.float64]
 def read_text_history(
     path: Path, columns: Mapping[str, int] | None = None, time_column: str | None = None
 ) -> ForeignHistory:
-    """Read a table of time and modal coordinates; time is converted to seconds by the unit in its header.
+    """Modal coordinates of a text table; time is converted to seconds by the unit in its header.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def read_text_history(
 def read_parquet_history(
     path: Path, columns: Mapping[str, int] | None = None, time_column: str | None = None
 ) -> ForeignHistory:
-    """Read a Parquet table of time and modal coordinates, as ``read_text_history`` reads a text table.
+    """Modal coordinates of a Parquet table, as ``read_text_history`` reads a text table.
 
     A column of durations is time, whatever their unit; dates are refused.
     """
@@ -100,7 +100,7 @@ def _is_wanted(name: str, kind: pa.DataType, wanted: Collection[str] | None) -> 
 
 
 def _with_type(path: Path, own: Channel, kind: pa.DataType, unit: str) -> Channel:
-    """Add what the type and the metadata of a Parquet column state."""
+    """Channel with what the type and the metadata of a Parquet column state."""
     where = f"{path}, column {own.name!r}"
     if pt.is_timestamp(kind) or pt.is_date(kind) or pt.is_time(kind):
         what = f"the column holds dates or times of day ({kind}), where seconds from the start of the run are needed"
@@ -134,7 +134,7 @@ def _history(
     columns: Mapping[str, int] | None,
     time_column: str | None,
 ) -> ForeignHistory:
-    """Pick time and modal coordinates out of a table (t, c)."""
+    """Time and modal coordinates of a table (t, c)."""
     channels, kept, warnings = _filled(path, header.channels, table)
     header = replace(header, channels=tuple(channels), names=tuple(tuple(n[k] for k in kept) for n in header.names))
     table = table[:, kept]
@@ -166,7 +166,7 @@ def _history(
 def _filled(
     path: Path, channels: Sequence[Channel], table: Vectors
 ) -> tuple[list[Channel], list[int], tuple[Problem, ...]]:
-    """Leave out columns without a name that hold nothing, as spreadsheets leave them, and counts of the rows."""
+    """Channels but for nameless empty columns, as spreadsheets leave them, and counts of the rows; and warnings."""
     count = np.arange(len(table))
     timed, kept, warnings = any(c.is_time for c in channels), [], []
     for k, own in enumerate(channels):
@@ -232,7 +232,7 @@ def _seconds(
     table: Vectors,
     lines: NDArray[np.int64] | None,
 ) -> Vectors:
-    """Convert times to seconds by the unit that names, rows of units or free text state."""
+    """Times in seconds, by the unit that names, rows of units or free text state."""
     stated = stated_time_unit(path, header.free)
     found = []
     for k in times:

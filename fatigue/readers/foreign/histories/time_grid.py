@@ -13,7 +13,7 @@ GAP = 20.0  # usual steps; an interpolation over more is told
 
 
 def uniform(history: ForeignHistory, resample_s: float | None) -> ForeignHistory:
-    """Keep a uniform time grid, or interpolate onto one by cubic splines if ``resample_s`` is given.
+    """History on a uniform time grid: its own, or one of step ``resample_s``, interpolated by cubic splines.
 
     Of an instant that is written twice, as solvers do at events, the later sample counts in the interpolation.
 
@@ -77,7 +77,7 @@ def uniform(history: ForeignHistory, resample_s: float | None) -> ForeignHistory
 
 
 def _once(history: ForeignHistory) -> tuple[ForeignHistory, list[Problem]]:
-    """Keep every instant once, the later sample of those that share it."""
+    """History with every instant once, the later sample where several share it."""
     keep = np.append(np.diff(history.time) > 0, True)
     if keep.all():
         return history, []

@@ -86,7 +86,7 @@ class Frames:
         return frame
 
     def position(self, cid: int, coordinates: tuple[float, float, float]) -> Vector:
-        """Give the basic coordinates of a point of system ``cid``; angles in degrees."""
+        """Basic coordinates of a point of system ``cid``; angles in degrees."""
         a, b, c = coordinates
         if cid == 0:
             return np.array([a, b, c])

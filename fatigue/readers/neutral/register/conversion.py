@@ -31,7 +31,7 @@ class ConvertRecord:
     folder: Path | None = None
 
     def command(self, register: Path) -> str:
-        """Say how to convert once more with an edited register and keep the edited case; empty without a conversion."""
+        """How to convert once more with an edited register and keep the edited case; empty without a conversion."""
         if self.folder is None:
             return ""
         if not self.arguments:
@@ -41,7 +41,7 @@ class ConvertRecord:
 
 
 def convert_record(path: Path | None) -> ConvertRecord:
-    """Read the record of a conversion; of one by an earlier version there is less.
+    """Record of a conversion; of one by an earlier version there is less.
 
     Raises
     ------
@@ -62,5 +62,5 @@ def convert_record(path: Path | None) -> ConvertRecord:
 
 
 def command_line(words: Sequence[str]) -> str:
-    """Write a command as it is typed on this system."""
+    """A command as it is typed on this system."""
     return subprocess.list2cmdline(words) if os.name == "nt" else shlex.join(words)

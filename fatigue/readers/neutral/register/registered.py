@@ -1,6 +1,6 @@
 """What the weld register makes of the welds in the tables: which are assessed, under which names, which are one.
 
-A row of the register belongs to the weld that `fatigue convert` wrote for its ``line``; the record of the conversion
+A row of the register belongs to the weld that ``fatigue convert`` wrote for its ``line``; the record of the conversion
 knows the name it has in the tables. In tables written by hand ``line`` is the name of the weld there, and may be left
 empty where ``weld`` is. So a weld can be renamed again and again, and its row is found.
 """
@@ -62,7 +62,7 @@ def registered(
     Parameters
     ----------
     welds : as the tables have them
-    conversion : which lines they are of, where `fatigue convert` wrote them
+    conversion : which lines they are of, where ``fatigue convert`` wrote them
     curves : names a curve may have
 
     Raises
@@ -156,7 +156,7 @@ def _absent(register: Register, rows: Sequence[RegisterRow], welds: Sequence[Wel
 
 
 def _why(row: RegisterRow) -> str:
-    """Repeat the reason that is still there from when the line was left out."""
+    """Reason in brackets, which still stands in the row from when the line was left out; empty without one."""
     return f" (reason given: {row.reason})" if row.reason else ""
 
 
@@ -175,7 +175,7 @@ def _unknown_curves(register: Register, curves: Collection[str]) -> Iterator[Pro
 def _thickness(rows: Sequence[RegisterRow], converted: Mapping[str, float]) -> float | None:
     """Thickness to give a weld, 0: as in the tables; None where the tables do not tell it.
 
-    ``converted`` is the confirmed thickness of each line in the tables, NaN where it is that of the model.
+    ``converted`` is the confirmed thickness of each line in the tables, NaN where the tables have the model's.
     """
     wanted = {row.key: row.thickness if row.confirmed else np.nan for row in rows}
     if converted and all(_same(wanted.get(line, of_line), of_line) for line, of_line in converted.items()):
@@ -205,7 +205,7 @@ def _contradictions(
 
 
 def _weld(name: str, group: Sequence[tuple[Weld, list[RegisterRow]]], conversion: ConvertRecord) -> Weld:
-    """Weld as registered; an empty cell is the default where `fatigue convert` wrote the tables, else the table's."""
+    """Weld as registered; an empty cell means the default after ``fatigue convert``, else what the table says."""
     weld, rows = group[0][0], [row for _, own in group for row in own]
     if not rows:
         return weld
@@ -222,7 +222,7 @@ def _weld(name: str, group: Sequence[tuple[Weld, list[RegisterRow]]], conversion
 
 
 def _named_apart(rows: Sequence[RegisterRow], taken: set[str]) -> Iterator[RegisterRow]:
-    """Give every row a name of its own: that of its weld, else that of its line."""
+    """Rows under names that nothing else has: the name of the weld, else of the line, else one made of both."""
     for row in rows:
         names = (row.weld, row.line, f"{row.weld} ({row.key})")
         free = (f"{row.weld} (row {number})" for number in range(row.number, 2 * row.number + len(taken) + 2))

@@ -23,7 +23,7 @@ _ROUNDED = 1e-3  # relative: as somebody may write a thickness down
 def registered_lines(
     lines: LineStack, register: Registered, *, summed: bool
 ) -> tuple[tuple[Weld, ...], LineStack, Joints]:
-    """Turn the lines of the tables into those of the registered welds, in their order.
+    """Welds as registered, their lines in the same order, and where the lines of joined welds meet.
 
     Parameters
     ----------
@@ -60,9 +60,9 @@ def registered_lines(
 
 
 def unconfirmed_thickness(lines: LineStack, register: Registered) -> list[Problem]:
-    """Tell the thicknesses written into the register that nobody has confirmed and the tables do not have."""
+    """Warn of thicknesses in the register that nobody has confirmed and the tables do not have."""
     place = {name: at for at, name in enumerate(lines.weld)}
-    doubts = []
+    warnings = []
     for name, where, wanted in register.unconfirmed:
         there = lines[place[name]].thickness
         thinnest, thickest = float(there.min()), float(there.max())
@@ -70,14 +70,14 @@ def unconfirmed_thickness(lines: LineStack, register: Registered) -> list[Proble
             own = f"{thinnest:g} mm" if thinnest == thickest else f"{thinnest:g} to {thickest:g} mm"
             what = f"{wanted:g} mm is not confirmed, and the weld is assessed with the {own} of the tables"
             remedy = "Write true under confirmed to have it, or empty the cell"
-            doubts.append(Problem("unconfirmed_thickness", where, what, remedy))
-    return doubts
+            warnings.append(Problem("unconfirmed_thickness", where, what, remedy))
+    return warnings
 
 
 def registered_sides(
     sides: Mapping[str, NDArray[np.int64]], forces: ElementForces, register: Registered, joints: Joints
 ) -> dict[str, NDArray[np.int64]]:
-    """Turn the elements of the welds in the tables into those of the registered welds.
+    """Elements on the assessed side of each registered weld, made of the elements that the tables give.
 
     Raises
     ------

@@ -32,11 +32,11 @@ class Given:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Curve:
+class RecountCurve:
     """A curve in log-log axes: slope of each segment and one point (ln cycles, ln range) on it, ranges at the knees.
 
     Ranges below ``cutoff`` do no damage. ``on_equivalent`` tells curves in dS from those in structural stress, whose
-    thickness rule is ``(t / reference)^exponent`` for t above the reference, that of dS has the exponent 2/9.
+    thickness rule is ``(t / reference)^exponent`` for t above the reference; the rule of dS has the exponent 2/9.
     """
 
     slopes: tuple[float, ...]
@@ -50,7 +50,7 @@ class Curve:
 
     @property
     def is_straight(self) -> bool:
-        """One slope for all ranges."""
+        """Whether one slope serves all ranges."""
         return len(self.slopes) == 1 and self.cutoff == 0.0
 
     def damage(self, x: Floats) -> Floats:
@@ -89,11 +89,11 @@ class Curve:
         return float((thickness / self.thickness_reference) ** self.thickness_exponent)
 
 
-def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> Curve:
-    """Make a curve as the case asks for it.
+def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> RecountCurve:
+    """Curve as the case asks for it.
 
-    Master curves are those of this module, curves of the case those of its text; what else the catalogue holds is taken
-    from the provenance, which lists slopes, knees and ranges.
+    Master curves come from this module, curves of the case from its text; what else the catalogue holds is taken from
+    the provenance, which lists slopes, knees and ranges.
     """
     asked = case["curve"]
     own = case.get("curves", {}).get(name)
@@ -111,7 +111,7 @@ def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -
         knees_cycles = (asked.get("knee_cycles", 1e7),)
         slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
     points, knees = _through(given.ranges[level], given.reference_cycles, slopes, knees_cycles)
-    return Curve(
+    return RecountCurve(
         slopes=slopes,
         points=points,
         knees=knees[: len(slopes) - 1],
@@ -129,7 +129,7 @@ def ratio_factor(r: Floats) -> Floats:
 
 
 def _own(own: Mapping[str, Any]) -> Given:
-    """Take a curve of the case, described by its range at 2e6 cycles."""
+    """Curve of the case, described by its range at 2e6 cycles."""
     slopes, knees = tuple(own["slopes"]), tuple(own.get("knees_cycles", ()))
     k = slopes[_segment_at(2e6, slopes, knees)]
     ranges = {"as tabulated": own["range_at_2e6_MPa"]}
@@ -141,7 +141,7 @@ def _own(own: Mapping[str, Any]) -> Given:
 
 
 def _listed(listed: Mapping[str, Any]) -> Given:
-    """Take a curve as the provenance lists it."""
+    """Curve as the provenance lists it."""
     return Given(
         slopes=tuple(listed["slopes"]),
         knees_cycles=tuple(listed["knees_cycles"]),
@@ -160,7 +160,7 @@ def _segment_at(cycles: float, slopes: tuple[float, ...], knees_cycles: tuple[fl
 def _through(
     range_: float, cycles: float, slopes: tuple[float, ...], knees_cycles: tuple[float, ...]
 ) -> tuple[tuple[tuple[float, float], ...], tuple[float, ...]]:
-    """Walk along the curve from one point of it: a point on every segment, and the range at every knee."""
+    """Point on every segment and range at every knee, found by walking along the curve from one point of it."""
     start = _segment_at(cycles, slopes, knees_cycles)
     points = {start: (np.log(cycles), np.log(range_))}
     knees = {}

@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cycles:
+class RecountCycles:
     """Sample indices of the two reversals of each cycle, and its count, 1 or 0.5."""
 
     start: NDArray[np.int64]
@@ -18,8 +18,8 @@ class Cycles:
     count: Floats
 
 
-def count_cycles(stress: Floats, *, recurs: bool) -> Cycles:
-    """Count a single pass with half cycles (ASTM E1049-85 5.4.4), or a block that recurs with whole ones (5.4.5).
+def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
+    """Cycles of a single pass with half cycles (ASTM E1049-85 5.4.4), of a block that recurs with whole ones (5.4.5).
 
     A block that recurs is turned to begin at its largest sample and closed there; what the package then leaves as two
     halves between the same two reversals is one cycle.
@@ -34,7 +34,7 @@ def count_cycles(stress: Floats, *, recurs: bool) -> Cycles:
         found = _halves_joined(found, path)
     table = np.array(found, dtype=float).reshape(-1, 3)
     start, end = ((table[:, k].astype(np.int64) + first) % n for k in (0, 1))
-    return Cycles(start, end, table[:, 2])
+    return RecountCycles(start, end, table[:, 2])
 
 
 def _last_of_maximum(stress: Floats) -> int:
@@ -48,7 +48,7 @@ def _last_of_maximum(stress: Floats) -> int:
 
 
 def _halves_joined(found: list[list[float]], path: Floats) -> list[list[float]]:
-    """Join the two half cycles from a reversal to another and back."""
+    """Cycles with the two halves from a reversal to another and back joined."""
     halves = [cycle for cycle in found if cycle[2] == 0.5]
     there, back = halves[::2], halves[1::2]
     joined = [[a[0], a[1], 1.0] for a in there]

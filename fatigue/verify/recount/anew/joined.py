@@ -21,7 +21,10 @@ class Meeting:
 
 
 def put_together(lines: Sequence[Line]) -> tuple[Line, list[Meeting]]:
-    """Put lines end to end; an open one begins at its lower end, a ring at its lowest corner towards the lower one."""
+    """One line of lines put end to end, and the nodes at which they meet.
+
+    An open one begins at its lower end, a ring at its lowest corner and runs on to the lower of its two neighbours.
+    """
     table = {name: np.concatenate([getattr(line, name) for line in lines]) for name in COLUMNS}
     rows: dict[int, list[int]] = {}
     for row, node in enumerate(table["node"].tolist()):
@@ -58,8 +61,8 @@ def side_of(
 ) -> set[int]:
     """Elements of both sides, without those that touch a meeting from behind the edges of the weld there.
 
-    ``nodes`` are those of each element. Round a meeting, elements are coloured from the two along the weld's edges on
-    the assessed side; colour spreads over every edge that is no edge of the weld.
+    ``nodes`` gives the nodes of each element. Round a meeting, elements are coloured from the two along the edges of
+    the weld on the assessed side; colour spreads over every edge that is no edge of the weld.
     """
     together: set[int] = set().union(*elements)
     kept = set(together)
@@ -94,6 +97,6 @@ def _corner_beyond(node: int, other: int, next_to: dict[int, set[int]], corners:
 
 
 def with_thickness(line: Line, thickness: float | None) -> Line:
-    """Give a line the thickness that the user has confirmed [mm]."""
+    """Line with the thickness that the user has confirmed [mm], or as it is."""
     values: NDArray[np.float64] = line.thickness if thickness is None else np.full(len(line.node), thickness)
     return replace(line, thickness=values)

@@ -19,7 +19,7 @@ CORNER_DEG = 30.0 + 1e-6  # a 12-gon, which turns by 30 degrees, is a smooth rin
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
-    """A weld line, or a part of one between kinks; the meaning of the fields is that of ``weld_nodes``.
+    """A weld line, or a part of one between kinks; the fields mean what the columns of ``weld_nodes`` mean.
 
     ``end_length`` is None where the plate thickness decides; ``corner_ends`` tells whether start and end are kinks.
     """
@@ -39,7 +39,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LineStress:
+class RecountLineStress:
     """Stress of a line per unit modal coordinate.
 
     ``raw`` and ``treated`` are (n, m, 5) [MPa]: membrane, bending, in-plane shear, twist shear, transverse shear.
@@ -53,14 +53,14 @@ class LineStress:
     at_corner: NDArray[np.bool_]
 
 
-def line_stress(line: Line, forces: Floats) -> LineStress:
-    """Solve a line for all modes; ``forces`` is (n, m, 6) [N, N mm] on the assessed elements, global axes."""
+def line_stress(line: Line, forces: Floats) -> RecountLineStress:
+    """Stress of a line for all modes; ``forces`` is (n, m, 6) [N, N mm] on the assessed elements, global axes."""
     n = len(line.node)
     load: Floats = np.asarray(np.linalg.solve(mass_matrix(line), forces.reshape(n, -1))).reshape(forces.shape)
     treated, at_end = treat_ends(line, load)
     at_corner = kinks(line) > CORNER_DEG
     at_corner[[0, -1]] |= line.corner_ends
-    return LineStress(line, arc_length(line), _stress(line, load), _stress(line, treated), at_end, at_corner)
+    return RecountLineStress(line, arc_length(line), _stress(line, load), _stress(line, treated), at_end, at_corner)
 
 
 def edges(line: Line) -> list[list[int]]:
@@ -111,7 +111,7 @@ def arc_length(line: Line) -> Floats:
 
 
 def edge_directions(line: Line) -> list[list[Floats]]:
-    """Find the unit tangents at each node of the one or two edges that meet there."""
+    """Unit tangents at each node of the one or two edges that meet there."""
     meeting: list[list[Floats]] = [[] for _ in line.node]
     for edge in edges(line):
         xyz = line.xyz[edge]
@@ -131,7 +131,7 @@ def kinks(line: Line) -> Floats:
 
 
 def treat_ends(line: Line, load: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-    """Take the mean of the line load over the end zones there; return it and the nodes in the zone of a weld end."""
+    """Line load with its mean over the end zones there, and the nodes in the zone of a weld end."""
     at_end = np.zeros(len(line.node), dtype=bool)
     if line.closed:
         return load, at_end

@@ -1,6 +1,5 @@
 """The inputs of a result: found again, compared with the hashes in its provenance; the case and its modes."""
 
-import hashlib
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -12,13 +11,14 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.hashes import sha256
 from fatigue.results import case_of, new_inputs
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Inputs:
+class RecountInputs:
     """The case text, parsed, the folder its file names are relative to, and the welds to assess."""
 
     case: Mapping[str, Any]
@@ -26,16 +26,16 @@ class Inputs:
     register: WeldEntries
 
     def frame(self, key: str) -> pd.DataFrame:
-        """Read one table of the body."""
+        """Table of the body by its key in the case."""
         return read_frame(self.path(key))
 
     def path(self, key: str) -> Path:
-        """Name the file of one table of the body."""
+        """File of one table of the body."""
         return self.folder / str(self.case["body"][key])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Modes:
+class RecountModes:
     """The modes that are used, by ascending id.
 
     Attributes
@@ -50,8 +50,8 @@ class Modes:
     highest_normal_hz: float
 
 
-def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> Inputs:
-    """Find the input files of a result and make sure they are the very files it was computed from.
+def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> RecountInputs:
+    """Input files of a result, found and proven to be the very files it was computed from.
 
     Parameters
     ----------
@@ -73,26 +73,21 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
     refuse(DataError, new_inputs(record, [beside / "welds_register.csv"] * ("register" not in case["body"])))
     refuse(DataError, new_inputs(record, [beside / "convert.json"]))
     welds = read_frame(folder / case["body"]["welds"])
-    return Inputs(case, folder, weld_entries(case, folder, welds))
+    return RecountInputs(case, folder, weld_entries(case, folder, welds))
 
 
 def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
-    """Name every input that is no longer what it was."""
+    """Problem of every input that is no longer what it was."""
     for known in record["inputs"]:
         path = case_file if known["file"] == record["case_file"] else case_file.parent / known["file"]
         if not path.is_file():
             yield Problem(
                 "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"
             )
-        elif _sha256(path) != known["sha256"]:
+        elif sha256(path) != known["sha256"]:
             what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
             case = ", or name the case as it was with --case" if path == case_file else ""
             yield Problem("changed_input", str(path), what, f"Assess again, or put the old file back{case}")
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[np.float64]:
@@ -103,7 +98,7 @@ def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[n
 
 
 def flags(frame: pd.DataFrame, name: str) -> NDArray[np.bool_]:
-    """Tell which cells of a column are true, (r,); none where it is absent."""
+    """Whether each cell of a column is true, (r,); none is where the column is absent."""
     if name not in frame:
         return np.zeros(len(frame), dtype=bool)
     return np.asarray(frame[name].astype(str).str.strip().str.lower().isin(["true", "1", "1.0"]))
@@ -116,14 +111,14 @@ def texts(frame: pd.DataFrame, name: str) -> list[str]:
     return [str(text).strip() for text in frame[name].astype(object).where(frame[name].notna(), "")]
 
 
-def read_modes(inputs: Inputs) -> Modes:
-    """Read the modes that are not ignored."""
+def read_modes(inputs: RecountInputs) -> RecountModes:
+    """Modes that are not ignored."""
     body = inputs.case["body"]
     frame = inputs.frame("modes").sort_values("mode")
     frame = frame[~frame["mode"].isin(body.get("ignore_modes", []))]
     sign = {"on_element": 1.0, "on_node": -1.0}[body["force_convention"]]
     normal = np.array([kind in ("", "normal") for kind in texts(frame, "kind")])
-    return Modes(
+    return RecountModes(
         mode=frame["mode"].to_numpy(dtype=np.int64),
         force_factor=sign * column(frame, "scale", 1.0),
         highest_normal_hz=float(frame["frequency_hz"].to_numpy(dtype=float)[normal].max(initial=0.0)) or np.inf,

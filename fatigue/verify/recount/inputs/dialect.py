@@ -48,7 +48,7 @@ def read_texts(path: Path, texts: tuple[str, ...], rows_at_once: int | None = No
 
 
 def _encoding(path: Path) -> str:
-    """Tell the encoding by the mark at the beginning, by zeros between letters, or by trying."""
+    """Encoding of a file, by the mark at its beginning, by zeros between letters, or by trying."""
     with path.open("rb") as file:
         head = file.read(64)
         if head.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)):
@@ -68,7 +68,7 @@ def _encoding(path: Path) -> str:
 
 
 def _whole_cells(head: list[str]) -> list[str]:
-    """Put the lines of a cell in quotation marks on the last of them."""
+    """Lines in which every cell in quotation marks stands on its last line as a whole."""
     for k in range(len(head) - 1):
         if head[k].count('"') % 2:
             head[k], head[k + 1] = "", head[k].rstrip("\r\n") + " " + head[k + 1]
@@ -76,7 +76,7 @@ def _whole_cells(head: list[str]) -> list[str]:
 
 
 def _header(head: list[str]) -> tuple[int, list[str], str]:
-    """Find the number of lines above the rows, the names, and what separates them."""
+    """Number of lines above the rows, the names, and what separates them."""
     at = next(k for k, line in enumerate(head) if line.strip() and not re.match(r'"?sep=|\s*(#|%|!|//)', line, re.I))
     declared = next((m[1] for line in head[:at] if (m := re.match(r'"?sep=(.)', line, re.IGNORECASE))), None)
     if at and re.match(r"\s*(#|%|!|//)", head[at - 1]):  # names may stand in a comment
@@ -95,7 +95,7 @@ def _header(head: list[str]) -> tuple[int, list[str], str]:
 
 
 def _separator(line: str) -> str:
-    """Find what divides most cells of a line: a sign, else blanks."""
+    """What divides most cells of a line: a sign, else blanks."""
     separator = max(_SEPARATORS, key=line.count)
     return separator if separator in line else r"\s+" if len(line.split()) > 1 else ","
 
@@ -106,7 +106,7 @@ def _cells(line: str, separator: str) -> list[str]:
 
 
 def _numbers(column: "pd.Series[str]") -> "pd.Series[str]":
-    """Write numbers with a point and an E, if they are not written so."""
+    """Numbers written with a point and an E."""
     try:
         column.astype(np.float64)
     except ValueError:

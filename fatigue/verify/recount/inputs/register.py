@@ -42,7 +42,7 @@ class WeldEntries:
 
 
 def weld_entries(case: Mapping[str, Any], folder: Path, table: pd.DataFrame) -> WeldEntries:
-    """Read the register of a case, if it has one, over its table of welds."""
+    """Welds to assess: the register of a case, if it has one, over its table of welds."""
     of_table = {name: _of_table(row) for name, row in zip(table["weld"], table.to_dict("records"), strict=True)}
     beside = (folder / case["body"]["welds"]).parent
     named = case["body"].get("register")
@@ -111,7 +111,7 @@ def _registered(entry: WeldEntry, rows: Sequence[Mapping[str, str]], is_converte
 
 
 def _with(a: WeldEntry, b: WeldEntry) -> WeldEntry:
-    """Two lines of one name."""
+    """One weld of two lines of one name."""
     thickness = {**a.thickness, **b.thickness}
     return WeldEntry(a.name, a.sources + b.sources, False, a.surface, a.curve, a.end_length, thickness)
 
@@ -127,7 +127,7 @@ def _rows(path: Path) -> list[dict[str, str]]:
 
 
 def _lines(path: Path) -> dict[str, list[str]]:
-    """Lines of every weld that `fatigue convert` wrote; none where the tables are of another hand."""
+    """Lines of every weld that ``fatigue convert`` wrote; none where the tables are of another hand."""
     if not path.is_file():
         return {}
     record = json.loads(path.read_text(encoding="utf-8"))

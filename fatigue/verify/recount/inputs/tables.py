@@ -27,7 +27,7 @@ def read_frame(path: Path) -> pd.DataFrame:
 
 
 def read_pieces(path: Path, columns: Sequence[str] = ()) -> Iterator[pd.DataFrame]:
-    """Read a table piece by piece, in the order of its rows and typed as by `read_frame`: some columns or all."""
+    """Read a table piece by piece, in the order of its rows and typed as by ``read_frame``: some columns or all."""
     yield from (_typed(piece) for piece in _pieces(path, columns))
 
 
@@ -43,7 +43,7 @@ def read_rows_where(path: Path, key: str, values: Sequence[Any]) -> pd.DataFrame
 
 
 def _pieces(path: Path, columns: Sequence[str], key: str = "", values: Sequence[Any] = ()) -> Iterator[pd.DataFrame]:
-    """Read a table piece by piece as it stands, at least one; parts whose key is surely none of the values left out."""
+    """Pieces of a table as it stands, at least one; row groups whose key is surely none of the values are left out."""
     with ExitStack() as stack:
         if path.suffix.lower() == ".parquet":
             file = stack.enter_context(pq.ParquetFile(path, buffer_size=_BYTES_AT_ONCE))
@@ -81,7 +81,7 @@ def _named(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def _typed(frame: pd.DataFrame) -> pd.DataFrame:
-    """Give ids, numbers and names of welds their types."""
+    """Table with ids, numbers and names of welds in their types."""
     frame = _named(frame.copy(deep=False))
     for name in frame.columns.difference(TEXTS):
         frame[name] = _ids(frame[name]) if name in IDS else _numbers(frame[name])
@@ -99,7 +99,7 @@ def _ids(column: pd.Series) -> pd.Series:
 
 
 def _numbers(column: pd.Series) -> pd.Series:
-    """Numbers of a column; one of texts that nobody asks for stays as it is."""
+    """Numbers of a column; a column of texts that nobody asks for stays as it is."""
     try:
         return column.astype(np.float64)
     except (TypeError, ValueError):

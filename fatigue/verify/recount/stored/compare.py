@@ -61,7 +61,7 @@ class Recount:
         return not self.strangers and all(column.passed for column in self.columns)
 
     def as_record(self) -> dict[str, Any]:
-        """For machines."""
+        """Record for machines."""
         return {
             "folder": str(self.folder),
             "points": self.points,
@@ -73,7 +73,7 @@ class Recount:
         }
 
     def as_text(self) -> str:
-        """For people: the columns that differ with their place, else the largest difference of each table."""
+        """Text for people: the columns that differ with their place, else the largest difference of each table."""
         wrong = [column for column in self.columns if not column.passed]
         verdict = "agree with the recount" if not wrong else f"{len(wrong)} of {len(self.columns)} columns differ"
         if self.strangers:
@@ -115,7 +115,7 @@ class Row:
 
 
 def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> list[ColumnCheck]:
-    """Compare every recounted column of a table, in the order of the table."""
+    """Check of every recounted column of a table, in the order of the table."""
     units = {column.name: column.unit for column in TABLES[table]}
     checks = []
     for name in (name for name in units if any(name in row.expected for row in rows)):
@@ -141,7 +141,7 @@ def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> 
 
 
 def merged(checks: Sequence[ColumnCheck]) -> list[ColumnCheck]:
-    """Join checks of the same columns at different rows, in the order of the tables: the worst difference of each."""
+    """Checks of the same columns at different rows joined, in the order of the tables: the worst difference of each."""
     by_column: dict[tuple[str, str], list[ColumnCheck]] = {}
     for check in checks:
         by_column.setdefault((check.table, check.column), []).append(check)
@@ -156,7 +156,7 @@ def merged(checks: Sequence[ColumnCheck]) -> list[ColumnCheck]:
 
 
 def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnCheck:
-    """Compare which rows a table has with those it should have: none dropped, none twice, none from elsewhere."""
+    """Check of which rows a table has: none dropped, none twice, none from elsewhere."""
     expected = pd.MultiIndex.from_tuples(keys, names=found.names) if found.nlevels > 1 else pd.Index(keys)
     astray = [*found[found.duplicated()], *expected.symmetric_difference(found.drop_duplicates())]
     return ColumnCheck(

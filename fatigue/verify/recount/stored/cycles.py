@@ -1,4 +1,4 @@
-"""The cycles of a result: which points have some, and those of one event, without reading the table as a whole."""
+"""The cycles of a result: which points have some, and the cycles of one event, without reading the whole table."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from fatigue.verify.recount.stored.compare import ColumnCheck
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StoredCycles:
-    """Runs of rows in the table of cycles that belong to one point and one event.
+    """Stretches of rows in the table of cycles, each of one point and one event.
 
     Attributes
     ----------
@@ -30,12 +30,12 @@ class StoredCycles:
     first: NDArray[np.int64]
 
     def points(self) -> NDArray[np.int64]:
-        """Find the points that have cycles, ascending."""
+        """Points that have cycles, ascending."""
         return np.unique(self.point[self.point >= 0])
 
     @property
     def strangers(self) -> ColumnCheck:
-        """Check that there are no rows of points and events that are not in the case."""
+        """Check that no rows belong to points or events that are not in the case."""
         astray = np.flatnonzero((self.point < 0) | (self.event < 0))
         return ColumnCheck(
             table="cycles",
@@ -50,7 +50,7 @@ class StoredCycles:
         )
 
     def of_event(self, event: int, points: Sequence[int], columns: Sequence[str]) -> dict[int, pd.DataFrame]:
-        """Read the cycles of one event at some points, by point."""
+        """Cycles of one event at some points, by point."""
         runs = np.flatnonzero((self.event == event) & np.isin(self.point, points))
         rows = [np.arange(self.first[run], self.first[run + 1]) for run in runs]
         found = read_rows(self.folder, "cycles", np.concatenate([np.zeros(0, dtype=np.int64), *rows]), columns)
@@ -60,7 +60,7 @@ class StoredCycles:
 
 
 def find_cycles(folder: Path, body: Layout, events: Sequence[str]) -> StoredCycles:
-    """Find out whose cycles are in which rows.
+    """Whose cycles are in which rows.
 
     Raises
     ------

@@ -21,7 +21,7 @@ Labels = Mapping[str, Sequence[Any]]  # of each further key column: texts, or nu
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rows:
+class RowPlaces:
     """Where the rows of a table are.
 
     ``row_of`` is the row of each key in the order of the layout, -1 where it is missing; None: they are in this order.
@@ -31,16 +31,16 @@ class Rows:
     row_of: NDArray[np.int64] | None
 
     def of(self, keys: NDArray[np.integer]) -> NDArray[np.int64]:
-        """Find the rows of some keys, given by their numbers."""
+        """Rows of some keys, given by their numbers."""
         return np.asarray(keys if self.row_of is None else self.row_of[keys], dtype=np.int64)
 
     def in_order(self, column: NDArray[Any]) -> NDArray[Any]:
-        """Put a whole column of the table in the order of the keys."""
+        """Whole column of the table in the order of the keys."""
         return column if self.row_of is None else column[self.row_of]
 
 
-def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> Rows:
-    """Find the rows of a table that has one for each station of a body and each combination of some labels.
+def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> RowPlaces:
+    """Where the rows of a table are that has one for each station of a body and each combination of some labels.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> Rows:
         found=done,
         expected=expected,
     )
-    return Rows(check, row_of)
+    return RowPlaces(check, row_of)
 
 
 def _as_written(
@@ -108,7 +108,7 @@ def _as_written(
 
 
 def _key(station: NDArray[np.int64], labels: Labels, places: Sequence[NDArray[Any]]) -> NDArray[np.int64]:
-    """Give numbers to keys in the order of the layout; -1 where one is not known."""
+    """Numbers of keys in the order of the layout; -1 where a key is not known."""
     key, is_known = station, station >= 0
     for place, known in zip(places, labels.values(), strict=True):
         key, is_known = key * len(known) + place, is_known & (place >= 0)
@@ -122,7 +122,7 @@ def _place(values: NDArray[Any], known: Sequence[Any]) -> NDArray[np.int64]:
 
 
 def _name(body: Layout, labels: Labels, key: int) -> tuple[Any, ...]:
-    """Write a key out."""
+    """Key written out."""
     further: list[Any] = []
     for known in reversed([*labels.values()]):
         key, place = divmod(key, len(known))

@@ -12,7 +12,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_rows
-from fatigue.verify.recount.anew.point import Event
+from fatigue.verify.recount.anew.point import RecountEvent
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
 from fatigue.verify.recount.stored.rows import place
@@ -40,8 +40,8 @@ class Sum(NamedTuple):
     key: NDArray[np.int64]
 
 
-def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> list[ColumnCheck]:
-    """Check every row of the tables of a result against other rows.
+def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> list[ColumnCheck]:
+    """Checks of every row of the tables of a result against other rows.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event])
     return merged(checks)
 
 
-def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> Iterator[Sum]:
+def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> Iterator[Sum]:
     points = max(1, _ROWS_AT_ONCE // len(events))
     for first in range(0, stored.body.points, points):
         yield from _of_points(stored, case, events, np.arange(first, min(first + points, stored.body.points)))
@@ -60,9 +60,9 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> I
 
 
 def _of_points(
-    stored: Stored, case: Mapping[str, Any], events: Sequence[Event], points: NDArray[np.int64]
+    stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent], points: NDArray[np.int64]
 ) -> Iterator[Sum]:
-    """Take columns of points from those of their events, and per km from per pass."""
+    """Columns of points as the columns of their events make them, and numbers per km as numbers per pass do."""
     e = len(events)
     keys = (points[:, None] * e + np.arange(e)).ravel()
     node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), _NODES))
@@ -111,7 +111,7 @@ def _of_points(
 
 
 def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
-    """Take the damage of a pass from that of its cycles."""
+    """Damage of a pass as the damage of its cycles makes it."""
     cycles = stored.cycles
     of_run, row = np.zeros(len(cycles.point)), 0
     for columns in number_groups(stored.folder, "cycles", ["damage"], {}):
@@ -128,7 +128,7 @@ def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
 
 
 def _of_welds(stored: Stored) -> Iterator[Sum]:
-    """Take the row of a weld from that of its worst point, which no counted point of a toe exceeds."""
+    """Row of a weld as the row of its worst point makes it, which no counted point of a toe exceeds."""
     welds = stored.welds.loc[list(stored.body.welds)]
     number = np.arange(len(welds))
     point = worst_of_welds(stored, number)
@@ -143,8 +143,8 @@ def _of_welds(stored: Stored) -> Iterator[Sum]:
     yield Sum("welds", "utilisation", welds["utilisation"].to_numpy()[number], utilisation[worst][number], number)
 
 
-def _check(stored: Stored, events: Sequence[Event], one: Sum) -> ColumnCheck:
-    """Find the value of a column that differs most from what it should be."""
+def _check(stored: Stored, events: Sequence[RecountEvent], one: Sum) -> ColumnCheck:
+    """Check of a column by the value that differs most from what it should be."""
     difference = _differences(one.found, one.expected)
     worst = int(difference.argmax()) if len(difference) else 0
     is_any = len(difference) > 0
@@ -174,7 +174,7 @@ def _differences(found: NDArray[Any], expected: NDArray[Any]) -> Floats:
     return np.where(same, 0.0, np.where(np.isnan(relative), np.inf, relative))
 
 
-def _where(stored: Stored, events: Sequence[Event], table: str, key: int) -> str:
+def _where(stored: Stored, events: Sequence[RecountEvent], table: str, key: int) -> str:
     if table == "welds":
         return f"weld {stored.body.welds[key]}"
     if table == "nodes":

@@ -11,11 +11,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
-from fatigue.verify.recount.inputs.case import Inputs, Modes
+from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes
 from fatigue.verify.recount.layout import FACES, Layout, station_finder
 from fatigue.verify.recount.stored.compare import ColumnCheck, compare_keys
 from fatigue.verify.recount.stored.cycles import StoredCycles, find_cycles
-from fatigue.verify.recount.stored.keys import Rows, find_rows
+from fatigue.verify.recount.stored.keys import RowPlaces, find_rows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,9 +27,9 @@ class Stored:
 
     folder: Path
     body: Layout
-    nodes: Rows
-    damage: Rows
-    stress: Rows
+    nodes: RowPlaces
+    damage: RowPlaces
+    stress: RowPlaces
     cycles: StoredCycles
     welds: pd.DataFrame
     left_out: pd.DataFrame
@@ -42,8 +42,8 @@ class Stored:
         return checks if self.cycles.strangers.passed else [*checks, self.cycles.strangers]
 
 
-def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes) -> Stored:
-    """Find the rows of all tables of a result.
+def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: RecountModes) -> Stored:
+    """Tables of a result with the places of their rows.
 
     Raises
     ------
@@ -63,8 +63,8 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes)
     )
 
 
-def left_out_check(stored: Stored, inputs: Inputs) -> list[ColumnCheck]:
-    """Compare why welds are not assessed with what the register says; nothing where all are."""
+def left_out_check(stored: Stored, inputs: RecountInputs) -> list[ColumnCheck]:
+    """Check of why welds are not assessed, against the register; nothing where all are assessed."""
     expected, found = Counter(inputs.register.left_out), Counter(stored.left_out["reason"].fillna("").tolist())
     if not expected and not found:
         return []
@@ -85,25 +85,25 @@ def left_out_check(stored: Stored, inputs: Inputs) -> list[ColumnCheck]:
 
 
 def rows_of(stored: Stored, table: str, rows: NDArray[np.integer]) -> list[dict[str, Any]]:
-    """Read rows of a table by their numbers."""
+    """Rows of a table by their numbers."""
     found: list[dict[str, Any]] = read_rows(stored.folder, table, rows).to_pandas().to_dict("records")
     return found
 
 
 def toes_and_utilisation(stored: Stored) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Read whether each point is at a toe, and its utilisation, (p,) each."""
+    """Whether each point is at a toe, and its utilisation, (p,) each."""
     table = read_table(stored.folder, "nodes", ["toe", "utilisation"])
     return stored.nodes.in_order(table["toe"].to_numpy()), stored.nodes.in_order(table["utilisation"].to_numpy())
 
 
 def is_counted(stored: Stored) -> NDArray[np.bool_]:
-    """Read whether each point was counted and does not stand for a bound, (p,)."""
+    """Whether each point was counted and does not stand for a bound, (p,)."""
     tier, names = read_codes(stored.folder, "nodes", "screened")
     return stored.nodes.in_order(np.array([name == "" for name in [*names, ""]])[tier])
 
 
 def governing_points(stored: Stored) -> NDArray[np.int64]:
-    """Find the points whose cycles are in the table; of a weld without any, the worst point of its row."""
+    """Points whose cycles are in the table; of a weld without any, the worst point of its row."""
     points = stored.cycles.points()
     bare = np.setdiff1d(np.arange(len(stored.body.welds)), stored.body.weld[points // 2])
     worst = worst_of_welds(stored, bare)
@@ -111,7 +111,7 @@ def governing_points(stored: Stored) -> NDArray[np.int64]:
 
 
 def worst_of_welds(stored: Stored, welds: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Find the points that the rows of some welds name as the worst; -1 where there is no such point."""
+    """Points that the rows of some welds name as the worst; -1 where there is no such point."""
     named = stored.welds.loc[[stored.body.welds[weld] for weld in welds]]
     station = station_finder(stored.body)(welds, named["worst_part"].to_numpy(), named["worst_order"].to_numpy())
     face = np.array([FACES.index(surface) if surface in FACES else -1 for surface in named["worst_surface"]], dtype=int)
@@ -119,13 +119,13 @@ def worst_of_welds(stored: Stored, welds: NDArray[np.int64]) -> NDArray[np.int64
 
 
 def with_cycles(stored: Stored, governing: NDArray[np.int64], record: Mapping[str, Any]) -> frozenset[int]:
-    """Points of which the table has to have the cycles: those of welds from some utilisation on."""
+    """Points of which the table has to have the cycles: they lie in welds from some utilisation on."""
     utilisation = stored.welds["utilisation"].loc[list(stored.body.welds)].to_numpy()
     of_point = utilisation[stored.body.weld[governing // 2]]
     return frozenset(governing[of_point >= record["rules"]["cycles_kept_from_utilisation"]].tolist())
 
 
-def fastest_peaks(folder: Path, inputs: Inputs, events: Sequence[str]) -> list[float]:
+def fastest_peaks(folder: Path, inputs: RecountInputs, events: Sequence[str]) -> list[float]:
     """Highest peak rate of all points in every event [1/s]; 0 where nobody asks for it or there is none."""
     highest = np.zeros(len(events))
     if inputs.case.get("counting", {}).get("upsample") == "auto":

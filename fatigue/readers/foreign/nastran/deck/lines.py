@@ -28,7 +28,7 @@ _STARTS = (
 
 
 def is_deck(head: str) -> bool:
-    """Whether the beginning of a text file is that of a deck."""
+    """Whether a text file begins like a deck."""
     return any(line.lstrip().upper().startswith(_STARTS) for line in head.splitlines())
 
 

@@ -17,7 +17,7 @@ def repeats(head: str) -> int | None:
 
 
 def replicated(before: Sequence[str], pattern: Sequence[str], where: str) -> list[str]:
-    """Fields of the next card, from those of the card before and the pattern of the replicating line.
+    """Fields of the next card, from the fields of the card before and the pattern of the replicating line.
 
     Raises
     ------

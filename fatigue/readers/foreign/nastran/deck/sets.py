@@ -12,7 +12,7 @@ _NODES = ("GRID", "POINT", "NODE")
 
 
 def case_sets(lines: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
-    """Read the integer SETs of case control, ``SET 5 = 1, 2 THRU 9 EXCEPT 6, 20``; other sets are left out.
+    """Integer SETs of case control, ``SET 5 = 1, 2 THRU 9 EXCEPT 6, 20``; other sets are left out.
 
     Returns the sets, and a warning for each id that subcases define differently (the last holds).
     """
@@ -37,7 +37,7 @@ def case_sets(lines: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
 
 
 def joined_sets(on_cards: dict[int, list[int]], control: list[Line]) -> tuple[dict[int, list[int]], list[Problem]]:
-    """Join the sets of bulk data and of case control, and tell which ids are defined differently; case control wins."""
+    """Sets of bulk data and of case control, which wins; and warnings about ids that are defined differently."""
     sets, warnings = case_sets(control)
     for key in sorted(on_cards.keys() & sets.keys()):
         if sorted(on_cards[key]) != sorted(sets[key]):
@@ -78,7 +78,7 @@ def set_on_card(sets: dict[int, list[int]], card: Card) -> list[Problem]:
 
 
 def set_members(words: list[str]) -> list[int] | None:
-    """Expand ``1 2 THRU 9 BY 2 EXCEPT 6 THRU 7``; None where something else stands, or a range of over ten million."""
+    """Ids of ``1 2 THRU 9 BY 2 EXCEPT 6 THRU 7``; None where something else stands, or a range of over ten million."""
     members: list[int] = []
     at = 0
     excluding = False

@@ -50,7 +50,7 @@ class Property:
 
 
 def shell(card: Card, properties: Mapping[int, Property]) -> Shell:
-    """Decode a shell; unequal corner thicknesses are averaged and have to be confirmed.
+    """Shell of a card; unequal corner thicknesses are averaged and have to be confirmed.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def pshell(card: Card) -> Property:
 
 
 def pcomp(card: Card) -> Property:
-    """Plies of PCOMP come two in a line of eight fields, those of PCOMPG one in a line, after their own id."""
+    """Read a PCOMP or PCOMPG: plies of a PCOMP come two in a line of eight fields, of a PCOMPG one, after its id."""
     starts = range(8, len(card.fields), 4) if card.name == "PCOMP" else range(9, len(card.fields), 8)
     total, last = 0.0, 0.0
     for at in starts:

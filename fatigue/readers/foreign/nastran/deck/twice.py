@@ -24,7 +24,7 @@ def _same_field(a: Card, b: Card, at: int) -> bool:
 
 
 def same_grid(a: Card, b: Card, cp: int, cd: int) -> Card | None:
-    """Give the GRID written with more digits if both are the same point in the same systems to the digits written.
+    """The GRID written with more digits, if both are the same point in the same systems to the digits written.
 
     ``cp`` and ``cd`` are the systems of grids that name none. Blank coordinates are 0.0; constraints do not count.
     """

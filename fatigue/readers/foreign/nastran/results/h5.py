@@ -33,7 +33,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
     Parameters
     ----------
     subcase : the one to read, where the file has several that cannot be read together
-    interface : static subcases that are modes of the basis, beside those of a modal subcase
+    interface : static subcases that are modes of the basis, beside the modes of a modal subcase
 
     Raises
     ------
@@ -131,7 +131,7 @@ def read_h5_model(path: Path) -> FeModel:
 
 
 def _other_elements(path: Path) -> tuple[Problem, ...]:
-    """Tell elements that are not read, by name and number: they need not be there, and a damaged name is among them."""
+    """Warning about elements that are not read, by name and number; a damaged name would be among them."""
     try:
         with h5py.File(path, "r") as file:
             tables = {name: table for name, table in file[_ELEMENTS].items() if isinstance(table, h5py.Dataset)}
@@ -148,7 +148,7 @@ def _other_elements(path: Path) -> tuple[Problem, ...]:
 
 @contextmanager
 def _open(path: Path) -> Iterator[Any]:
-    """Open the file and give a function that reads one table; every failure of the library becomes a DataError."""
+    """Function that reads one table of the open file; every failure of the library becomes a DataError."""
 
     def read(name: str, required: bool = True) -> Rows:
         table = file.get(name)

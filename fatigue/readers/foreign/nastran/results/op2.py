@@ -47,7 +47,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
     Parameters
     ----------
     subcase : the one to read, where the file has several that cannot be read together
-    interface : static subcases that are modes of the basis, beside those of a modal subcase
+    interface : static subcases that are modes of the basis, beside the modes of a modal subcase
 
     Raises
     ------
@@ -98,7 +98,7 @@ def _tables(op2: Op2File) -> tuple[Op2Table, ...]:
 
 
 def _unclosed(op2: Op2File) -> Problem:
-    """Doubt about a file that ends with a whole table and without an end mark."""
+    """Warning about a file that ends with a whole table and without an end mark."""
     return Problem(
         "no_end_mark",
         str(op2.path),
@@ -179,7 +179,7 @@ def _force_block(op2: Op2File, table: Op2Table, head: Identification, record: ND
 
 
 def _nodes(op2: Op2File, table: Op2Table, key: NDArray[np.signedinteger]) -> NDArray[np.int64]:
-    """Grid ids of keys 10 x grid + device code; the code may be another than that of the identification."""
+    """Grid ids of keys 10 x grid + device code; the identification may have another code."""
     if (key < 10).any():
         raise damaged(op2, table, f"the key {key[key < 10][0]} is no grid")
     return np.asarray(key // 10, np.int64)

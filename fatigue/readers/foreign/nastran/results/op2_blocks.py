@@ -38,7 +38,7 @@ class Identification:
 
     @property
     def is_modal(self) -> bool:
-        """Whether the block is that of a mode, sorted by mode."""
+        """Whether the block belongs to a mode, sorted by mode."""
         return self.approach == MODES and self.mode > 0 and self.table_code < 1000
 
 

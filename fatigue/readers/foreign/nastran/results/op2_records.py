@@ -100,7 +100,7 @@ class _Cursor:
     def __init__(self, path: Path, data: mmap.mmap) -> None:
         self.path, self.data, self.position = path, data, 0
         self.table = ""
-        self.between: dict[int, bytes] = {}  # words of one chunk and those of the next, by their number
+        self.between: dict[int, bytes] = {}  # words between one chunk and the next, by their number
         if data[:4] not in _LAYOUTS:
             raise DataError(
                 Problem(

@@ -23,7 +23,7 @@ _STARTS = ("$TITLE", "$SUBTITLE", "$LABEL", "$SUBCASE ID", "$GRID POINT")
 
 
 def is_punch(head: str) -> bool:
-    """Whether the beginning of a text file is that of a punch file."""
+    """Whether a text file begins like a punch file."""
     return any(line.startswith(_STARTS) for line in head.splitlines()[:50])
 
 
@@ -33,7 +33,7 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
     Parameters
     ----------
     subcase : the one to read, where the file has several that cannot be read together
-    interface : static subcases that are modes of the basis, beside those of a modal subcase
+    interface : static subcases that are modes of the basis, beside the modes of a modal subcase
 
     Raises
     ------
@@ -58,7 +58,7 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
 
 
 def _perhaps_buckling(path: Path, highest: float) -> Problem:
-    """Doubt about modes all of which are very slow: a punch file does not tell its solution."""
+    """Warning about modes all of which are very slow: a punch file does not tell its solution."""
     return Problem(
         "perhaps_buckling",
         str(path),
