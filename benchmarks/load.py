@@ -5,13 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.counting.rainflow import BlockCount, count_block
-from fatigue.life.counting.single.count import Record, count_block_fast, record_of
+from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.count import count
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.rows import count_rows
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.curves import DamageLaw, catalogue, damage_law
+from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
 
-CHOICES = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
 RATE = 250.0
 
 
@@ -22,25 +25,27 @@ def aluminium() -> DamageLaw:
 
 @dataclass(frozen=True)
 class Load:
-    """Stress shapes of some nodes and modal coordinates of one event."""
+    """Modal stress of some nodes and modal coordinates of one event, these for either counter."""
 
     S_m: Floats
     S_b: Floats
     q: NDArray[np.float32]
     q_double: Floats
-    record: Record
+    single: CountedRecord
+    double: CountedRecord
+
+    def stress(self, first: int = 0, end: int | None = None) -> BlockStress:
+        """Take some nodes."""
+        S_m, S_b = self.S_m[first:end], self.S_b[first:end]
+        return BlockStress(S_m, S_b, np.ones(len(S_m)), np.full((len(S_m), 2), 0.3))
 
     def fast(self, first: int = 0, end: int | None = None) -> BlockCount:
         """Count nodes the fast way."""
-        S_m, S_b = self.S_m[first:end], self.S_b[first:end]
-        ones, ratio = np.ones(len(S_m)), np.full((len(S_m), 2), 0.3)
-        return count_block_fast(S_m, S_b, self.record, ones, ratio, aluminium(), **CHOICES)
+        return count(self.stress(first, end), self.single, CycleRule(aluminium(), uses_bending_ratio=True))
 
     def exact(self, first: int = 0, end: int | None = None) -> BlockCount:
         """Count nodes in double precision throughout."""
-        S_m, S_b = self.S_m[first:end], self.S_b[first:end]
-        ones, ratio = np.ones(len(S_m)), np.full((len(S_m), 2), 0.3)
-        return count_block(S_m @ self.q_double, S_b @ self.q_double, ones, ratio, aluminium(), **CHOICES)
+        return count_rows(self.stress(first, end), self.double, CycleRule(aluminium(), uses_bending_ratio=True))
 
     def product(self) -> None:
         """Recover the same stresses in double precision and drop them, in blocks of 128 nodes."""
@@ -61,4 +66,6 @@ def load(nodes: int, modes: int = 60, steps: int = 20_000, seed: int = 0) -> Loa
         row[:] = x / x.std()
     level = np.exp(rng.normal(size=(nodes, 1)))
     S_m, S_b = (level * rng.normal(size=(nodes, modes)) for _ in range(2))
-    return Load(S_m, 0.5 * S_b, q, q.astype(np.float64), record_of(q))
+    single = CountedRecord(q, "repeat", single_record(q))
+    q_double = q.astype(np.float64)
+    return Load(S_m, 0.5 * S_b, q, q_double, single, CountedRecord(q_double, "repeat"))

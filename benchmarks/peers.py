@@ -5,11 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.load import CHOICES, RATE, aluminium, load
+from benchmarks.load import RATE, aluminium, load
 from benchmarks.timing import Row, best_times
 from fatigue.extras import install_command
-from fatigue.life.counting.rainflow import count_block
-from fatigue.life.counting.single.count import count_block_fast, record_of
+from fatigue.life.counting.block import BlockStress
+from fatigue.life.counting.count import count
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.rows import count_histories
+from fatigue.life.counting.single.prepare import single_record
+from fatigue.life.rule import CycleRule
 from fatigue.spectrum.methods import dirlik_damage_rate
 
 
@@ -31,12 +35,14 @@ def counting() -> list[Row]:
     def rainflow_sum() -> float:
         return sum(n * S**k for S, _, n, _, _ in rainflow.extract_cycles(signals[0].tolist())) / A
 
-    choices = CHOICES | {"residue": "half", "uses_bending_ratio": False}
-    record = record_of(np.ascontiguousarray(signals))
+    rule = CycleRule(law, uses_bending_ratio=False)
+    stress = BlockStress(np.eye(32), np.zeros((32, 32)), ones, ratio)
+    q = np.ascontiguousarray(signals)
+    record = CountedRecord(q, "half", single_record(q))
     # 32 points have 64 surfaces: what one surface costs is half of what a point costs
     functions = {
-        "fast": lambda: count_block_fast(np.eye(32), np.zeros((32, 32)), record, ones, ratio, law, **choices),
-        "exact": lambda: count_block(signals, 0.0 * signals, ones, ratio, law, **choices),
+        "fast": lambda: count(stress, record, rule),
+        "exact": lambda: count_histories(signals, 0.0 * signals, ones, ratio, "half", rule),
         "pyyeti": pyyeti_sum,
         "rainflow": rainflow_sum,
     }

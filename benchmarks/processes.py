@@ -14,7 +14,7 @@ _WITHOUT_VECTORS = """
 import importlib.util
 
 find_spec = importlib.util.find_spec
-importlib.util.find_spec = lambda name, package=None: None if "single.simd" in name else find_spec(name, package)
+importlib.util.find_spec = lambda name, package=None: None if "kernels.simd" in name else find_spec(name, package)
 from threadpoolctl import threadpool_limits
 from benchmarks.load import load
 from benchmarks.timing import best_times

@@ -1,4 +1,4 @@
-"""The assessment as a story: files, stress shapes, cycles and spectra, damage, kilometres, tables."""
+"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables."""
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
-from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.events import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
@@ -199,8 +199,8 @@ class Tally:
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
         self.warnings.add(group.model.warnings)
-        for passed, event in zip(work.plan.passes, result.events, strict=True):
-            fewest = float(np.nanmin(event.samples_per_peak, initial=np.inf))
+        for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
+            fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
         self.progress("assessing", min(sum(self.stations.values()), self.total), self.total)
 
@@ -208,12 +208,11 @@ class Tally:
 def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
     """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld."""
     model, result, plan = group.model, group.result, work.plan
-    stations, events = model.stations, result.events
-    worst = worst_points(stations, result)
-    tables["nodes"].write(node_rows(stations, result.mission, result.tier, plan))
+    stations, worst = model.stations, worst_points(model.stations, result)
+    tables["nodes"].write(node_rows(stations, result, plan))
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
-        tables["damage"].write(damage_rows(stations, events, plan, some))
+        tables["damage"].write(damage_rows(stations, result, plan, some))
         tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
     tables["welds"].write(weld_rows(model, plan, result.mission, worst))
     return worst
@@ -228,7 +227,7 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
     """Tell which records are sampled too coarsely for their points, and what damage that hides."""
-    slope = max(float(rated.law.slopes[0]) for rated in body.curves.values())
+    slope = max(float(rated.rule.law.slopes[0]) for rated in body.curves.values())
     return [
         Problem(
             "sampling",

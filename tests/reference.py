@@ -1,21 +1,21 @@
-"""What the program can say (commands, options, columns, codes), collected from the program, and its page of the docs.
+"""Commands, options, keys of a case, columns and codes, collected from the program, and their page of the docs.
 
 ``python -m tests.reference`` writes the collected parts of ``docs/reference.md`` again; what each warning means is
 written there by hand.
 """
 
-import ast
+import json
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import click
 
+from fatigue.case import case_schema
 from fatigue.cli import cli
 from fatigue.results.columns import TABLES
+from tests.problem_codes import codes
 
 ROOT = Path(__file__).parents[1]
-PACKAGE = ROOT / "fatigue"
 PAGE = ROOT / "docs" / "reference.md"
 AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("case", "The case file"),
@@ -35,110 +35,25 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("verify", "Result folders and documents"),
     ("", "Commands and arguments"),
 )
-REFUSED = {"unit"}  # although it comes from a function that is named for warnings
-_WARNS = re.compile("warning|remark|doubt")
+CASE_TABLES = {  # of case.toml, and the models that describe them
+    "[body]": "Body",
+    "[curve]": "Curve",
+    "[curves.NAME]": "CustomCurve",
+    "[counting]": "Counting",
+    "[spectrum]": "Spectrum",
+    "[mission]": "Mission",
+    "[[mission.event]]": "Event",
+}
 
 
 def commands() -> dict[str, click.Command]:
-    """Commands of the program by name, the program itself under the empty one."""
-    return {"": cli, **cli.commands}
+    """Commands of the program in the order of their names, the program itself under the empty one."""
+    return {"": cli, **dict(sorted(cli.commands.items()))}
 
 
 def options(command: click.Command) -> list[click.Option]:
     """Options of a command."""
     return [p for p in command.params if isinstance(p, click.Option)]
-
-
-def columns() -> set[str]:
-    """Columns of all result tables."""
-    return {column.name for table in TABLES.values() for column in table}
-
-
-def codes() -> dict[str, set[str]]:
-    """Codes of all problems the package can tell, with the modules that tell them, as paths inside the package."""
-    trees = {path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text()) for path in PACKAGE.rglob("*.py")}
-    found: dict[str, set[str]] = {}
-    for module, tree in trees.items():
-        for code in _codes_told(tree, trees):
-            found.setdefault(code, set()).add(module)
-    return found
-
-
-def _codes_told(tree: ast.Module, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes written into one module, or handed to a function of it that makes a problem of them."""
-    for holder in ast.walk(tree):
-        if isinstance(holder, ast.ClassDef) and (place := _field_of_code(holder)) is not None:
-            yield from _handed(holder.name, place, "code", trees)
-        if not isinstance(holder, ast.FunctionDef):
-            continue
-        for call in _calls(holder, "Problem"):
-            code = call.args[0]
-            yield from _constants(code)
-            if isinstance(code, ast.Name):
-                yield from _of_name(code.id, holder, trees)
-
-
-def _of_name(name: str, function: ast.FunctionDef, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes that a name stands for in a function: its parameter, or what a loop over a written table gives."""
-    parameters = [p.arg for p in (*function.args.posonlyargs, *function.args.args) if p.arg != "self"]
-    if name in parameters:
-        yield from _handed(function.name, parameters.index(name), name, trees)
-        for default in function.args.defaults:
-            yield from _constants(default)
-    for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
-        if isinstance(loop.target, ast.Tuple) and isinstance(loop.iter, ast.Tuple):
-            names = [getattr(target, "id", "") for target in loop.target.elts]
-            rows = [row for row in loop.iter.elts if isinstance(row, ast.Tuple)]
-            if name in names:
-                yield from (code for row in rows for code in _constants(row.elts[names.index(name)]))
-
-
-def _field_of_code(holder: ast.ClassDef) -> int | None:
-    """Position of the field ``code`` of a record other than the problem itself."""
-    fields = [f.target.id for f in holder.body if isinstance(f, ast.AnnAssign) and isinstance(f.target, ast.Name)]
-    return fields.index("code") if "code" in fields and holder.name != "Problem" else None
-
-
-def _handed(function: str, place: int, name: str, trees: dict[str, ast.Module]) -> Iterator[str]:
-    """Codes handed to the function of a name, by position or by name, anywhere in the package."""
-    for call in (call for tree in trees.values() for call in _calls(tree, function)):
-        given = [k.value for k in call.keywords if k.arg == name] or call.args[place : place + 1]
-        yield from (code for value in given for code in _constants(value))
-
-
-def _calls(tree: ast.AST, function: str) -> Iterator[ast.Call]:
-    """Calls of a function by its name."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == function:
-            yield node
-
-
-def _constants(value: ast.expr) -> Iterator[str]:
-    """Codes that an expression holds as they are."""
-    if isinstance(value, ast.IfExp):
-        yield from (*_constants(value.body), *_constants(value.orelse))
-    if isinstance(value, ast.Constant) and isinstance(value.value, str) and re.fullmatch(r"[a-z0-9_]+", value.value):
-        yield value.value
-
-
-def codes_of_warnings() -> set[str]:
-    """Codes of problems that are made where warnings are: in a function named for them, or added to a list of them."""
-    found: set[str] = set()
-    for path in PACKAGE.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            is_named = isinstance(node, ast.FunctionDef) and _WARNS.search(node.name)
-            is_added = isinstance(node, ast.AugAssign | ast.Call) and _WARNS.search(_list_added_to(node))
-            if is_named or is_added:
-                found |= {code for call in _calls(node, "Problem") for code in _constants(call.args[0])}
-    return found - REFUSED
-
-
-def _list_added_to(node: ast.AST) -> str:
-    """Name of the list in ``list += ...`` or ``list.append(...)``; empty for anything else."""
-    target = node.target if isinstance(node, ast.AugAssign) else None
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in ("append", "extend"):
-        target = node.func.value
-    return str(getattr(target, "id", getattr(target, "attr", "")))
 
 
 def named_in(text: str) -> set[str]:
@@ -194,6 +109,21 @@ def _default(option: click.Option) -> str:
     return f" Default: {option.show_default if isinstance(option.show_default, str) else option.default}."
 
 
+def key_text() -> str:
+    """Keys of ``case.toml`` with default and meaning, table by table."""
+    models = case_schema()["$defs"]
+    parts = []
+    for heading, model in CASE_TABLES.items():
+        of, rows = models[model], []
+        for key, about in of["properties"].items():
+            given = about.get("default")
+            default = "required" if key in of.get("required", ()) else "" if given is None else f"`{json.dumps(given)}`"
+            rows.append(f"| `{key}` | {default} | {about['description']} |")
+        lines = [f"### {heading}", "", of["description"], "", "| key | default | what it is |", "|---|---|---|", *rows]
+        parts.append("\n".join(lines))
+    return "\n\n".join(parts)
+
+
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
@@ -221,7 +151,13 @@ def refusal_text(page: str) -> str:
 
 def with_collected(page: str) -> str:
     """Page with its collected parts as the program has them now."""
-    for name, text in (("commands", command_text()), ("columns", column_text()), ("codes", refusal_text(page))):
+    collected = {
+        "commands": command_text(),
+        "keys": key_text(),
+        "columns": column_text(),
+        "codes": refusal_text(page),
+    }
+    for name, text in collected.items():
         begin, end = f"<!-- {name}: written by python -m tests.reference -->", f"<!-- end of {name} -->"
         before, rest = page.split(begin, 1)
         page = f"{before}{begin}\n\n{text}\n\n{end}{rest.split(end, 1)[1]}"

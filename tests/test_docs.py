@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.block import TIERS
 from fatigue.spectrum import trust
-from tests import reference
+from tests import problem_codes, reference
 from tests.small_case import small_case
 
 ROOT = Path(__file__).parents[1]
@@ -124,8 +124,8 @@ def test_reference_is_that_of_the_program():
 def test_every_warning_has_its_meaning():
     """A code that is told as a warning stands in a table with what it says and what to do."""
     told = reference.warnings_told(read(reference.PAGE))
-    assert not told - set(reference.codes())
-    assert not reference.codes_of_warnings() - told
+    assert not told - set(problem_codes.codes())
+    assert not problem_codes.codes_of_warnings() - told
 
 
 def test_the_house_is_drawn_as_it_is():
@@ -180,7 +180,7 @@ def test_symbols_stand_where_the_notation_says():
     rows = re.findall(r"^\|.*\| `(\w+)` \|[^|]*\|[^|]*\| `([\w.]+)` \|$", read(NOTATION), re.MULTILINE)
     assert len(rows) > 30
     for name, place in rows:
-        thing = found(place)
+        thing = found(f"fatigue.{place}")
         has = hasattr(thing, name) or name in getattr(thing, "__dataclass_fields__", {})
         source = inspect.getsource(getattr(thing, "py_func", thing))
         assert has or re.search(rf"\b{name}\b", source), (name, place)

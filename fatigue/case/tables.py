@@ -12,8 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator,
 
 from fatigue.case.problems import Contradictions, absent, clash, path_problems
 from fatigue.errors import Problem
-from fatigue.life.curves import Applies, Extension, Survival
-from fatigue.life.damage import ThicknessRule
+from fatigue.life.curves import Applies, Extension, Survival, ThicknessRule
 from fatigue.life.records.history import Residue
 
 BODY_FILES = ("modes", "welds", "weld_nodes", "nodal_forces", "element_forces", "weld_elements", "nodes", "elements")

@@ -18,33 +18,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.curves import DamageLaw, SNCurve
-from fatigue.life.damage import (
-    ASME_THICKNESS_LIMITS,
+from fatigue.life.rule import (
     M_SS,
-    ThicknessRule,
+    CycleRule,
     bending_ratio,
     cycle_damage,
-    mean_stress_factor,
-    ratio_factor,
+    equivalent_range,
+    local_slope,
+    log_ratio_factor_slope,
 )
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class DamageRule:
-    """From a structural stress range of one point to its damage.
-
-    ``size`` is the factor of the thickness on the range; ``uses_bending_ratio`` is False for a curve in plain
-    structural stress; ``yield_stress`` [MPa] is given where the mean-stress factor is part of the damage, else None.
-    """
-
-    law: DamageLaw
-    size: float
-    uses_bending_ratio: bool
-    yield_stress: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +56,14 @@ class Credit:
 
 
 def credit(
-    start: Indices, end: Indices, count: Floats, membrane: Floats, bending: Floats, side: float, rule: DamageRule
+    start: Indices,
+    end: Indices,
+    count: Floats,
+    membrane: Floats,
+    bending: Floats,
+    side: float,
+    size: float,
+    rule: CycleRule,
 ) -> Credit:
     """Lay the damage of every cycle on its two instants.
 
@@ -81,30 +73,26 @@ def credit(
         or 0.5; ranges are above 0; a cycle that runs across the end of the record has two instants like any other
     membrane, bending : (t,) membrane stress, and bending stress of the top face [MPa]
     side : +1 top face, -1 bottom face
+    size : factor of the thickness on the range
+    rule : from the range to its damage
     """
     samples = len(membrane)
     dm, db = membrane[end] - membrane[start], bending[end] - bending[start]
     stress = membrane + side * bending
     ds = stress[end] - stress[start]
     S = np.abs(ds)
-    r = bending_ratio(dm, db) if rule.uses_bending_ratio else np.zeros_like(S)
-    x = rule.size * S / (ratio_factor(r) if rule.uses_bending_ratio else 1.0)
-
-    by_range: Floats | float = 1.0  # d ln x / d ln S
-    by_peak: Floats | None = None  # d ln x / d (maximum stress)
     peak = np.where(ds > 0.0, end, start)
-    if rule.yield_stress is not None:  # f_M = (S / maximum)**(1/m) where it applies
-        maximum = stress[peak]
-        f_M = mean_stress_factor(maximum - S, maximum, rule.yield_stress)
-        x = x / f_M
-        by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)
-        by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)
+    maximum = stress[peak]
+    r = bending_ratio(dm, db)
+    f_M = rule.mean_stress_factor(maximum - S, maximum)
+    x = equivalent_range(S, size, rule.ratio_factor(r), f_M)
+    by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)  # d ln x / d ln S, as f_M = (S / maximum)**(1/m)
+    by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)  # d ln x / d maximum
 
     damage = count * cycle_damage(x, rule.law)
     slope = damage * local_slope(x, rule.law)
     by_stress = _on_instants(start, end, slope * by_range / ds, samples)
-    if by_peak is not None:
-        by_stress += np.bincount(peak, slope * by_peak, samples)
+    by_stress += np.bincount(peak, slope * by_peak, samples)
     by_membrane, by_bending = by_stress, side * by_stress
     if rule.uses_bending_ratio:
         by_r = -slope * log_ratio_factor_slope(r) / (np.abs(dm) + np.abs(db))
@@ -121,28 +109,6 @@ def credit(
         by_membrane=by_membrane,
         by_bending=by_bending,
     )
-
-
-def local_slope(equivalent_range: Floats, law: DamageLaw) -> Floats:
-    """Slope k of the segment each equivalent range lies on: d ln(damage) / d ln(range)."""
-    return np.asarray(law.slopes[np.sum(equivalent_range[..., None] < law.knees, axis=-1)])
-
-
-def log_ratio_factor_slope(r: Floats) -> Floats:
-    """Slope d ln(I^(1/m)) / dr of the bending ratio's factor (ASME VIII-2 5.5.5.2)."""
-    return (-0.364 - 0.34 * r) / (1.23 - 0.364 * r - 0.17 * r**2) - (-0.306 - 0.356 * r) / (
-        1.007 - 0.306 * r - 0.178 * r**2
-    )
-
-
-def size_exponent(thickness: float, curve: SNCurve, rule: ThicknessRule) -> float:
-    """Exponent d ln(size) / d ln(t) of the thickness rule at a thickness [mm]; 0 where the rule holds it fixed."""
-    if curve.applies == "dS":
-        low, high = ASME_THICKNESS_LIMITS if rule == "asme" else (0.0, np.inf)
-        return (M_SS - 2.0) / (2.0 * M_SS) if low <= thickness < high else 0.0
-    if curve.thickness_reference is None or thickness < curve.thickness_reference:
-        return 0.0
-    return curve.thickness_exponent
 
 
 def _on_instants(start: Indices, end: Indices, value: Floats, samples: int) -> Floats:

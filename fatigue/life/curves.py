@@ -16,6 +16,7 @@ from fatigue.errors import CaseError, Problem
 Applies = Literal["structural", "dS"]
 Survival = Literal["mean", "mean-1sigma", "mean-2sigma", "mean-3sigma"]
 Extension = Literal["none", "haibach", "cutoff"]
+ThicknessRule = Literal["actual", "asme"]
 
 DEFAULT_SURVIVAL: Survival = "mean-2sigma"
 TABULATED = "as tabulated"

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
-from fatigue.life.damage import cycle_damage
+from fatigue.life.rule import cycle_damage
 
-REFERENCE_CYCLES = 2e6
+REFERENCE_CYCLES = 2e6  # at which European classes are named
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +102,6 @@ def load_factor(
     return np.where(damaged, np.exp(low), np.inf)
 
 
-def equivalent_range(power_sum_per_km: NDArray[np.float64], slope: float, target_km: float) -> NDArray[np.float64]:
+def range_at_2e6(power_sum_per_km: NDArray[np.float64], slope: float, target_km: float) -> NDArray[np.float64]:
     """Find the constant range [MPa] that does the same in 2e6 cycles over the target: ``(sum n S^k / 2e6)^(1/k)``."""
     return np.asarray((power_sum_per_km * target_km / REFERENCE_CYCLES) ** (1.0 / slope))

@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.life.curves import Extension, SNCurve, Survival, damage_law
-from fatigue.life.damage import ThicknessRule, cycle_damage, ratio_factor, size_factor
+from fatigue.life.curves import Extension, SNCurve, Survival, ThicknessRule, damage_law
+from fatigue.life.rule import cycle_damage, ratio_factor, size_factor
 
 EXTENSIONS: dict[Extension, str] = {"none": "no knee", "haibach": "Haibach", "cutoff": "cut-off"}
 

@@ -7,6 +7,7 @@ ASME VIII-2 5.5.5.2 and Annex 5-A.
 """
 
 from dataclasses import dataclass, fields
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,6 +87,25 @@ def _components(load: Floats, along: Floats, stress: Floats) -> None:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class RawEnds:
+    """Nodes whose stress the treatment of weld ends replaces, and their raw stress: as it was solved.
+
+    Attributes
+    ----------
+    rows : (e,) these nodes, ascending
+    stress : their stress before the treatment, (e, m)
+    """
+
+    rows: NDArray[np.intp]
+    stress: StructuralStress
+
+    def at(self, rows: NDArray[np.intp]) -> Self:
+        """Take those among some nodes, ascending, by their places among these."""
+        _, mine, theirs = np.intersect1d(self.rows, rows, assume_unique=True, return_indices=True)
+        return type(self)(theirs, StructuralStress(*(part[mine] for part in _parts(self.stress))))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class LineStress:
     """Structural stress along a line or a stack of lines, with the ends treated and as it was solved (raw).
 
@@ -93,15 +113,14 @@ class LineStress:
     ----------
     line : the weld line or lines, n nodes
     treated : structural stress after the treatment of weld ends
-    mended, before : (z,) nodes whose stress the treatment has replaced, ascending, and their stress before
+    raw_ends : nodes whose stress the treatment has replaced, and their stress before
     at_end, at_corner : (n,) near a weld end; at a kink of more than 30 degrees
     unresolved : (n,) end node whose edge is longer than the end zone
     """
 
     line: Lines
     treated: StructuralStress
-    mended: NDArray[np.intp]
-    before: StructuralStress
+    raw_ends: RawEnds
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
     unresolved: NDArray[np.bool_]
@@ -110,8 +129,8 @@ class LineStress:
     def raw(self) -> StructuralStress:
         """Structural stress of all nodes before the treatment of weld ends."""
         raw = [part.copy() for part in _parts(self.treated)]
-        for part, before in zip(raw, _parts(self.before), strict=True):
-            part[self.mended] = before
+        for part, at_ends in zip(raw, _parts(self.raw_ends.stress), strict=True):
+            part[self.raw_ends.rows] = at_ends
         return StructuralStress(*raw)
 
 
@@ -125,17 +144,16 @@ def line_stress(line: Lines, load: Floats) -> LineStress:
     axes, ends, at_corner = local_axes(line), treat_ends(line, load), corners(line)
     at_corner[line.begin[:-1]] |= line.corner_start
     at_corner[line.begin[1:] - 1] |= line.corner_end
-    mended = np.flatnonzero(ends.treated)
+    rows = np.flatnonzero(ends.treated)
     stress = structural_stress(axes, line.thickness, load)
-    before = StructuralStress(*(part[mended] for part in _parts(stress)))
-    after = structural_stress(axes[mended], line.thickness[mended], ends.mean)
+    raw_ends = RawEnds(rows, StructuralStress(*(part[rows] for part in _parts(stress))))
+    after = structural_stress(axes[rows], line.thickness[rows], ends.mean)
     for part, of_mean in zip(_parts(stress), _parts(after), strict=True):
-        part[mended] = of_mean
+        part[rows] = of_mean
     return LineStress(
         line=line,
         treated=stress,
-        mended=mended,
-        before=before,
+        raw_ends=raw_ends,
         at_end=ends.at_end,
         at_corner=at_corner,
         unresolved=ends.unresolved,

@@ -12,10 +12,11 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.attribution import Credit, DamageRule, credit
+from fatigue.life.attribution import Credit, credit
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import Residue
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.readers.neutral.body import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
@@ -160,8 +161,8 @@ def attribute_event(
         modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         sigma_m, sigma_b = modal_m @ q, modal_b @ q
         counted = [
-            count_credit(m, b, side, rule, residue)
-            for m, b, side, rule in zip(sigma_m, sigma_b, some.side, some.rule, strict=True)
+            count_credit(m, b, side, size, rule, residue)
+            for m, b, side, size, rule in zip(sigma_m, sigma_b, some.side, some.size, some.rule, strict=True)
         ]
         share = coefficients(np.stack([c.share for c in counted]), residue)
         by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
@@ -176,7 +177,7 @@ def attribute_event(
                 "top_cycle": np.array([c.top_cycle for c in counted]),
                 "load_slope": load_slope,
                 "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
-                "rule_slope": load_slope * some.rule_exponent,
+                "rule_slope": load_slope * some.size_exponent,
                 "mode": owed.sum(axis=2),
                 "mode_slope": slope.sum(axis=2),
                 "resonant": modal_s * _resonant_products(share, Q, frequency, modes),
@@ -197,10 +198,12 @@ def attribute_event(
     )
 
 
-def count_credit(sigma_m: Floats, sigma_b: Floats, side: float, rule: DamageRule, residue: Residue) -> Credit:
+def count_credit(
+    sigma_m: Floats, sigma_b: Floats, side: float, size: float, rule: CycleRule, residue: Residue
+) -> Credit:
     """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles."""
     cycles = rainflow(sigma_m + side * sigma_b, residue)
-    return credit(cycles.start, cycles.end, cycles.count, sigma_m, sigma_b, side, rule)
+    return credit(cycles.start, cycles.end, cycles.count, sigma_m, sigma_b, side, size, rule)
 
 
 def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:

@@ -45,9 +45,11 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
     for load, one_pass in zip(loads, plan.passes, strict=True):
         q = np.asarray(load.counted.q)
         scale = load.stress_factor * np.where(mode[:, :, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
-        for w, (side, rule) in enumerate(zip(points.side, points.rule, strict=True)):
+        for w, (side, size, rule) in enumerate(zip(points.side, points.size, points.rule, strict=True)):
             sigma_m, sigma_b = ((scale[w] * modal_stress[w]) @ q for modal_stress in (points.membrane, points.bending))
-            counted = [count_credit(m, b, side, rule, load.residue) for m, b in zip(sigma_m, sigma_b, strict=True)]
+            counted = [
+                count_credit(m, b, side, size, rule, load.residue) for m, b in zip(sigma_m, sigma_b, strict=True)
+            ]
             damage[w] += one_pass.passes_per_km * np.array([c.damage for c in counted])
     life = life_km(attribution.damage[point], plan.damage_limit)
     return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, life_km(damage, plan.damage_limit))

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from fatigue.case import Case
 from fatigue.errors import DataError, Problem
-from fatigue.life.attribution import DamageRule, size_exponent
-from fatigue.life.damage import size_factor
 from fatigue.life.mission import Plan
+from fatigue.life.rule import size_exponent
 from fatigue.pipeline.solve.model import Model, solve_group
 from fatigue.pipeline.solve.weld_groups import SideForces, WeldGroups
 from fatigue.results import read_codes, read_table
@@ -36,8 +35,8 @@ class Points:
     weld, part, order, node, face : (p,) where they are; face 0 is the top, 1 the bottom
     chosen : (p,) why they were chosen
     membrane, bending : (p, m) modal stress with treated ends, bending of the top face [MPa per unit modal coordinate]
-    rule : (p,) from stress range to damage
-    rule_exponent : (p,) d ln(size) / d ln(t) of the thickness rule
+    rule : (p,) from stress range to damage, a ``CycleRule`` each
+    size, size_exponent : (p,) factor of the thickness on the range, and d ln(size) / d ln(t)
     """
 
     weld: NDArray[np.object_]
@@ -49,7 +48,8 @@ class Points:
     membrane: Floats
     bending: Floats
     rule: NDArray[np.object_]
-    rule_exponent: Floats
+    size: Floats
+    size_exponent: Floats
 
     def __len__(self) -> int:
         """Number of points."""
@@ -67,17 +67,16 @@ class Points:
 
 def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64], chosen: NDArray[np.object_]) -> Points:
     """Points of a model, given by station and face."""
-    stations, curve = model.stations, model.case.curve
+    stations = model.stations
     names = np.array([weld.name for weld in model.welds], dtype=object)
-    yield_MPa = curve.yield_MPa if curve.mean_stress == "asme" else None
     rated_of_weld = model.curve_of_weld
     rule = np.empty(len(station), dtype=object)
-    exponent = np.empty(len(station))
+    size, exponent = np.empty(len(station)), np.empty(len(station))
     for i, at in enumerate(station):
         rated, t = rated_of_weld[stations.weld[at]], stations.thickness[at : at + 1]
-        size = float(size_factor(t, rated.curve, curve.thickness_rule)[0])
-        rule[i] = DamageRule(rated.law, size, rated.curve.applies == "dS", yield_MPa)
-        exponent[i] = size_exponent(float(t[0]), rated.curve, curve.thickness_rule)
+        rule[i] = rated.rule
+        size[i] = rated.size(t)[0]
+        exponent[i] = size_exponent(float(t[0]), rated.curve, rated.thickness_rule)
     return Points(
         weld=names[stations.weld[station]],
         part=stations.part[station],
@@ -88,7 +87,8 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
         membrane=stations.treated.membrane[station],
         bending=stations.treated.bending[station],
         rule=rule,
-        rule_exponent=exponent,
+        size=size,
+        size_exponent=exponent,
     )
 
 

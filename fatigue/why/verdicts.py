@@ -8,9 +8,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.life.attribution import DamageRule
-from fatigue.life.damage import ratio_factor
 from fatigue.life.records.history import ModalHistory
+from fatigue.life.rule import CycleRule, ratio_factor
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.body import Body
 from fatigue.quotient import quotient
@@ -93,7 +92,7 @@ def event_verdicts(
     spectra = segment_spectra(load.counted, body.case.spectrum.segment_s, load.moments.upper_hz)
     matrices = trust_matrices(load.counted, spectra)
     modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
-    one_ratio = _one_ratio_rules(points, assessed)
+    one_ratio = _one_ratio_sizes(points, assessed)
     for law in {id(rule.law): rule.law for rule in points.rule}.values():
         at = np.flatnonzero([rule.law is law for rule in points.rule])
         here = assessed.iloc[at]
@@ -115,9 +114,8 @@ def event_verdicts(
         for name in MEASURED:
             found.measured[name][at] = getattr(judgement, name)
         changing = at[found.verdict[at] == "non_stationary"]
-        to_equivalent = np.array([one_ratio[i].size for i in changing])
         rate = damage_rate_by_period(
-            modal_stress[changing] * to_equivalent[:, None], spectra, partial(dirlik_damage_rate, law=law)
+            modal_stress[changing] * one_ratio[changing, None], spectra, partial(dirlik_damage_rate, law=law)
         )
         counted = assessed["damage_same_ratio_per_pass"].to_numpy()[changing]
         found.segmentwise_ratio[changing] = quotient(load.duration * rate, counted)
@@ -134,21 +132,22 @@ def event_verdicts(
     return found
 
 
-def _split(
-    load: EventLoad, points: Points, rules: NDArray[np.object_], assessed: pd.DataFrame, segment_s: float
-) -> RatioSplit:
+def _split(load: EventLoad, points: Points, size: Floats, assessed: pd.DataFrame, segment_s: float) -> RatioSplit:
     """Dirlik over rainflow split at some points by Gaussian surrogates of the event.
 
-    Surrogates are made of the few stresses, not of the many modal coordinates: both have the same spectra.
+    ``size`` (p,) contains the one bending ratio of the event. Surrogates are made of the few stresses, not of the many
+    modal coordinates: both have the same spectra.
     """
     modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
     stresses = replace(load.counted, mode=np.arange(len(modal_stress)), q=modal_stress @ np.asarray(load.counted.q))
 
+    rules = [CycleRule(rule.law, uses_bending_ratio=False) for rule in points.rule]
+
     def damage_rate(surrogate: ModalHistory) -> Floats:
         nothing = np.zeros(surrogate.q.shape[1])  # with one bending ratio only the sum of membrane and bending counts
         counted = [
-            count_credit(s, nothing, 1.0, rule, "repeat")
-            for s, rule in zip(np.asarray(surrogate.q), rules, strict=True)
+            count_credit(s, nothing, 1.0, factor, rule, "repeat")
+            for s, factor, rule in zip(np.asarray(surrogate.q), size, rules, strict=True)
         ]
         return np.array([c.damage for c in counted]) / surrogate.duration
 
@@ -161,13 +160,11 @@ def _split(
     )
 
 
-def _one_ratio_rules(points: Points, assessed: pd.DataFrame) -> NDArray[np.object_]:
-    """Rules with one bending ratio of the event in place of one of each cycle, and without mean stress."""
-    rules = np.empty(len(points), dtype=object)
-    factor = ratio_factor(np.nan_to_num(assessed["bending_ratio"].to_numpy()))
-    for i, (rule, I) in enumerate(zip(points.rule, factor, strict=True)):  # noqa: E741 - the symbol of the standard
-        rules[i] = DamageRule(rule.law, rule.size / (I if rule.uses_bending_ratio else 1.0), False, None)
-    return rules
+def _one_ratio_sizes(points: Points, assessed: pd.DataFrame) -> Floats:
+    """Factors of the thickness over the factor of one bending ratio of the event, in place of one of each cycle."""
+    I = ratio_factor(np.nan_to_num(assessed["bending_ratio"].to_numpy()))  # noqa: E741 - the symbol of the standard
+    uses = np.array([rule.uses_bending_ratio for rule in points.rule], np.bool_)
+    return points.size / np.where(uses, I, 1.0)
 
 
 def _slope_of_damage(attribution: EventAttribution, at: NDArray[np.int64], otherwise: float) -> float:

@@ -5,28 +5,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.life.attribution import (
-    DamageRule,
-    credit,
-    local_slope,
-    log_ratio_factor_slope,
-    size_exponent,
-)
-from fatigue.life.counting.rainflow import count_block, rainflow
-from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
-from fatigue.life.damage import M_SS, cycle_damage, ratio_factor, size_factor
+from fatigue.life.attribution import credit
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.rows import count_histories
+from fatigue.life.curves import catalogue, damage_law, user_curve
+from fatigue.life.rule import CycleRule
 
 ALUMINIUM = catalogue()["master-aluminium"]
 THREE_SLOPES = user_curve("three", (3.0, 5.0, 9.0), (5e6, 1e8), 60.0, "dS", "a test")
 PLAIN = user_curve("plain", (3.0, 5.0), (1e7,), 40.0, "structural", "a test")
 LAWS = {
-    "straight": DamageRule(damage_law(ALUMINIUM, None, "none", 1e7), 1.4, True, None),
-    "haibach": DamageRule(damage_law(ALUMINIUM, None, "haibach", 1e6), 1.4, True, None),
-    "three slopes": DamageRule(damage_law(THREE_SLOPES, None, "none", 1e7), 1.4, True, None),
-    "plain stress": DamageRule(damage_law(PLAIN, None, "none", 1e7), 1.1, False, None),
-    "mean stress": DamageRule(damage_law(ALUMINIUM, None, "none", 1e7), 1.4, True, 120.0),
+    "straight": CycleRule(damage_law(ALUMINIUM, None, "none", 1e7), True),
+    "haibach": CycleRule(damage_law(ALUMINIUM, None, "haibach", 1e6), True),
+    "three slopes": CycleRule(damage_law(THREE_SLOPES, None, "none", 1e7), True),
+    "plain stress": CycleRule(damage_law(PLAIN, None, "none", 1e7), False),
+    "mean stress": CycleRule(damage_law(ALUMINIUM, None, "none", 1e7), True, 120.0, True),
 }
-CUTOFF = DamageRule(damage_law(ALUMINIUM, None, "cutoff", 1e6), 1.4, True, None)
+CUTOFF = CycleRule(damage_law(ALUMINIUM, None, "cutoff", 1e6), True)
+SIZE = 1.4
 SIDES = pytest.mark.parametrize("side", [1.0, -1.0], ids=["top", "bottom"])
 RESIDUES = pytest.mark.parametrize("residue", ["repeat", "half"])
 
@@ -41,28 +37,19 @@ def record(modes=5, samples=600, seed=3):
 def count(membrane, bending, side, rule, residue):
     """Count and lay out the damage of one face."""
     cycles = rainflow(membrane + side * bending, residue)
-    return credit(cycles.start, cycles.end, cycles.count, membrane, bending, side, rule)
+    return credit(cycles.start, cycles.end, cycles.count, membrane, bending, side, SIZE, rule)
 
 
 def damage(membrane, bending, side, rule, residue):
     """Miner sum of one face from the counter of the assessment."""
-    counted = count_block(
-        membrane[None],
-        bending[None],
-        np.array([rule.size]),
-        np.zeros((1, 2)),
-        rule.law,
-        uses_bending_ratio=rule.uses_bending_ratio,
-        residue=residue,
-        yield_MPa=rule.yield_stress,
-        mean_stress=rule.yield_stress is not None,
-    )
+    one = np.array([SIZE]), np.zeros((1, 2))
+    counted = count_histories(membrane[None], bending[None], *one, residue, rule)
     return counted.damage[0, 0 if side > 0 else 1]
 
 
 def mean_tension(rule, q):
     """Lift the first mode so that the mean-stress rule, where it is on, holds for some cycles and not for others."""
-    if rule.yield_stress is not None:
+    if rule.mean_stress:
         q[0] += 6.0
     return q
 
@@ -170,39 +157,3 @@ def test_nothing_happens_nothing_is_owed():
     assert (found.damage, found.top_cycle, found.slope) == (0.0, 0.0, 0.0)
     assert not found.share.any()
     assert not found.by_bending.any()
-
-
-def test_local_slope_changes_at_the_knees():
-    """At a knee the segment of the larger ranges holds, as in the damage itself."""
-    law = DamageLaw(np.array([3.0, 5.0]), np.array([20.0, 25.0]), np.array([40.0]), 0.0)
-    assert local_slope(np.array([80.0, 40.0, 39.9]), law).tolist() == [3.0, 3.0, 5.0]
-    x = np.array([80.0, 20.0])
-    numeric = (np.log(cycle_damage(x * 1.0001, law)) - np.log(cycle_damage(x, law))) / np.log(1.0001)
-    assert local_slope(x, law) == pytest.approx(numeric, rel=1e-9)
-
-
-def test_slope_of_the_bending_ratio_factor():
-    """Slope d ln I^(1/m) / dr against differences of the factor itself."""
-    r, step = np.linspace(0.01, 0.99, 9), 1e-6
-    numeric = (np.log(ratio_factor(r + step)) - np.log(ratio_factor(r - step))) / (2 * step)
-    assert log_ratio_factor_slope(r) == pytest.approx(numeric, rel=1e-8)
-
-
-@pytest.mark.parametrize(
-    ("curve", "rule", "thickness", "expected"),
-    [
-        (ALUMINIUM, "actual", 8.0, (M_SS - 2) / (2 * M_SS)),
-        (ALUMINIUM, "asme", 20.0, (M_SS - 2) / (2 * M_SS)),
-        (ALUMINIUM, "asme", 8.0, 0.0),
-        (ALUMINIUM, "asme", 200.0, 0.0),
-        (PLAIN, "actual", 8.0, 0.0),
-        (user_curve("t", (3.0,), (), 40.0, "structural", "a test", None, 25.0, 0.2), "actual", 30.0, 0.2),
-        (user_curve("t", (3.0,), (), 40.0, "structural", "a test", None, 25.0, 0.2), "actual", 20.0, 0.0),
-    ],
-)
-def test_size_exponent_is_that_of_the_size_factor(curve, rule, thickness, expected):
-    """The exponent of the thickness rule, inside and outside its limits, against the factor itself."""
-    t, step = np.array([thickness]), 1e-6
-    numeric = np.log(size_factor(t * (1 + step), curve, rule) / size_factor(t, curve, rule))[0] / step
-    assert size_exponent(thickness, curve, rule) == pytest.approx(expected)
-    assert numeric == pytest.approx(expected, abs=1e-6)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from fatigue.errors import CaseError
 from fatigue.life.curves import TABULATED, catalogue, damage_law, survival_level, user_curve
-from fatigue.life.damage import cycle_damage
+from fatigue.life.rule import cycle_damage
 
 
 def cycles_to_failure(curve, survival, x, extension="none", knee_cycles=1e7):

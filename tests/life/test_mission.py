@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.life.counting.rainflow import HISTOGRAM_EDGES
+from fatigue.life.counting.block import HISTOGRAM_EDGES
 from fatigue.life.curves import catalogue, damage_law
-from fatigue.life.damage import cycle_damage
-from fatigue.life.mission import Pass, equivalent_range, life_km, load_factor, mission_sum, straight_load_factor
+from fatigue.life.mission import Pass, life_km, load_factor, mission_sum, range_at_2e6, straight_load_factor
+from fatigue.life.rule import cycle_damage
 
 
 def test_shares_and_numbers_add_up_per_km():
@@ -71,4 +71,4 @@ def test_load_factor_on_the_first_slope_is_the_straight_one():
 
 def test_equivalent_range_of_constant_amplitude():
     """2e6 cycles of one range over the target are that range."""
-    assert equivalent_range(np.array([2.0 * 40.0**3.6]), 3.6, 1e6)[0] == pytest.approx(40.0)
+    assert range_at_2e6(np.array([2.0 * 40.0**3.6]), 3.6, 1e6)[0] == pytest.approx(40.0)

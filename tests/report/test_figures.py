@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.life.curves import catalogue, damage_law
-from fatigue.life.damage import cycle_damage
+from fatigue.life.rule import cycle_damage
 from fatigue.report import figures
 from fatigue.report.figures.cycles import cumulative
 from fatigue.report.figures.lines import _end_zones, _unrolled

@@ -10,7 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.life.curves import catalogue, damage_law
-from fatigue.life.damage import cycle_damage, ratio_factor
+from fatigue.life.rule import cycle_damage, ratio_factor
 from fatigue.results import table_writer, write_json
 
 CURVE = "master-aluminium"

@@ -71,12 +71,12 @@ def form_pair(A: Floats, B: Floats) -> FormPair:
 
 
 def face_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
-    """Evaluate both forms of top stress S_m + S_b and bottom stress S_m - S_b, shapes (n, m): (2, n, 2)."""
+    """Evaluate both forms of top stress S_m + S_b and bottom stress S_m - S_b, modal stress (n, m): (2, n, 2)."""
     return part_forms(S_m, S_b, pair)[..., 2:]
 
 
 def part_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
-    """Evaluate both forms of membrane, bending, top and bottom stress, shapes (n, m): (2, n, 4)."""
+    """Evaluate both forms of membrane, bending, top and bottom stress, modal stress (n, m): (2, n, 4)."""
     forms = np.zeros((2, len(S_m), 4))
     if pair.directions.size:
         S_m, S_b, T, weights = (np.ascontiguousarray(a) for a in (S_m, S_b, pair.directions, pair.weights.T))

@@ -1,6 +1,6 @@
 """Proven upper bounds of the damage, for points that need no counting.
 
-Cut a history into its rises and falls. Rainflow gives every piece of them to one cycle: a cycle from v up to p takes
+Cut a history into its rises and falls. Rainflow gives every bit of them to one cycle: a cycle from v up to p takes
 one rise and one fall through [v, p], a half cycle one of the two. So for any rising function f the counted cycles
 satisfy ``sum n (f(p) - f(v)) = TV(f(s)) / 2``, TV the total variation of the counted history (that of a recurring block
 contains the step from its last sample to its first). With ``f(s) = s |s|^(q-1)``, s without its mean,
@@ -15,9 +15,9 @@ range R, and d(x) / x^q never falling, as on every S-N curve with slopes of q an
 For q = 1 this is Markov's inequality, for q equal to the slope the crossing bound of Rychlik (1993). A slope k between
 two powers needs no range: ``sum n S^k <= (sum n S^q)^((p-k)/(p-q)) (sum n S^p)^((k-q)/(p-q))`` (Hoelder), and a curve
 that is steeper for smaller ranges lies nowhere above the straight continuation of any of its segments. The smallest of
-all these bounds is taken. They hold for the record that is counted (upsampled or not) and for shapes that contain the
-event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer, with a loop
-but without counting, from `weld_basis.reduced_bound`.
+all these bounds is taken. They hold for the record that is counted (upsampled or not) and for modal stress that
+contains the event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer,
+with a loop but without counting, from `weld_basis.reduced_bound`.
 """
 
 from collections.abc import Mapping
@@ -29,10 +29,9 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.bounds.forms import FormPair, face_forms, form_pair
-from fatigue.life.curves import DamageLaw
-from fatigue.life.damage import cycle_damage, ratio_factor
-from fatigue.life.records.history import Residue, cached_pieces, mean_and_covariance
+from fatigue.life.records.history import Residue, cached_chunks, mean_and_covariance
 from fatigue.life.records.spool import Samples
+from fatigue.life.rule import CycleRule, cycle_damage, equivalent_range
 
 Floats = NDArray[np.float64]
 PowerSums = Mapping[int, Floats]  # bounds of sum n S^q [MPa^q] by q
@@ -83,8 +82,8 @@ def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | No
     highest, lowest = np.full(modes, -np.inf), np.full(modes, np.inf)
     before = samples - 1 if residue == "repeat" else 0  # what recurs steps from its last sample to its first one
     last = q[:, before : before + 1].astype(np.float64)
-    for piece in cached_pieces(q):
-        x = np.concatenate([last, piece], axis=1)
+    for chunk in cached_chunks(q):
+        x = np.concatenate([last, chunk], axis=1)
         last = x[:, -1:].copy()
         highest, lowest = np.maximum(highest, x.max(axis=1)), np.minimum(lowest, x.min(axis=1))
         step = np.diff(x, axis=1)
@@ -108,7 +107,7 @@ def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | No
 def extent_bound(S_m: Floats, S_b: Floats, forms: Floats, extent: ModalExtent) -> tuple[Floats, PowerSums]:
     """Bound range (n, 2) and sum n S^q, q = 1 and 2, (n, 2) each, of top and bottom stress without a loop over time.
 
-    Shapes S_m, S_b (n, m) as in `count_block_fast`, ``forms`` (2, n, 2) their `face_forms` for ``extent.products``.
+    Modal stress S_m, S_b (n, m) as in `BlockStress`, ``forms`` (2, n, 2) their `face_forms` for ``extent.products``.
 
     With Cauchy-Schwarz twice, ``|w'q| <= sqrt(w'P w) sqrt(q'P^-1 q)`` for any P that is positive definite, and
     ``sum |w'dq| <= sqrt(steps) sqrt(sum (w'dq)^2)``; the sums over the coordinates, ``sum |w| range(q)`` and
@@ -133,16 +132,15 @@ def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, F
     return _peak(variance, modal, extent), np.sqrt(extent.samples * variance), np.sqrt(of_steps)
 
 
-def damage_bound(
-    stress_range: Floats, power_sums: PowerSums, size: Floats, law: DamageLaw, *, uses_bending_ratio: bool
-) -> tuple[Floats, Floats]:
+def damage_bound(stress_range: Floats, power_sums: PowerSums, size: Floats, rule: CycleRule) -> tuple[Floats, Floats]:
     """Bound the damage of one pass and the largest equivalent range of some points, arrays of any one shape.
 
     ``stress_range`` [MPa] and ``power_sums`` bound range and sum n S^q; ``size``, of a shape that fits, is that of
-    `rainflow.count_block`. The bound of the damage is infinite for a law with a slope below every q: there is none
+    `BlockStress`. The bound of the damage is infinite for a law with a slope below every q: there is none
     then. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
     """
-    g = size / (ratio_factor(np.zeros(())) if uses_bending_ratio else 1.0)
+    law, I = rule.law, rule.ratio_factor(np.zeros(()))  # noqa: E741 - the symbol of the standard
+    g = equivalent_range(1.0, size, I, 1.0)
     largest = g * stress_range
     # Raised a little, so that neither rounding nor the choice between two segments at a knee matters.
     worst = cycle_damage(largest * (1.0 + ROUNDING), law)

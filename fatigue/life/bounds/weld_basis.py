@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.bounds.screening import ROUNDING, ModalExtent, PowerSums, size_bound
 from fatigue.life.bounds.weld_sums import SINGLE, Combined, Sums, combined, room_for_histories, sums_in_time
-from fatigue.life.counting.single.count import Record
+from fatigue.life.counting.record import SingleRecord
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -41,15 +41,15 @@ TOLERANCE = 1.5e-2  # rms that the histories of a weld may miss, of the largest 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WeldBases:
-    """Stress shapes of some welds and the few histories of each; see `weld_bases`.
+    """Modal stress of some welds and the few histories of each; see `weld_bases`.
 
     Attributes
     ----------
-    membrane, bending : (n, m) stress shapes
+    membrane, bending : (n, m) modal stress
     weld : (n,) number of the weld of a station, from 0
-    basis : (h, m) shapes of the histories of all welds
+    basis : (h, m) the histories of all welds, per unit modal coordinate
     begin : (w + 1,) row of ``basis`` at which those of a weld begin, and their number
-    membrane_part, bending_part : (n, b) the stress shapes in terms of these rows, filled up with zeros
+    membrane_part, bending_part : (n, b) the modal stress in terms of these rows, filled up with zeros
     membrane_rest, bending_rest : (n, m) what the histories miss
     room : memory for the histories, which one thread may use at a time
     """
@@ -70,8 +70,8 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
     """Find the histories of each weld that serve all events, once per group of welds.
 
     They are the combinations of its membrane and bending stresses with the largest variances, summed over the events in
-    units of the mean over all stations. ``S_m``, ``S_b`` (n, m) are the shapes of whole welds, ``weld`` (n,) tells them
-    apart, stations of one weld side by side; ``extents`` are those of all events.
+    units of the mean over all stations. ``S_m``, ``S_b`` (n, m) are the modal stress of whole welds, ``weld`` (n,)
+    tells them apart, stations of one weld side by side; ``extents`` are those of all events.
     """
     products = S_m.T @ S_m + S_b.T @ S_b
     metric = np.zeros_like(products)
@@ -83,21 +83,21 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
     values, directions = np.linalg.eigh(metric / np.outer(deviation, deviation))
     root = deviation[:, None] * directions * np.sqrt(np.maximum(values, 0.0))
 
-    runs = _runs(weld)
-    leading = [_leading_directions(np.concatenate([S_m[run], S_b[run]]) @ root) for run in runs]
+    welds = _equal_side_by_side(weld)
+    leading = [_leading_directions(np.concatenate([S_m[one], S_b[one]]) @ root) for one in welds]
     parts = np.zeros((2, len(S_m), max(U.shape[1] for U in leading)))
     rests = np.empty((2, *S_m.shape))
     basis = []
-    for run, U in zip(runs, leading, strict=True):
-        S = np.concatenate([S_m[run], S_b[run]])
+    for one, U in zip(welds, leading, strict=True):
+        S = np.concatenate([S_m[one], S_b[one]])
         B = U.T @ S
         basis.append(B)
-        parts[:, run, : len(B)] = np.split(U, 2)
-        rests[:, run] = np.split(S - U @ B, 2)
+        parts[:, one, : len(B)] = np.split(U, 2)
+        rests[:, one] = np.split(S - U @ B, 2)
     return WeldBases(
         membrane=S_m,
         bending=S_b,
-        weld=np.repeat(np.arange(len(runs)), [run.stop - run.start for run in runs]),
+        weld=np.repeat(np.arange(len(welds)), [one.stop - one.start for one in welds]),
         basis=np.concatenate(basis),
         begin=np.cumsum([0] + [len(B) for B in basis]),
         membrane_part=parts[0],
@@ -108,7 +108,7 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
     )
 
 
-def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExtent) -> tuple[Floats, PowerSums]:
+def reduced_bound(bases: WeldBases, rows: Rows, record: SingleRecord, extent: ModalExtent) -> tuple[Floats, PowerSums]:
     """Bound range (r, 2) and sum n S^q, q = 3 and 4, (r, 2) each, of top and bottom stress at some stations.
 
     Parameters
@@ -141,7 +141,7 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: Record, extent: ModalExt
 
 
 def _combined(
-    bases: WeldBases, rows: Rows, scale: Floats, record: Record, extent: ModalExtent
+    bases: WeldBases, rows: Rows, scale: Floats, record: SingleRecord, extent: ModalExtent
 ) -> tuple[Combined, Floats]:
     """Prepare some stations, over their scale, for the loop over time: top beside bottom, weld by weld.
 
@@ -155,17 +155,17 @@ def _combined(
     largest = np.abs(B) @ modal
     rounding = np.empty((*scale.shape, 2))
     histories: list[Floats] = []
-    shapes: list[Floats] = []
-    for run in _runs(bases.weld[rows]):
-        weld = bases.weld[rows[run.start]]
+    matrices: list[Floats] = []
+    for one in _equal_side_by_side(bases.weld[rows]):
+        weld = bases.weld[rows[one.start]]
         of_weld = slice(bases.begin[weld], bases.begin[weld + 1])
         h, m = B[of_weld].shape
-        L_m, L_b = bases.membrane_part[rows[run], :h], bases.bending_part[rows[run], :h]
-        L = np.stack([L_m + L_b, L_m - L_b], axis=1) * unit[of_weld] / scale[run, :, None]
-        rounding[run] = (m + h + 16) * SINGLE * (np.abs(L) @ largest[of_weld])
+        L_m, L_b = bases.membrane_part[rows[one], :h], bases.bending_part[rows[one], :h]
+        L = np.stack([L_m + L_b, L_m - L_b], axis=1) * unit[of_weld] / scale[one, :, None]
+        rounding[one] = (m + h + 16) * SINGLE * (np.abs(L) @ largest[of_weld])
         histories.append(B[of_weld])
-        shapes.append(L.reshape(2 * len(L), h))
-    return combined(histories, shapes), rounding
+        matrices.append(L.reshape(2 * len(L), h))
+    return combined(histories, matrices), rounding
 
 
 def _leading_directions(X: Floats) -> Floats:
@@ -178,7 +178,7 @@ def _leading_directions(X: Floats) -> Floats:
     return np.asarray(vectors[:, kept] if wide else X @ vectors[:, kept] / sizes[kept])
 
 
-def _runs(label: NDArray[np.integer]) -> list[slice]:
+def _equal_side_by_side(label: NDArray[np.integer]) -> list[slice]:
     """Slices of equal labels side by side."""
     edges = [0, *(np.flatnonzero(np.diff(label)) + 1).tolist(), len(label)]
     return [slice(a, b) for a, b in pairwise(edges) if b > a]

@@ -6,15 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.single.power import widest_vectors
-from fatigue.life.counting.single.product import (
+from fatigue.life.counting.single.kernels.power import widest_vectors
+from fatigue.life.counting.single.kernels.product import (
     STEP,
     TILE,
     block_for,
     is_in_panels,
     multiply,
     multiply_rows,
-    prepared_shapes,
+    prepared_rows,
     rows_in_tiles,
     samples_of,
     space_for_samples,
@@ -47,26 +47,26 @@ class Sums(NamedTuple):
 class Combined(NamedTuple):
     """Stresses a = L u of some welds and their histories u = B q.
 
-    ``histories`` (h, m) are the rows B of all welds; ``shapes`` the matrices L of all welds, laid out one after the
+    ``histories`` (h, m) are the rows B of all welds; ``matrices`` L of all welds, laid out one after the
     other; ``begin`` (2, w + 1) says where the histories and the tiles of each weld begin; ``places`` (n,) are the rows
     of the tiles that hold the stresses, those of a weld from the beginning of a tile on.
     """
 
     histories: Singles
-    shapes: Singles
+    matrices: Singles
     begin: Rows
     places: Rows
 
 
-def combined(histories: list[Floats], shapes: list[Floats]) -> Combined:
-    """Lay out the histories (b, m) and the shapes (n, b) of each weld."""
-    tiles = [-(-len(L) // TILE) for L in shapes]
+def combined(histories: list[Floats], matrices: list[Floats]) -> Combined:
+    """Lay out the histories (b, m) and the matrices (n, b) of each weld."""
+    tiles = [-(-len(L) // TILE) for L in matrices]
     begin = np.cumsum([[0, *(len(B) for B in histories)], [0, *tiles]], axis=1)
     return Combined(
         histories=np.concatenate(histories).astype(np.float32),
-        shapes=np.concatenate([rows_in_tiles(L.astype(np.float32)) for L in shapes]),
+        matrices=np.concatenate([rows_in_tiles(L.astype(np.float32)) for L in matrices]),
         begin=begin,
-        places=np.concatenate([TILE * first + np.arange(len(L)) for first, L in zip(begin[1], shapes, strict=False)]),
+        places=np.concatenate([TILE * first + np.arange(len(L)) for first, L in zip(begin[1], matrices, strict=False)]),
     )
 
 
@@ -85,7 +85,7 @@ def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, 
     histories.
     """
     modes = stresses.histories.shape[1]
-    B = prepared_shapes(stresses.histories)
+    B = prepared_rows(stresses.histories)
     width = (u.shape[1] - 1 - STEP) // STEP * STEP
     space = space_for_samples(modes, width, np.float32)
     found = np.zeros((TILE * stresses.begin[1, -1], len(Sums._fields)))
@@ -95,7 +95,7 @@ def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, 
     u[:, 0] = u[:, 1 + before - start]
     room = block_for(TILE, u.shape[1], np.float32)
     add_all = add_in_memory if is_in_panels(record) else add_record
-    add_all(record, B, stresses.shapes, stresses.begin, (samples, width), u, space, room, found)
+    add_all(record, B, stresses.matrices, stresses.begin, (samples, width), u, space, room, found)
     found /= 1.0 - (width + 2) * SINGLE  # sums of a chunk in single precision
     return Sums(*found.T)
 
@@ -103,7 +103,7 @@ def sums_in_time(stresses: Combined, record: Samples, samples: int, u: Singles, 
 def add_record(
     q: Samples,
     histories: Singles,
-    shapes: Singles,
+    matrices: Singles,
     begin: Rows,
     sizes: tuple[int, int],
     u: Singles,
@@ -113,29 +113,29 @@ def add_record(
 ) -> None:
     """Add what `add_sums` finds in a record, ``sizes`` samples long, so many of them at a time.
 
-    As in `single.run` the loop is compiled where the record and the product allow that: `add_in_memory`.
+    As in `kernels.over_time` the loop is compiled where the record and the product allow that: `add_in_memory`.
     """
     samples, width = sizes
     for start in range(0, samples, width):
         end = min(start + width, samples)
         columns = 1 + end - start
         multiply(histories, samples_of(q, start, end, space), u)
-        add_sums(u, columns, shapes, begin, room, found)
+        add_sums(u, columns, matrices, begin, room, found)
         u[:, 0] = u[:, columns - 1]
 
 
 @compiled()
-def add_sums(u: Singles, columns: int, shapes: Singles, begin: Rows, room: Singles, found: Floats) -> None:
+def add_sums(u: Singles, columns: int, matrices: Singles, begin: Rows, room: Singles, found: Floats) -> None:
     """Add what `sums_of_steps` finds in some samples of all stresses, in column 0 of u (h, w) the last one before them.
 
-    ``shapes`` and ``begin`` are those of `Combined`; ``room`` (12, w) is for the stresses of a tile.
+    ``matrices`` and ``begin`` are those of `Combined`; ``room`` (12, w) is for the stresses of a tile.
     """
     done = 0
     for weld in range(begin.shape[1] - 1):
         of_weld = u[begin[0, weld] : begin[0, weld + 1]]
         numbers = TILE * len(of_weld)
         for tile in range(begin[1, weld], begin[1, weld + 1]):
-            multiply_rows(shapes[done : done + numbers], of_weld, columns, room)
+            multiply_rows(matrices[done : done + numbers], of_weld, columns, room)
             done += numbers
             for row in range(TILE):
                 sums = sums_of_steps(room[row, :columns])

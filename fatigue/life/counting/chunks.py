@@ -20,23 +20,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.rainflow import (
-    BlockCount,
-    Buffers,
-    Point,
-    Rules,
+from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles
+from fatigue.life.counting.tally import (
+    CompiledRule,
+    Surface,
     block_count,
-    buffers_for,
-    close_cycles,
+    compiled_rule,
     nothing_counted,
     plain,
     refuse_not_finite,
-    rules_of,
     tally,
 )
-from fatigue.life.curves import DamageLaw
-from fatigue.life.records.history import Residue
-from fatigue.life.records.spool import Samples
+from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
 
@@ -84,53 +81,34 @@ class _Room(NamedTuple):
 
 
 class _Stage(NamedTuple):
-    """Samples of a chunk, whether the record ends with it, and the steps between its columns."""
+    """Samples of a chunk, whether the record ends with it and whether it recurs, and the steps between its columns."""
 
     samples: int
     ends: bool
+    recurs: bool
     steps: int
 
 
-def count_block_long(
-    S_m: Floats,
-    S_b: Floats,
-    q: Samples,
-    size: Floats,
-    same_ratio: Floats,
-    law: DamageLaw,
-    *,
-    uses_bending_ratio: bool,
-    residue: Residue,
-    yield_MPa: float | None,
-    mean_stress: bool,
-    chunk: int = CHUNK,
-) -> BlockCount:
-    """Count the stress S_m @ q + S_b @ q (top) and S_m @ q - S_b @ q (bottom) of a block as `count_block` does.
-
-    Parameters
-    ----------
-    S_m, S_b : (n, m) membrane stress, and bending stress of the top surface [MPa per unit modal coordinate]
-    q : (m, t) modal coordinates
-    size, same_ratio, law, uses_bending_ratio, residue, yield_MPa, mean_stress : as in `count_block`
-    chunk : samples recovered at a time
+def count_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK) -> BlockCount:
+    """Count a block as `count` does, ``chunk`` samples at a time.
 
     Raises
     ------
-    NumericalError : a stress is not finite; CaseError : ``mean_stress`` without a yield stress
+    NumericalError : a stress is not finite
     """
-    rules = rules_of(law, uses_bending_ratio, residue, yield_MPa, mean_stress)
-    totals, histogram = nothing_counted(len(S_m), law)
-    for first in range(0, len(S_m), POINTS):
-        piece = slice(first, first + POINTS)
-        block = _Block(plain(size)[piece], plain(same_ratio)[piece], totals[piece], histogram[piece])
-        _count(plain(S_m)[piece], plain(S_b)[piece], q, block, rules, chunk)
-    return block_count(totals, histogram, rules)
+    compiled_form = compiled_rule(rule)
+    totals, histogram = nothing_counted(len(stress), rule.law)
+    for first in range(0, len(stress), POINTS):
+        some = slice(first, first + POINTS)
+        block = _Block(plain(stress.size)[some], plain(stress.same_ratio)[some], totals[some], histogram[some])
+        _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_form, chunk)
+    return block_count(totals, histogram, rule)
 
 
-def _count(S_m: Floats, S_b: Floats, q: Samples, block: _Block, rules: Rules, chunk: int) -> None:
+def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule: CompiledRule, chunk: int) -> None:
     """Count some points, chunk by chunk."""
-    shapes = np.concatenate([S_m, S_b])
-    points, t = len(S_m), q.shape[1]
+    modal_stress = np.concatenate([S_m, S_b])
+    points, t = len(S_m), record.q.shape[1]
     edges = np.linspace(0, t, -(-t // chunk) + 1).astype(int).tolist()
     width = max((end - first for first, end in pairwise(edges)), default=0)
     stress = np.zeros((2 * points, width + 2))  # between the last sample before and, at the end, the first of all
@@ -139,22 +117,22 @@ def _count(S_m: Floats, S_b: Floats, q: Samples, block: _Block, rules: Rules, ch
     for first, end in pairwise(edges):
         samples, ends = end - first, end == t
         recovered = stress[:, 1 : samples + 1]
-        np.matmul(shapes, q[:, first:end].astype(np.float64, copy=False), out=recovered)
+        np.matmul(modal_stress, record.q[:, first:end].astype(np.float64, copy=False), out=recovered)
         refuse_not_finite(recovered[:points], recovered[points:])
         if first == 0:
             stress[:, 0] = stress[:, 1]
             state.first[:] = stress[:, 1].reshape(2, points).T
-        if ends and rules.recurs:
+        if ends and record.recurs:
             stress[:, samples + 1] = state.first.T.ravel()
-        stage = _Stage(samples, ends, samples + int(ends and rules.recurs))
-        at = count_chunk(stress, stage, 0, state, block, rules, room)
+        stage = _Stage(samples, ends, record.recurs, samples + int(ends and record.recurs))
+        at = count_chunk(stress, stage, 0, state, block, rule, room)
         while at < 2 * points:  # more reversals wait than there is room for
             left, room_before = int(state.waiting.ravel()[at]), room
             state = _grown(state, 2 * left)
             room = _room_for(width + 1, 2 * left)
             for rows, kept in ((state.m, room_before.m), (state.b, room_before.b)):
                 rows.reshape(2 * points, -1)[at, :left] = kept[:left]
-            at = count_chunk(stress, stage, at + 1, state, block, rules, room)
+            at = count_chunk(stress, stage, at + 1, state, block, rule, room)
         stress[:, 0] = stress[:, samples]
     moments = state.moments
     _, mean, second, _, fourth = np.moveaxis(moments, 2, 0)
@@ -306,9 +284,7 @@ def close_all(n: int, recurs: bool, room: _Room) -> int:
 
 
 @compiled()
-def gather_reversals(
-    m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, recurs: bool, state: _State, room: _Room
-) -> int:
+def gather_reversals(m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, state: _State, room: _Room) -> int:
     """Put the reversals of a chunk behind those that wait and return how many there are, 0 before the first step."""
     row, side, s = at[0], 1.0 - 2.0 * at[1], room.stress
     n = 0
@@ -324,11 +300,11 @@ def gather_reversals(
             return 0
         state.first_step[at] = step
         state.plateau[at][0], state.plateau[at][1] = m[i - 1], b[i - 1]
-        if not recurs:  # a single pass turns at its first sample
+        if not stage.recurs:  # a single pass turns at its first sample
             n = append(state.first[row, 0], state.first[row, 1], side, n, room)
     n, step = append_reversals(m, b, side, stage.steps, step, n, room)
     state.step[at] = step
-    if stage.ends and not recurs:
+    if stage.ends and not stage.recurs:
         n = append(m[stage.samples], b[stage.samples], side, n, room)
     elif stage.ends and step != state.first_step[at]:  # a block that recurs turns where its first plateau ends
         n = append(state.plateau[at][0], state.plateau[at][1], side, n, room)
@@ -337,7 +313,7 @@ def gather_reversals(
 
 @compiled()
 def count_chunk(
-    stress: Floats, stage: _Stage, first: int, state: _State, block: _Block, rules: Rules, room: _Room
+    stress: Floats, stage: _Stage, first: int, state: _State, block: _Block, rule: CompiledRule, room: _Room
 ) -> int:
     """Count the steps between the first columns of a block, its membrane rows above its bending rows.
 
@@ -352,13 +328,13 @@ def count_chunk(
             room.stress[i] = m[i] + side * b[i]
         add_moments(room.stress[1 : stage.samples + 1], state.moments[row, surface])
 
-        n = gather_reversals(m, b, (row, surface), stage, rules.recurs, state, room)
+        n = gather_reversals(m, b, (row, surface), stage, state, room)
         if stage.ends:
-            cycles, left = close_all(n, rules.recurs, room), 0
+            cycles, left = close_all(n, stage.recurs, room), 0
         else:
-            cycles, left = close_open(room.s, state.waiting[row, surface], n, rules.recurs, room.buffers)
-        point = Point(room.m, room.b, side, block.size[row], block.same_ratio[row, surface])
-        tally(point, block.totals[row, surface], block.histogram[row, surface], rules, room.buffers, cycles)
+            cycles, left = close_open(room.s, state.waiting[row, surface], n, stage.recurs, room.buffers)
+        point = Surface(room.m, room.b, side, block.size[row], block.same_ratio[row, surface])
+        tally(point, block.totals[row, surface], block.histogram[row, surface], rule, room.buffers, cycles)
 
         state.waiting[row, surface] = left
         for k in range(left):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fatigue.life.records.spool import Samples, Spool, create_spool, time_slices
 
 CACHED_NUMBERS = 125_000  # in double precision: 1 MB
-SHORTEST_PIECE = 64  # samples
+SHORTEST_CHUNK = 64  # samples
 
 Residue = Literal["repeat", "half"]
 
@@ -53,16 +53,16 @@ def kept(history: ModalHistory, start_s: float) -> ModalHistory:
     return replace(history, q=cut, start=history.start + first * history.step)
 
 
-def stress_history(shape: NDArray[np.float64], q: Samples) -> NDArray[np.float64]:
-    """Recover stress histories (..., t) [MPa] of shapes (..., m) [MPa per unit modal coordinate].
+def stress_history(modal_stress: NDArray[np.float64], q: Samples) -> NDArray[np.float64]:
+    """Recover stress histories (..., t) [MPa] from modal stress (..., m) [MPa per unit modal coordinate].
 
     Takes the modal coordinates (m, t) a bounded number of samples at a time, whatever their precision.
     """
-    stress = np.empty((*shape.shape[:-1], q.shape[1]))
+    stress = np.empty((*modal_stress.shape[:-1], q.shape[1]))
     first = 0
-    for piece in cached_pieces(q):
-        end = first + piece.shape[1]
-        stress[..., first:end] = shape @ piece.astype(np.float64, copy=False)
+    for chunk in cached_chunks(q):
+        end = first + chunk.shape[1]
+        stress[..., first:end] = modal_stress @ chunk.astype(np.float64, copy=False)
         first = end
     return stress
 
@@ -70,18 +70,18 @@ def stress_history(shape: NDArray[np.float64], q: Samples) -> NDArray[np.float64
 def mean_and_covariance(q: Samples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Time mean (m,) and covariance (m, m) of modal coordinates (m, t).
 
-    In one pass: each piece about its own mean, and the means of the pieces about each other (Chan, Golub and LeVeque,
+    In one pass: each chunk about its own mean, and the means of the chunks about each other (Chan, Golub and LeVeque,
     1979). Taken from the first sample, so that a record at rest has exactly no variance.
     """
     modes, samples = q.shape
     first, offset = q[:, :1].astype(np.float64), np.zeros(modes)
     products, before = np.zeros((modes, modes)), 0
-    for piece in cached_pieces(q):
-        centred = piece - first
+    for chunk in cached_chunks(q):
+        centred = chunk - first
         mean = centred.mean(axis=1)
         centred -= mean[:, None]
         products += centred @ centred.T
-        count = piece.shape[1]
+        count = chunk.shape[1]
         apart = mean - offset
         offset += apart * (count / (before + count))
         products += np.outer(apart, apart) * (before * count / (before + count))
@@ -89,9 +89,9 @@ def mean_and_covariance(q: Samples) -> tuple[NDArray[np.float64], NDArray[np.flo
     return first[:, 0] + offset, products / samples
 
 
-def cached_pieces(q: Samples) -> Iterator[NDArray[np.floating]]:
-    """Cut modal coordinates (m, t) into pieces of time that stay in the processor's cache in double precision."""
-    width = max(SHORTEST_PIECE, CACHED_NUMBERS // q.shape[0])
+def cached_chunks(q: Samples) -> Iterator[NDArray[np.floating]]:
+    """Cut modal coordinates (m, t) into chunks of time that stay in the processor's cache in double precision."""
+    width = max(SHORTEST_CHUNK, CACHED_NUMBERS // q.shape[0])
     for part in time_slices(q.shape):
         read = q[:, part]
         for first in range(0, read.shape[1], width):

@@ -1,7 +1,7 @@
 """Modal coordinates on disk: sliced like an array, and in memory only as far as a slice reaches.
 
 The file holds chunk after chunk of time, in each of them mode after mode, so that some samples of all modes and all
-samples of one mode are both read in few pieces. Only what a slice needs is mapped into memory, and no longer than the
+samples of one mode are both read in few reads. Only what a slice needs is mapped into memory, and no longer than the
 slice lives: pages of a file that is mapped as a whole would count as memory of the program.
 """
 
@@ -108,7 +108,7 @@ def create_spool(path: Path, shape: tuple[int, int], dtype: np.dtype[np.floating
 
 
 def time_slices(shape: tuple[int, ...]) -> Iterator[slice]:
-    """Cut the samples of modal coordinates (m, t) so that a piece in double precision takes 16 MB, 32 kB at least."""
+    """Cut the samples of modal coordinates (m, t) so that a chunk in double precision takes 16 MB, 32 kB at least."""
     width = max(CHUNK, AT_ONCE // shape[0] // CHUNK * CHUNK)
     return (slice(first, min(first + width, shape[1])) for first in range(0, shape[1], width))
 

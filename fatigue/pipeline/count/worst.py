@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from fatigue.pipeline.count.group import GroupResult
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.solve.stations import Stations
 
 EQUAL = 1.0 - 1e-12  # what is so close to the worst point is as bad: only the order of sums differs

@@ -1,1 +1,5 @@
-"""From a mission to what its events are: records read, cut and checked, and what each brings to every station."""
+"""The records of the events go in; what each of them brings to every station comes out.
+
+``events`` reads and checks the records, ``record_units`` tells times that cannot be s; ``event_load`` holds a record
+that is ready to be counted, with its second-order statistics.
+"""

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.bounds.forms import FormPair, form_pair
-from fatigue.life.counting.single.count import Record, record_of
+from fatigue.life.counting.record import CountedRecord, SingleRecord
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
 from fatigue.life.records.spool import Samples, Spool, create_spool
 from fatigue.spectrum.moments import MomentMatrices, Spectra
@@ -36,7 +37,7 @@ class EventLoad:
     """
 
     counted: ModalHistory
-    single: Record | None
+    single: SingleRecord | None
     residue: Residue
     stress_factor: float
     duration: float
@@ -47,6 +48,11 @@ class EventLoad:
     moment_pairs: tuple[FormPair, ...]
     trust: TrustMatrices | None
     top_mode_hz: float | None
+
+    @property
+    def record(self) -> CountedRecord:
+        """The record as it is counted."""
+        return CountedRecord(self.counted.q, self.residue, self.single)
 
     @property
     def known(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -93,7 +99,7 @@ def prepare_event(
 
 def fast_record(
     q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
-) -> Record:
+) -> SingleRecord:
     """Prepare modal coordinates for the kernel in single precision.
 
     Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
@@ -104,6 +110,6 @@ def fast_record(
     NumericalError : a sample is not finite; DataError : the disk is full
     """
     if not isinstance(q, Spool) or scratch is None or 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
-        return record_of(q, known=known)
+        return single_record(q, known=known)
     path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
-    return record_of(q, create_spool(path, q.shape, np.dtype(np.float32)), known)
+    return single_record(q, create_spool(path, q.shape, np.dtype(np.float32)), known)

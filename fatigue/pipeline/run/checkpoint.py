@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.pipeline.count.group import GroupResult, arrays_of
+from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.results import JOURNAL
 from fatigue.results.folder import STATE, refuse_foreign
 from fatigue.results.publish import STAGING, complete
@@ -29,10 +29,10 @@ def state_key(record: Mapping[str, Any]) -> str:
 
 
 class Checkpoint:
-    """Finished parts of one run, each a group of welds under all events, in a hidden folder of the result folder.
+    """Finished groups of welds of one run, in a hidden folder of the result folder.
 
-    A part is written beside its final name, forced to disk and renamed, so that a part is either whole or not there; a
-    part that a power cut damaged all the same fails its checksum when it is read and is computed again.
+    A group is written beside its final name, forced to disk and renamed, so that it is either whole or not there; one
+    that a power cut damaged all the same fails its checksum when it is read and is computed again.
     """
 
     def __init__(self, result_folder: Path, key: str) -> None:
@@ -55,21 +55,21 @@ class Checkpoint:
         if kind is None or not is_of_use:
             shutil.rmtree(self._root, ignore_errors=True)
 
-    def load(self, part: str) -> GroupResult | None:
+    def load(self, group: str) -> GroupResult | None:
         """Read what an earlier run finished, its checksums tested; None where there is none or it is damaged."""
         try:
-            with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            with self._path(group).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
                 return GroupResult(**arrays)
         except (OSError, ValueError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
             return None
 
-    def save(self, part: str, result: GroupResult) -> None:
-        """Write a finished part so that it survives a kill or a power cut at any moment."""
-        with replacing(self._path(part)) as unfinished, unfinished.open("wb") as file:
+    def save(self, group: str, result: GroupResult) -> None:
+        """Write a finished group so that it survives a kill or a power cut at any moment."""
+        with replacing(self._path(group)) as unfinished, unfinished.open("wb") as file:
             _write_arrays(file, arrays_of(result))
 
-    def _path(self, part: str) -> Path:
-        return self.folder / f"{part}.npz"
+    def _path(self, group: str) -> Path:
+        return self.folder / f"{group}.npz"
 
 
 def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:

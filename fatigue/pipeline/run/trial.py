@@ -12,7 +12,8 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
-from fatigue.pipeline.count.group import GroupResult, assess_group
+from fatigue.pipeline.count.group import assess_group
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import worst_points
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
@@ -148,14 +149,14 @@ def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> in
     if factor != "auto":
         return int(factor)
     load = load_of(body, event, record, 1, single=False)
-    samples_per_peak = trial.counted(load).events[0].samples_per_peak
+    samples_per_peak = trial.counted(load).of_events("samples_per_peak")
     fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))
     return int(min(LARGEST_UPSAMPLE, 2 ** max(0, np.ceil(np.log2(SAMPLES_PER_PEAK / fewest)))))
 
 
 def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:
     """Cycles of the worst points of a group that go into the table."""
-    used_up, cycles = result.mission.utilisation, result.events[0].cycles
+    used_up, cycles = result.mission.utilisation, result.of_events("cycles_per_pass")[0]
     worst = [(p.station, p.face) for p in worst_points(stations, result)]
     return sum(float(np.nan_to_num(cycles[at])) for at in worst if used_up[at] >= (SHARE if single else 0.0))
 

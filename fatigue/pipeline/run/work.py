@@ -8,8 +8,9 @@ from pathlib import Path
 from fatigue.case import Case
 from fatigue.life.bounds.screening import modal_extent
 from fatigue.life.mission import Plan
-from fatigue.pipeline.count.group import GroupResult, assess_group
-from fatigue.pipeline.count.settle import Screening
+from fatigue.pipeline.count.bounds import Screening
+from fatigue.pipeline.count.group import assess_group
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad, fast_record
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.run.checkpoint import state_key
@@ -29,7 +30,7 @@ class Counted:
     """Which points are to be counted.
 
     ``share`` of the damage limit below which a proven bound is enough; 0: count every point; None: `SHARE` for a job
-    large enough for the kernel in single precision, else 0. ``proves_worst``: see `settle.Screening`.
+    large enough for the kernel in single precision, else 0. ``proves_worst``: see `bounds.Screening`.
     """
 
     share: float | None = None

@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from fatigue.pipeline.count.group import GroupResult
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order, fulfil
 from fatigue.pipeline.run.work import Work
@@ -36,11 +36,11 @@ def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[
     executor = ThreadPoolExecutor(number_of_threads, thread_name_prefix="fatigue")
 
     def assessed(number: int) -> Group:
-        before = state.load(_part(number))
+        before = state.load(_name(number))
         if before is not None:
             return Group(solve_group(work.groups, number), before, reused=True)
         model, result = work.group(number)
-        state.save(_part(number), result)
+        state.save(_name(number), result)
         return Group(model, result, reused=False)
 
     def begin(number: int) -> Callable[[], Group]:
@@ -61,7 +61,7 @@ def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -
     under_way: set[Future[dict[str, NDArray[Any]]]] = set()
 
     def begin(number: int) -> Callable[[], Group]:
-        before = state.load(_part(number))
+        before = state.load(_name(number))
         if before is not None:
             return lambda: Group(solve_group(work.groups, number), before, reused=True)
         future = executor.submit(fulfil, replace(order, group=number))
@@ -70,7 +70,7 @@ def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -
         def fetch() -> Group:
             result = GroupResult(**future.result())
             under_way.discard(future)
-            state.save(_part(number), result)
+            state.save(_name(number), result)
             return Group(solve_group(work.groups, number), result, reused=False)
 
         return fetch
@@ -93,6 +93,6 @@ def _in_order(begin: Callable[[int], Callable[[], Group]], groups: int, ahead: i
         yield waiting.popleft()()
 
 
-def _part(number: int) -> str:
+def _name(number: int) -> str:
     """Name under which the result of a group is kept until the run is complete."""
     return f"group-{number:05d}"

@@ -8,21 +8,19 @@ from numpy.typing import NDArray
 
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import DamageLaw, SNCurve, catalogue, damage_law, survival_level, user_curve
-from fatigue.life.damage import ThicknessRule, size_factor
+from fatigue.life.curves import SNCurve, ThicknessRule, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.rule import CycleRule, size_factor
 from fatigue.readers.neutral.body import Weld
 
 
 @dataclass(frozen=True, slots=True)
 class RatedCurve:
-    """A curve as this assessment uses it: at its survival level, with its extension and its rules."""
+    """A curve as this assessment uses it: at a survival level, with the rules that turn cycles into damage."""
 
     curve: SNCurve
     survival: str
-    law: DamageLaw
+    rule: CycleRule
     thickness_rule: ThicknessRule
-    yield_MPa: float | None  # noqa: N815
-    mean_stress: bool
 
     def size(self, thickness: NDArray[np.float64]) -> NDArray[np.float64]:
         """Factor of plates of some thickness [mm] on the range, see ``size_factor``."""
@@ -99,10 +97,8 @@ def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld
         rated[name] = RatedCurve(
             curve=curve,
             survival=survival_level(curve, case.curve.survival),
-            law=law,
+            rule=CycleRule(law, curve.applies == "dS", case.curve.yield_MPa, case.curve.mean_stress == "asme"),
             thickness_rule=case.curve.thickness_rule,
-            yield_MPa=case.curve.yield_MPa,
-            mean_stress=case.curve.mean_stress == "asme",
         )
     refuse(CaseError, problems)
     return rated

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.rainflow import rainflow
-from fatigue.life.damage import bending_ratio, cycle_damage, mean_stress_factor, ratio_factor
 from fatigue.life.records.history import stress_history
+from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.rated_curves import RatedCurve
@@ -25,7 +25,7 @@ _SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
 class KeptPoint:
     """A point whose cycles are kept, without the stations it is one of.
 
-    ``membrane`` and ``bending`` (m,) are its stress shapes, of the top face [MPa per unit modal coordinate];
+    ``membrane`` and ``bending`` (m,) are its modal stress, of the top face [MPa per unit modal coordinate];
     ``thickness`` [mm] that of its plate.
     """
 
@@ -89,8 +89,8 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[
     at_once = max(1, _SAMPLES_AT_ONCE // (2 * load.counted.q.shape[1]))
     for first in range(0, len(points), at_once):
         some = points[first : first + at_once]
-        shapes = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
-        membrane, bending = np.split(stress_history(shapes, load.counted.q), 2)
+        stress = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
+        membrane, bending = np.split(stress_history(stress, load.counted.q), 2)
         for i, point in enumerate(some):
             yield _cycle_rows(point, load, membrane[i], bending[i])
 
@@ -99,17 +99,16 @@ def _cycle_rows(
     point: KeptPoint, load: EventLoad, membrane: NDArray[np.float64], bending: NDArray[np.float64]
 ) -> dict[str, Any]:
     """Count at one point with these stress histories (t,) [MPa]."""
-    rated = point.rated
+    rated, rule = point.rated, point.rated.rule
     stress = membrane + bending if point.face == 0 else membrane - bending
 
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
     r = bending_ratio(dm, db)
     size = rated.size(np.array([point.thickness]))
-    dS = cycles.range * size / (ratio_factor(r) if rated.curve.applies == "dS" else 1.0)
-    if rated.mean_stress and rated.yield_MPa is not None:
-        low = np.minimum(stress[cycles.start], stress[cycles.end])
-        dS = dS / mean_stress_factor(low, low + cycles.range, rated.yield_MPa)
+    minimum = np.minimum(stress[cycles.start], stress[cycles.end])
+    f_M = rule.mean_stress_factor(minimum, minimum + cycles.range)
+    dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
 
     n = len(cycles.range)
     step, start = load.counted.step, load.counted.start
@@ -130,5 +129,5 @@ def _cycle_rows(
         "bending_range_MPa": db,
         "bending_ratio": r,
         "equivalent_range_dS": dS,
-        "damage": cycles.count * cycle_damage(dS, rated.law),
+        "damage": cycles.count * cycle_damage(dS, rule.law),
     }

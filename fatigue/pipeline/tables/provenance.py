@@ -112,9 +112,9 @@ def _curve_record(rated: RatedCurve) -> dict[str, Any]:
         "source": curve.source,
         "used": {
             "survival": rated.survival,
-            "slopes": rated.law.slopes,
-            "log_constants": rated.law.log_constants,
-            "knees": rated.law.knees,
-            "cutoff": rated.law.cutoff,
+            "slopes": rated.rule.law.slopes,
+            "log_constants": rated.rule.law.log_constants,
+            "knees": rated.rule.law.knees,
+            "cutoff": rated.rule.law.cutoff,
         },
     }

@@ -7,7 +7,7 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
-from fatigue.life.damage import cycle_damage
+from fatigue.life.rule import cycle_damage
 from fatigue.report.figures.given import ResultTable, check_known, check_one_each, frame_of
 from fatigue.report.figures.style import (
     DASHES,

@@ -4,16 +4,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fatigue.life.curves import DamageLaw, SNCurve, Survival, catalogue, damage_law, user_curve
-from fatigue.life.damage import (
-    ThicknessRule,
+from fatigue.life.curves import DamageLaw, SNCurve, Survival, ThicknessRule, catalogue, damage_law, user_curve
+from fatigue.life.rule import (
     bending_ratio,
     cycle_damage,
+    equivalent_range,
     mean_stress_factor,
     ratio_factor,
-    shear_factor,
     size_factor,
 )
+from fatigue.life.shear import shear_factor
 from fatigue.verify.check import Check
 
 ASME = "ASME VIII-2 5.5.5.2 and Annex 3-F, Table 3-F.11M"
@@ -56,7 +56,8 @@ def _master_case(
     curve = catalogue()[f"master-{metal}"]
     case = f"{metal}, t = {t:g} ({rule}), {membrane:g} + {bending:g} MPa"
     r = bending_ratio(np.array([membrane]), np.array([bending]))
-    found = float((membrane + bending) * size_factor(np.array([t]), curve, rule)[0] / ratio_factor(r)[0])
+    size = size_factor(np.array([t]), curve, rule)
+    found = float(equivalent_range(membrane + bending, size, ratio_factor(r), 1.0)[0])
     yield Check("master curve", case, "dS", "MPa mm^-0.222", dS, found, EIGHT_DIGITS * 2, ASME)
     for level, expected in zip(LEVELS, cycles, strict=True):
         lives = _cycles(found, damage_law(curve, level, "none", 1e7))

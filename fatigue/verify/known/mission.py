@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from fatigue.life.curves import catalogue, damage_law
-from fatigue.life.mission import Pass, equivalent_range, life_km, load_factor, mission_sum, straight_load_factor
+from fatigue.life.mission import Pass, life_km, load_factor, mission_sum, range_at_2e6, straight_load_factor
 from fatigue.verify.check import Check
 
 PLAIN = "arithmetic"
@@ -24,7 +24,7 @@ def mission_checks() -> Iterator[Check]:
     yield _mission(case, "life without damage", "1/km", 0.0, float(1 / life_km(np.zeros(1), 0.5)[0]))
     factor = float(straight_load_factor(np.array([8.0]), 3.0)[0])
     yield _mission("utilisation 8, slope 3", "load factor", "-", 0.5, factor)
-    found = float(equivalent_range(np.array([4.0 * 30.0**3]), 3.0, 5e5)[0])
+    found = float(range_at_2e6(np.array([4.0 * 30.0**3]), 3.0, 5e5)[0])
     yield _mission("4 cycles of 30 MPa a km, 5e5 km, k = 3", "range at 2e6 cycles", "MPa", 30.0, found)
 
     law = damage_law(catalogue()["en1993-hotspot-100"], None, "none", 1e7)

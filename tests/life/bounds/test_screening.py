@@ -15,10 +15,11 @@ from fatigue.life.bounds.screening import (
     may_need_mean_stress,
     modal_extent,
 )
-from fatigue.life.counting.rainflow import count_block, rainflow
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.rows import count_histories
 from fatigue.life.curves import DamageLaw
-from fatigue.life.damage import cycle_damage
 from fatigue.life.records.history import ModalHistory, Residue, upsampled
+from fatigue.life.rule import CycleRule, cycle_damage
 from tests.awkward_records import KINDS, LAWS, modal_coordinates
 
 Floats = NDArray[np.float64]
@@ -44,10 +45,9 @@ def test_no_point_is_damaged_more_than_its_bound(kind: str, residue: Residue) ->
         S_m, S_b = (scale * rng.normal(size=(20, len(q))) for _ in range(2))
         S_b[0], S_m[1], S_b[2] = S_m[0], 0.0, 0.0
         size = rng.uniform(1.0, 2.0, 20)
-        choices = {"uses_bending_ratio": uses_ratio, "residue": residue, "yield_MPa": None, "mean_stress": False}
-        count = count_block(S_m @ q, S_b @ q, size, np.zeros((20, 2)), law, **choices)
+        count = count_histories(S_m @ q, S_b @ q, size, np.zeros((20, 2)), residue, CycleRule(law, uses_ratio))
         largest, sums = bound_of(S_m, S_b, modal_extent(q, residue))
-        bound, equivalent = damage_bound(largest, sums, size[:, None], law, uses_bending_ratio=uses_ratio)
+        bound, equivalent = damage_bound(largest, sums, size[:, None], CycleRule(law, uses_ratio))
 
         stress = np.stack([S_m + S_b, S_m - S_b], axis=1)
         s = stress @ q
@@ -66,13 +66,10 @@ def test_no_point_is_damaged_more_than_its_bound(kind: str, residue: Residue) ->
 def test_the_ranges_add_up_to_half_the_total_variation(signal: list[int], residue: Residue) -> None:
     """At slope 1 without bending the bound is the damage, for any history."""
     s = np.array([signal], dtype=float)
-    choices = {"uses_bending_ratio": False, "residue": residue, "yield_MPa": None, "mean_stress": False}
-    count = count_block(s, 0 * s, np.ones(1), np.zeros((1, 2)), LAWS["slope 1"], **choices)
+    count = count_histories(s, 0 * s, np.ones(1), np.zeros((1, 2)), residue, CycleRule(LAWS["slope 1"], False))
     closed = np.append(s, s[:, :1] if residue == "repeat" else [])
     variation = np.abs(np.diff(closed)).sum(keepdims=True)
-    bound, _ = damage_bound(
-        np.ptp(s, axis=1), {1: variation / 2}, np.ones(1), LAWS["slope 1"], uses_bending_ratio=False
-    )
+    bound, _ = damage_bound(np.ptp(s, axis=1), {1: variation / 2}, np.ones(1), CycleRule(LAWS["slope 1"], False))
     assert bound[0] == pytest.approx(count.damage[0, 0], rel=1e-8)
 
 
@@ -93,13 +90,11 @@ def test_the_powers_of_the_ranges_are_bounded_by_the_crossings(signal: list[floa
 def test_constant_amplitude_is_damaged_as_much_as_its_bound(law: DamageLaw) -> None:
     """Cycles of one range from the first sample on: nothing smaller is possible in membrane stress."""
     wave = np.tile([0.0, 100.0], 50)[None]
-    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
-    count = count_block(wave, 0 * wave, np.ones(1), np.zeros((1, 2)), law, **choices)
+    count = count_histories(wave, 0 * wave, np.ones(1), np.zeros((1, 2)), "repeat", CycleRule(law, True))
     bound, largest = damage_bound(
         *bound_of(np.ones((1, 1)), np.zeros((1, 1)), modal_extent(wave, "repeat")),
         np.ones(1),
-        law,
-        uses_bending_ratio=True,
+        CycleRule(law, True),
     )
     assert bound[0] == pytest.approx(count.damage[0], rel=1e-7)
     assert largest[0] == pytest.approx(count.max_equivalent_range[0], rel=1e-7)
@@ -118,9 +113,8 @@ def test_the_bound_without_a_time_loop_is_not_far_off() -> None:
     assert np.median(largest / np.ptp(s, axis=1)) < 3.5
     assert np.median(sums[1] / np.abs(np.diff(s)).sum(axis=1)) < 0.7
     law = LAWS["straight"]
-    choices = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": False}
-    damage = count_block(s, 0 * s, np.ones(50), np.zeros((50, 2)), law, **choices).damage[:, 0]
-    bound, _ = damage_bound(largest, sums, np.ones(50), law, uses_bending_ratio=True)
+    damage = count_histories(s, 0 * s, np.ones(50), np.zeros((50, 2)), "half", CycleRule(law, True)).damage[:, 0]
+    bound, _ = damage_bound(largest, sums, np.ones(50), CycleRule(law, True))
     assert np.median(bound / damage) < 60.0
 
 
@@ -130,7 +124,7 @@ def test_the_exact_sums_of_any_ranges_bound_their_damage(ranges: list[float], na
     """Whatever the ranges, without the crossings in between."""
     S, law = np.array(ranges), LAWS[name]
     sums = {q: (S**q).sum(keepdims=True) for q in (1, 2, 3, 4)}
-    bound, _ = damage_bound(S.max(keepdims=True), sums, np.ones(1), law, uses_bending_ratio=False)
+    bound, _ = damage_bound(S.max(keepdims=True), sums, np.ones(1), CycleRule(law, False))
     assert cycle_damage(S, law).sum() <= bound[0]
 
 
@@ -139,8 +133,8 @@ def test_one_large_cycle_does_not_spoil_the_bound_between_two_powers() -> None:
     S, law = np.append(np.full(1000, 50.0), 200.0), LAWS["straight"]
     sums = {q: (S**q).sum(keepdims=True) for q in (1, 2, 3, 4)}
     damage = cycle_damage(S, law).sum()
-    tight, _ = damage_bound(S[-1:], sums, np.ones(1), law, uses_bending_ratio=False)
-    wide, _ = damage_bound(S[-1:], {q: sums[q] for q in (1, 2, 3)}, np.ones(1), law, uses_bending_ratio=False)
+    tight, _ = damage_bound(S[-1:], sums, np.ones(1), CycleRule(law, False))
+    wide, _ = damage_bound(S[-1:], {q: sums[q] for q in (1, 2, 3)}, np.ones(1), CycleRule(law, False))
     assert tight[0] < 1.1 * damage
     assert wide[0] > 1.6 * damage
 
@@ -149,7 +143,7 @@ def test_below_the_cutoff_there_is_no_damage() -> None:
     """The bound is 0, not small."""
     law = LAWS["cutoff"]
     ranges = np.array([0.99, 1.01]) * law.cutoff
-    bound, _ = damage_bound(ranges, {1: 50 * ranges}, np.ones(2), law, uses_bending_ratio=False)
+    bound, _ = damage_bound(ranges, {1: 50 * ranges}, np.ones(2), CycleRule(law, False))
     assert (bound > 0.0).tolist() == [False, True]
 
 
@@ -157,7 +151,7 @@ def test_a_slope_below_1_has_no_bound() -> None:
     """Many small cycles may then do more damage than few large ones."""
     law = DamageLaw(np.array([0.9]), np.array([10.0]), np.array([]), 0.0)
     sums = {q: np.ones(1) for q in (1, 2, 3)}
-    assert np.isinf(damage_bound(np.ones(1), sums, np.ones(1), law, uses_bending_ratio=False)[0]).all()
+    assert np.isinf(damage_bound(np.ones(1), sums, np.ones(1), CycleRule(law, False))[0]).all()
 
 
 def test_points_in_high_mean_tension_are_told() -> None:

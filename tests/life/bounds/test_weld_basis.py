@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 from fatigue.life.bounds import weld_basis, weld_sums
 from fatigue.life.bounds.screening import ModalExtent, damage_bound, modal_extent
 from fatigue.life.bounds.weld_basis import WeldBases, reduced_bound, weld_bases
-from fatigue.life.counting.rainflow import count_block, rainflow
-from fatigue.life.counting.single.count import Record, record_of
+from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.record import SingleRecord
+from fatigue.life.counting.rows import count_histories
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.records.history import Residue
 from fatigue.life.records.spool import create_spool
+from fatigue.life.rule import CycleRule
 from tests.awkward_records import KINDS, LAWS, modal_coordinates
 
 Floats = NDArray[np.float64]
@@ -53,7 +56,7 @@ def test_no_point_is_damaged_more_than_its_bound(kind: str, residue: Residue, mo
         rows = np.flatnonzero(rng.random(len(weld)) < 0.8)
         stress = np.stack([S_m + S_b, S_m - S_b], axis=1)[rows]
         for q, extent in zip(events, extents, strict=True):
-            largest, sums = reduced_bound(bases, rows, record_of(q), extent)
+            largest, sums = reduced_bound(bases, rows, single_record(q), extent)
             s = stress @ q
             noise = 1e-12 * np.abs(stress) @ np.abs(q).max(axis=1) * s.shape[-1]
             assert (np.ptp(s, axis=-1) <= largest + noise).all()
@@ -62,10 +65,11 @@ def test_no_point_is_damaged_more_than_its_bound(kind: str, residue: Residue, mo
                 for p, bound in sums.items():
                     power_sum = (cycles.count * np.maximum(cycles.range - noise[at], 0.0) ** p).sum()
                     assert power_sum <= bound[at], (p, at)
-            choices = {"uses_bending_ratio": True, "residue": residue, "yield_MPa": None, "mean_stress": False}
             law, size = laws[draw % len(laws)], np.ones(len(rows))
-            count = count_block(S_m[rows] @ q, S_b[rows] @ q, size, np.zeros(largest.shape), law, **choices)
-            bound, _ = damage_bound(largest, sums, size[:, None], law, uses_bending_ratio=True)
+            count = count_histories(
+                S_m[rows] @ q, S_b[rows] @ q, size, np.zeros(largest.shape), residue, CycleRule(law, True)
+            )
+            bound, _ = damage_bound(largest, sums, size[:, None], CycleRule(law, True))
             counted = count.max_range > noise
             assert (count.damage[counted] <= bound[counted]).all()
 
@@ -95,7 +99,7 @@ def test_a_smooth_weld_needs_few_histories_and_its_bounds_are_close(residue: Res
     bases = weld_bases(S_m, S_b, np.zeros(10, int), [extent])
     assert len(bases.basis) <= 4
     rows = np.arange(10)
-    largest, sums = reduced_bound(bases, rows, record_of(q), extent)
+    largest, sums = reduced_bound(bases, rows, single_record(q), extent)
     s = np.stack([S_m + S_b, S_m - S_b], axis=1) @ q
     s -= s.mean(axis=-1, keepdims=True)
     closed = np.concatenate([s, s[..., :1]], axis=-1) if residue == "repeat" else s
@@ -104,19 +108,18 @@ def test_a_smooth_weld_needs_few_histories_and_its_bounds_are_close(residue: Res
         exact = 2.0 ** (p - 2) * np.abs(np.diff(closed * np.abs(closed) ** (p - 1))).sum(axis=-1)
         assert bound == pytest.approx(exact, rel=0.02)
     law, ones = LAWS["straight"], np.ones(10)
-    choices = {"uses_bending_ratio": False, "residue": residue, "yield_MPa": None, "mean_stress": False}
-    damage = count_block(S_m @ q, S_b @ q, ones, np.zeros((10, 2)), law, **choices).damage
-    bound, _ = damage_bound(largest, sums, ones[:, None], law, uses_bending_ratio=False)
+    damage = count_histories(S_m @ q, S_b @ q, ones, np.zeros((10, 2)), residue, CycleRule(law, False)).damage
+    bound, _ = damage_bound(largest, sums, ones[:, None], CycleRule(law, False))
     assert (bound / damage).max() < 1.33
 
 
-def three_welds(samples: int) -> tuple[WeldBases, NDArray[np.intp], Record, ModalExtent]:
+def three_welds(samples: int) -> tuple[WeldBases, NDArray[np.intp], SingleRecord, ModalExtent]:
     """What the bounds of all stations of three welds need."""
     q = resonances(12, samples, 3)
     S_m, S_b = smooth_weld(q, 20, 4)
     extent = modal_extent(q, "repeat")
     bases = weld_bases(S_m, S_b, np.repeat([0, 1, 2], [9, 4, 7]), [extent])
-    return bases, np.arange(20), record_of(q), extent
+    return bases, np.arange(20), single_record(q), extent
 
 
 def test_chunks_leave_no_seam(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,7 +144,7 @@ def test_every_station_has_its_own_bound() -> None:
     """Whatever other stations and welds are asked for with it."""
     q = resonances(12, 1000, 5)
     S_m, S_b = smooth_weld(q, 20, 6)
-    extent, record = modal_extent(q, "half"), record_of(q)
+    extent, record = modal_extent(q, "half"), single_record(q)
     bases = weld_bases(S_m, S_b, np.repeat([7, 3, 5], [9, 4, 7]), [extent])
     largest, sums = reduced_bound(bases, np.arange(20), record, extent)
     for rows in (np.array([2, 10, 11, 19]), np.array([12])):
@@ -166,12 +169,12 @@ def test_a_record_is_read_by_slices_of_time_only(tmp_path: Path) -> None:
 
     q = resonances(6, 9000, 7)
     S_m, S_b = smooth_weld(q, 5, 8)
-    extent, record = modal_extent(q, "repeat"), record_of(q)
+    extent, record = modal_extent(q, "repeat"), single_record(q)
     on_disk = modal_extent(OnDisk(q), "repeat")
     assert on_disk.reach == extent.reach
     bases = weld_bases(S_m, S_b, np.zeros(5, int), [extent])
     expected = reduced_bound(bases, np.arange(5), record, extent)
-    of_file = record_of(q, create_spool(tmp_path / "q", q.shape, np.dtype(np.float32)))
+    of_file = single_record(q, create_spool(tmp_path / "q", q.shape, np.dtype(np.float32)))
     found = reduced_bound(bases, np.arange(5), of_file, on_disk)
     np.testing.assert_equal(found, expected)
 
@@ -201,7 +204,7 @@ def test_hardly_any_stress_beside_much_of_it_is_bounded_too(level: float) -> Non
     S_m[4:9], S_b[4:9] = level * np.random.default_rng(14).normal(size=(2, 5, 12))
     extent = modal_extent(q, "half")
     bases = weld_bases(S_m, S_b, np.zeros(20, int), [extent])
-    largest, sums = reduced_bound(bases, np.arange(4, 9), record_of(q), extent)
+    largest, sums = reduced_bound(bases, np.arange(4, 9), single_record(q), extent)
     assert all(np.isfinite(bound).all() for bound in sums.values())
     assert (np.ptp((S_m[4:9] + S_b[4:9]) @ q, axis=1) <= largest[:, 0]).all()
     for number, cycles in enumerate(rainflow(s, "half") for s in (S_m[4:9] + S_b[4:9]) @ q):

@@ -5,8 +5,15 @@ import pytest
 from numpy.typing import NDArray
 
 from fatigue.life.bounds.weld_sums import Sums, combined, room_for_histories, sums_in_time
-from fatigue.life.counting.single.count import record_of
-from fatigue.life.counting.single.product import CACHE_LINE, TILE, block_for, multiply_rows, rows_by_blas, rows_in_tiles
+from fatigue.life.counting.single.kernels.product import (
+    CACHE_LINE,
+    TILE,
+    block_for,
+    multiply_rows,
+    rows_by_blas,
+    rows_in_tiles,
+)
+from fatigue.life.counting.single.prepare import single_record
 
 Floats = NDArray[np.float64]
 
@@ -30,7 +37,7 @@ def test_sums_are_those_of_the_combined_histories(samples: int, recurs: bool) ->
     """Three welds of 5, 1 and 14 stresses from 3, no and 13 histories, in chunks that end anywhere."""
     rng = np.random.default_rng(samples)
     q = rng.normal(size=(8, samples)).cumsum(axis=1)
-    record = record_of(q)
+    record = single_record(q)
     stresses, histories, shapes, places = [], [], [], []
     first = 0
     for n, b in ((5, 3), (1, 0), (14, 13)):

@@ -1,6 +1,7 @@
 """Counting chunk by chunk against counting whole rows: the same cycles, wherever the chunks end."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,11 +10,14 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, NumericalError
-from fatigue.life.counting.chunks import count_block_long
-from fatigue.life.counting.rainflow import BlockCount, count_block
+from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.chunks import count_chunks
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.rows import count_histories, count_rows
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.records.history import Residue
 from fatigue.life.records.spool import create_spool
+from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
 
@@ -31,18 +35,18 @@ RATIO_FREE = ("damage_same_ratio", "cycles", "power_sum", "max_range", "mean", "
 
 
 def both_counts(
-    stresses: Floats, chunk: int, residue: Residue, law: DamageLaw = LAWS["straight"], **choices: object
+    stresses: Floats, chunk: int, residue: Residue, law: DamageLaw = LAWS["straight"], **choices: Any
 ) -> tuple[BlockCount, BlockCount]:
     """Count membrane and bending stresses (2, n, t) whole and in chunks; the stresses are the modal coordinates."""
     _, n, t = stresses.shape
-    rules = {"uses_bending_ratio": True, "residue": residue, "yield_MPa": None, "mean_stress": False} | choices
+    rule = CycleRule(law, **({"uses_bending_ratio": True} | choices))
     rng = np.random.default_rng(n)
     size, ratio = rng.uniform(1.0, 2.0, n), rng.uniform(0.0, 1.0, (n, 2))
     S_m, S_b = np.eye(n, 2 * n), np.eye(n, 2 * n, n)
     q = stresses.reshape(2 * n, t)
     return (
-        count_block_long(S_m, S_b, q, size, ratio, law, **rules, chunk=chunk),
-        count_block(*stresses, size, ratio, law, **rules),
+        count_chunks(BlockStress(S_m, S_b, size, ratio), CountedRecord(q, residue), rule, chunk),
+        count_histories(*stresses, size, ratio, residue, rule),
     )
 
 
@@ -160,11 +164,9 @@ def test_more_points_than_are_counted_at_a_time(tmp_path) -> None:
     spool = create_spool(tmp_path / "q", q.shape, q.dtype)
     spool[:, :] = q
     S_m, S_b = rng.normal(size=(2, 300, 6))
-    rules = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
-    size, ratio = np.ones(300), np.zeros((300, 2))
-    wide = q.astype(np.float64)
-    whole = count_block(S_m @ wide, S_b @ wide, size, ratio, LAWS["haibach"], **rules)
-    assert_same(count_block_long(S_m, S_b, spool, size, ratio, LAWS["haibach"], **rules), whole)
+    stress, rule = BlockStress(S_m, S_b, np.ones(300), np.zeros((300, 2))), CycleRule(LAWS["haibach"], True)
+    whole = count_rows(stress, CountedRecord(q.astype(np.float64), "repeat"), rule)
+    assert_same(count_chunks(stress, CountedRecord(spool, "repeat"), rule), whole)
 
 
 def test_what_cannot_be_counted_is_refused() -> None:
@@ -172,8 +174,8 @@ def test_what_cannot_be_counted_is_refused() -> None:
     stresses = np.random.default_rng(0).normal(size=(2, 3, 40))
     with pytest.raises(CaseError, match="f_M needs the yield stress"):
         both_counts(stresses, 8, "half", mean_stress=True)
-    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": False}
     q = np.ones((1, 9))
     q[0, 7] = np.inf
+    one = BlockStress(np.ones((1, 1)), np.ones((1, 1)), np.ones(1), np.zeros((1, 2)))
     with pytest.raises(NumericalError, match="row 0 of the block: the stress is NaN or infinite"):
-        count_block_long(np.ones((1, 1)), np.ones((1, 1)), q, np.ones(1), np.zeros((1, 2)), LAWS["cutoff"], **rules)
+        count_chunks(one, CountedRecord(q, "half"), CycleRule(LAWS["cutoff"], True))

@@ -15,7 +15,7 @@ from hypothesis.extra import numpy as arrays
 
 import fatigue
 from fatigue.errors import CaseError, DataError, FatigueError, NumericalError
-from fatigue.life.counting.rainflow import buffers_for, find_cycles
+from fatigue.life.counting.reversals import buffers_for, find_cycles
 
 PLAIN = [0.0, 3.0, -1.0, 2.0, 0.0]
 

@@ -8,18 +8,18 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.errors import DataError, FatigueError
-from fatigue.life.counting.single.product import prepared_samples, space_for_samples
+from fatigue.life.counting.single.kernels.product import prepared_samples, space_for_samples
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.records import spool
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Spool
-from fatigue.pipeline.count.event_block import EventBlock
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.mission import events
 from fatigue.pipeline.mission.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
 from fatigue.pipeline.solve.body import read_body
-from fatigue.pipeline.solve.modal_stress import Shapes
+from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.weld_groups import weld_groups
-from tests.one_event import assess_event_block
+from tests.one_event import NO_RAW_ENDS, assess_event_block, numbers_of
 from tests.small_case import small_case
 
 
@@ -222,12 +222,12 @@ def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_p
     event = body.case.mission.event[number]
     law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
     S = np.random.default_rng(2).normal(size=(4, 5, 3))
-    shapes = Shapes(*S, size=np.full(5, 1.5), law=law, uses_bending_ratio=True)
-    held = assess_event_block(shapes, event_load(body, event, 2), 40.0, mean_stress=True)
+    rule = CycleRule(law, uses_bending_ratio=True, yield_MPa=40.0, mean_stress=True)
+    stress = ModalStress(*S, size=np.full(5, 1.5), rule=rule, **NO_RAW_ENDS)
+    held = numbers_of(assess_event_block(stress, event_load(body, event, 2)))
     monkeypatch.setattr(spool, "CHUNK", 512)
     spooled = event_load(body, event, 2, scratch=tmp_path / "histories")
     assert isinstance(spooled.counted.q, Spool)
-    found = assess_event_block(shapes, spooled, 40.0, mean_stress=True)
-    for name in EventBlock.__slots__:
-        close = 1e-9 if name == "kurtosis" else 1e-12
-        np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=close, atol=1e-13, err_msg=name)
+    for name, found in numbers_of(assess_event_block(stress, spooled)).items():
+        close = 1e-9 if name == "count.kurtosis" else 1e-12
+        np.testing.assert_allclose(found, held[name], rtol=close, atol=1e-13, err_msg=name)

@@ -31,7 +31,7 @@ def test_welds_may_have_curves_of_their_own(tmp_path):
     assert [body.curve_of(w).curve.name for w in body.welds] == ["master-aluminium", "own"]
     assert body.curves["master-aluminium"].survival == "mean-2sigma"
     assert body.curves["own"].survival == "as tabulated"
-    assert body.curves["own"].law.slopes.tolist() == [3.0, 5.0]
+    assert body.curves["own"].rule.law.slopes.tolist() == [3.0, 5.0]
 
 
 @pytest.mark.parametrize(

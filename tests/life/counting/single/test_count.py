@@ -1,8 +1,7 @@
-"""The fast counter against the double precision one, the `rainflow` package and its own plain loops."""
+"""The counter in single precision against the double precision one, the `rainflow` package and its own plain loops."""
 
 import importlib.util
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from types import FunctionType
 from typing import Any
@@ -13,14 +12,20 @@ import rainflow as oracle
 from numba import njit
 from numpy.typing import NDArray
 
-from fatigue.errors import CaseError, NumericalError
-from fatigue.life.counting.rainflow import BlockCount, count_block
+from fatigue.errors import NumericalError
+from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.count import count
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.rows import count_rows
 from fatigue.life.counting.single import count as counter
-from fatigue.life.counting.single import loops, run, state
-from fatigue.life.counting.single.count import count_block_fast, record_of
-from fatigue.life.counting.single.state import SIDE
+from fatigue.life.counting.single import prepare
+from fatigue.life.counting.single.kernels import loops, over_time, state
+from fatigue.life.counting.single.kernels.state import SIDE
+from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
+from fatigue.life.records.history import Residue
 from fatigue.life.records.spool import create_spool
+from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
 
@@ -30,9 +35,9 @@ HAIBACH = damage_law(catalogue()["master-steel"], "mean-2sigma", "haibach", 1e7)
 PLAIN_CUBE = damage_law(user_curve("class", (3.0,), (), 90.0, "structural", "test"), None, "none", 1e7)
 STEEP = damage_law(user_curve("class", (15.0,), (), 90.0, "structural", "test"), None, "none", 1e7)
 
-RESIDUES = ("half", "repeat")
+RESIDUES: tuple[Residue, ...] = ("half", "repeat")
 vector_instructions = pytest.mark.skipif(
-    importlib.util.find_spec("fatigue.life.counting.single.simd") is None, reason="without vector instructions"
+    importlib.util.find_spec("fatigue.life.counting.single.kernels.simd") is None, reason="without vector instructions"
 )
 
 
@@ -87,15 +92,30 @@ def modal_block(seed: int, points: int = 40, modes: int = 12, t: int = 3000) -> 
     return S_m, S_b, q
 
 
+def recorded(q: NDArray[np.floating], residue: Residue = "repeat") -> CountedRecord:
+    """Prepare modal coordinates for the counter in single precision."""
+    return CountedRecord(q, residue, single_record(q))
+
+
 def both_counts(
-    S_m: Floats, S_b: Floats, q: NDArray[np.floating], law: DamageLaw = ALUMINIUM, **choices: object
+    S_m: Floats,
+    S_b: Floats,
+    q: NDArray[np.floating],
+    law: DamageLaw = ALUMINIUM,
+    residue: Residue = "repeat",
+    **choices: Any,
 ) -> tuple[BlockCount, BlockCount]:
-    """Count fast and in double precision."""
-    rules = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False} | choices
+    """Count in single and in double precision."""
+    rule = CycleRule(law, **({"uses_bending_ratio": True} | choices))
     rng = np.random.default_rng(len(S_m))
-    size, ratio = rng.uniform(1, 2, len(S_m)), rng.uniform(0, 1, (len(S_m), 2))
-    fast = count_block_fast(S_m, S_b, record_of(q), size, ratio, law, **rules)
-    return fast, count_block(S_m @ q, S_b @ q, size, ratio, law, **rules)
+    stress = BlockStress(S_m, S_b, rng.uniform(1, 2, len(S_m)), rng.uniform(0, 1, (len(S_m), 2)))
+    record = recorded(q, residue)
+    return count(stress, record, rule), count_rows(stress, record, rule)
+
+
+def one_ratio(S_m: Floats, S_b: Floats) -> BlockStress:
+    """Stress of points of unit size factor."""
+    return BlockStress(S_m, S_b, np.ones(len(S_m)), np.full((len(S_m), 2), 0.3))
 
 
 def assert_same(fast: BlockCount, exact: BlockCount, rtol: float = 1e-6) -> None:
@@ -112,7 +132,7 @@ def assert_same(fast: BlockCount, exact: BlockCount, rtol: float = 1e-6) -> None
 
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("kind", KINDS)
-def test_adversarial_histories_count_as_in_double_precision(kind: str, residue: str) -> None:
+def test_adversarial_histories_count_as_in_double_precision(kind: str, residue: Residue) -> None:
     """Every field, in histories of some hundred samples."""
     rng = np.random.default_rng(KINDS.index(kind))
     for t in (512, 515, 528, 900):
@@ -121,7 +141,7 @@ def test_adversarial_histories_count_as_in_double_precision(kind: str, residue: 
 
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("kind", KINDS)
-def test_short_adversarial_histories(kind: str, residue: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_short_adversarial_histories(kind: str, residue: Residue, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same cycles in histories from 2 samples on; so few do not average rounding out."""
     monkeypatch.setattr(counter, "SHORTEST", 2)
     rng = np.random.default_rng(KINDS.index(kind))
@@ -133,7 +153,7 @@ def test_short_adversarial_histories(kind: str, residue: str, monkeypatch: pytes
 
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("law", [STEEL, ALUMINIUM, PLAIN_CUBE])
-def test_modal_stress_counts_as_in_double_precision(law: DamageLaw, residue: str) -> None:
+def test_modal_stress_counts_as_in_double_precision(law: DamageLaw, residue: Residue) -> None:
     """Smooth stress of resonances, whose extremes single precision alone cannot always tell."""
     for seed in range(5):
         S_m, S_b, q = modal_block(seed)
@@ -152,10 +172,11 @@ def test_a_thousand_points_of_one_event() -> None:
 
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("kind", ["ties", "held", "growing", "zigzag", "wrapping plateau", "constant", "noise"])
-def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: Residue, monkeypatch: pytest.MonkeyPatch) -> None:
     """Chunks of 32 samples, and no room for long residues, count what one chunk counts."""
     monkeypatch.setattr(counter, "SHORTEST", 2)
-    monkeypatch.setattr(counter, "CHUNK", 32)
+    for module in (counter, prepare):
+        monkeypatch.setattr(module, "CHUNK", 32)
     monkeypatch.setattr(counter, "RESIDUE", 80)
     rng = np.random.default_rng(KINDS.index(kind))
     for t in (2, 3, 8, 50, 400):
@@ -167,12 +188,10 @@ def test_the_length_of_the_chunks_does_not_matter(kind: str, residue: str, monke
 def test_the_number_of_points_does_not_matter() -> None:
     """The bytes of a row are the same alone and among others, whatever was counted again."""
     S_m, S_b, q = modal_block(3, points=300, t=600)
-    size, ratio = np.ones(300), np.full((300, 2), 0.3)
-    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
-    record = record_of(q.astype(np.float32))
-    whole = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    stress, record, rule = one_ratio(S_m, S_b), recorded(q.astype(np.float32)), CycleRule(ALUMINIUM, True)
+    whole = count(stress, record, rule)
     part = slice(128, 256)
-    alone = count_block_fast(S_m[part], S_b[part], record, size[part], ratio[part], ALUMINIUM, **choices)
+    alone = count(stress.at(part), record, rule)
     assert alone.damage.tobytes() == whole.damage[part].tobytes()
 
 
@@ -194,12 +213,11 @@ class Slices:
 def test_modal_coordinates_need_not_be_in_memory(yield_MPa: float | None, tmp_path: Path) -> None:
     """Slices of bounded length are enough, also for what is counted in double precision, and count the same bytes."""
     S_m, S_b, q = modal_block(4, points=150, t=20_100)
-    size, ratio = np.ones(150), np.full((150, 2), 0.3)
-    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": yield_MPa, "mean_stress": False}
-    record = record_of(q.astype(np.float32))
+    stress, rule = one_ratio(S_m, S_b), CycleRule(ALUMINIUM, True, yield_MPa)
+    record = recorded(q.astype(np.float32))
     on_disk = create_spool(tmp_path / "q", q.shape, np.dtype(np.float32))
-    of_slices = replace(record_of(record.exact, on_disk), exact=Slices(record.exact))
-    array, slices = (count_block_fast(S_m, S_b, r, size, ratio, ALUMINIUM, **choices) for r in (record, of_slices))
+    of_slices = CountedRecord(Slices(record.q), "repeat", single_record(record.q, on_disk))
+    array, slices = (count(stress, r, rule) for r in (record, of_slices))
     for name in BlockCount.__slots__:
         np.testing.assert_array_equal(getattr(array, name), getattr(slices, name))
 
@@ -207,16 +225,15 @@ def test_modal_coordinates_need_not_be_in_memory(yield_MPa: float | None, tmp_pa
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("points", [3, 150])
 def test_compiled_and_interpreted_loop_count_the_same_bytes(
-    points: int, residue: str, monkeypatch: pytest.MonkeyPatch
+    points: int, residue: Residue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Over several chunks and pieces, the last ones shorter, and with what is in doubt."""
     S_m, S_b, q = modal_block(9, points=max(points, 7), t=9000)
     S_m, S_b = S_m[-points:], S_b[-points:]
-    size, ratio, record = np.ones(points), np.full((points, 2), 0.3), record_of(q.astype(np.float32))
-    choices = {"uses_bending_ratio": True, "residue": residue, "yield_MPa": None, "mean_stress": False}
-    compiled = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
-    monkeypatch.setattr(counter, "count_in_memory", run.count_record)
-    interpreted = count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    stress, record, rule = one_ratio(S_m, S_b), recorded(q.astype(np.float32), residue), CycleRule(ALUMINIUM, True)
+    compiled = count(stress, record, rule)
+    monkeypatch.setattr(counter, "count_in_memory", over_time.count_record)
+    interpreted = count(stress, record, rule)
     for name in BlockCount.__slots__:
         np.testing.assert_array_equal(getattr(compiled, name), getattr(interpreted, name))
 
@@ -224,23 +241,21 @@ def test_compiled_and_interpreted_loop_count_the_same_bytes(
 def test_few_surfaces_are_counted_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nearly all of what rounding may have decided is settled within its chunk."""
     S_m, S_b, q = modal_block(7, points=500, t=20_000)
-    size, ratio, record = np.ones(500), np.full((500, 2), 0.3), record_of(q.astype(np.float32))
-    choices = {"uses_bending_ratio": True, "residue": "repeat", "yield_MPa": None, "mean_stress": False}
     again, in_doubt = [], []
-    count, exactly = counter._count, run.count_chunk_exactly
+    count_again, exactly = counter._count, over_time.count_chunk_exactly
 
     def counting(block: object, wanted: NDArray[np.bool_], *rest: object) -> NDArray[np.void]:
         again.append(int(wanted.sum()))
-        return count(block, wanted, *rest)
+        return count_again(block, wanted, *rest)
 
     def settling(*args: Any) -> None:
         in_doubt.append(len(args[-1]))
         exactly(*args)
 
     monkeypatch.setattr(counter, "_count", counting)
-    monkeypatch.setattr(run, "count_chunk_exactly", settling)
-    monkeypatch.setattr(counter, "count_in_memory", run.count_record)
-    count_block_fast(S_m, S_b, record, size, ratio, ALUMINIUM, **choices)
+    monkeypatch.setattr(over_time, "count_chunk_exactly", settling)
+    monkeypatch.setattr(counter, "count_in_memory", over_time.count_record)
+    count(one_ratio(S_m, S_b), recorded(q.astype(np.float32)), CycleRule(ALUMINIUM, True))
     assert sum(in_doubt) > 5
     assert again[1:] == [4]  # the faces that nearly cancel, with which single precision is not trusted
 
@@ -248,15 +263,16 @@ def test_few_surfaces_are_counted_again(monkeypatch: pytest.MonkeyPatch) -> None
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("chunk", [32, 4096])
 def test_a_chunk_in_doubt_counts_as_in_double_precision(
-    chunk: int, residue: str, monkeypatch: pytest.MonkeyPatch
+    chunk: int, residue: Residue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Chunks of some points taken for doubtful at random, so that both ways follow each other; with mean stresses."""
-    monkeypatch.setattr(counter, "CHUNK", chunk)
-    count, rng = run.count_chunk, np.random.default_rng(3)
+    for module in (counter, prepare):
+        monkeypatch.setattr(module, "CHUNK", chunk)
+    in_single, rng = over_time.count_chunk, np.random.default_rng(3)
 
     def doubting(stress: Any, samples: Any, stage: Any, law: Any, state: Any, room: Any, doubts: Any) -> int:
         sides, waiting = state.sides.copy(), state.waiting.copy()
-        found = count(stress, samples, stage, law, state, room, doubts)
+        found = in_single(stress, samples, stage, law, state, room, doubts)
         if stress.dtype == np.float64:  # counted again as a whole
             return found
         some = (rng.random(sides.shape) < 0.5) & ~sides["doubtful"]
@@ -268,8 +284,8 @@ def test_a_chunk_in_doubt_counts_as_in_double_precision(
         doubts[: len(chosen)] = chosen
         return len(chosen)
 
-    monkeypatch.setattr(run, "count_chunk", doubting)
-    monkeypatch.setattr(counter, "count_in_memory", run.count_record)
+    monkeypatch.setattr(over_time, "count_chunk", doubting)
+    monkeypatch.setattr(counter, "count_in_memory", over_time.count_record)
     for seed in range(3):
         S_m, S_b, q = modal_block(seed, t=900)
         assert_same(*both_counts(S_m, S_b, (q + 5.0).astype(np.float32), residue=residue))
@@ -303,9 +319,6 @@ def test_points_in_high_mean_tension_have_the_mean_stress_factor(mean_stress: bo
     fast, exact = both_counts(S_m, S_b, q + 3.0, yield_MPa=30.0, mean_stress=mean_stress)
     assert_same(fast, exact)
     assert (exact.damage_mean_stress > 1.01 * exact.damage).any() != mean_stress
-    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": True}
-    with pytest.raises(CaseError, match="f_M needs the yield stress"):
-        count_block_fast(S_m, S_b, record_of(q), np.ones(20), np.zeros((20, 2)), STEEL, **rules)
 
 
 def test_what_is_not_finite_is_refused() -> None:
@@ -314,11 +327,10 @@ def test_what_is_not_finite_is_refused() -> None:
     spoilt = q.copy()
     spoilt[2, 17] = np.nan
     with pytest.raises(NumericalError, match="sample 17 of modal coordinate 2"):
-        record_of(spoilt)
+        single_record(spoilt)
     S_b[3, 0] = np.inf
-    rules = {"uses_bending_ratio": True, "residue": "half", "yield_MPa": None, "mean_stress": False}
     with pytest.raises(NumericalError, match="row 3 of the block: the stress is NaN or infinite"):
-        count_block_fast(S_m, S_b, record_of(q), np.ones(20), np.zeros((20, 2)), STEEL, **rules)
+        count(one_ratio(S_m, S_b), recorded(q, "half"), CycleRule(STEEL, True))
 
 
 # ------------------------------------------------------------------------------------------------ vectors
@@ -338,7 +350,7 @@ def test_vector_instructions_do_what_the_plain_loops_do(
     width: int, precision: type[np.floating], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Reversals, closed ranges and doubts, bit for bit, for every kind of history and both surfaces."""
-    from fatigue.life.counting.single import simd  # noqa: PLC0415
+    from fatigue.life.counting.single.kernels import simd  # noqa: PLC0415
 
     if width > simd.vector_bits():
         pytest.skip("not on this processor")
@@ -372,7 +384,7 @@ def test_vector_instructions_do_what_the_plain_loops_do(
 @vector_instructions
 def test_the_product_in_tiles_is_the_product() -> None:
     """For numbers of rows, modes and samples that fill no tile, and for part of a longer record."""
-    from fatigue.life.counting.single import simd  # noqa: PLC0415
+    from fatigue.life.counting.single.kernels import simd  # noqa: PLC0415
 
     if simd.vector_bits() < 512:
         pytest.skip("not on this processor")
@@ -394,7 +406,7 @@ def test_the_product_in_tiles_is_the_product() -> None:
 @vector_instructions
 def test_the_plain_loops_are_used_where_there_are_no_vectors(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the processor numba compiles for, not of the one it runs on."""
-    from fatigue.life.counting.single import simd  # noqa: PLC0415
+    from fatigue.life.counting.single.kernels import simd  # noqa: PLC0415
 
     for features, bits in (("", 0), ("+sse2", 0), ("+avx2,+fma", 256), ("+avx2,+avx512f", 512)):
         monkeypatch.setattr(simd.config, "CPU_FEATURES", features)

@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from fatigue.life.counting.single.doubt import Exact, close_inner, rise, write_steps
-from fatigue.life.counting.single.loops import close_pass
-from fatigue.life.counting.single.state import Room, room_for
+from fatigue.life.counting.single.kernels.doubt import Exact, close_inner, rise, write_steps
+from fatigue.life.counting.single.kernels.loops import close_pass
+from fatigue.life.counting.single.kernels.state import Room, room_for
 
 Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.single.loops import (
+from fatigue.life.counting.single.kernels.loops import (
     add_cycles,
     append_last,
     begin_side,
@@ -23,8 +23,8 @@ from fatigue.life.counting.single.loops import (
     resume,
     suspend,
 )
-from fatigue.life.counting.single.power import PowerLaw
-from fatigue.life.counting.single.state import Room, Stage, State
+from fatigue.life.counting.single.kernels.power import PowerLaw
+from fatigue.life.counting.single.kernels.state import Room, Stage, State
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating]
@@ -33,7 +33,7 @@ Marks = NDArray[np.int32]
 
 
 class Exact(NamedTuple):
-    """What stress in double precision comes from: shapes (n, m) of coordinates as given, and these (m, t), a chunk."""
+    """What stress in double precision comes from: modal stress (n, m) of coordinates as given, and these (m, t)."""
 
     membrane: Floats
     bending: Floats
@@ -91,7 +91,7 @@ def reaches(sample: Marks, i: int, sign: float, at: tuple[int, int], exact: Exac
 def close_inner(
     room: Room, n: int, first_sign: float, at: tuple[int, int], flat: np.float32, exact: Exact
 ) -> tuple[int, int, bool]:
-    """Close what `single.loops.close_pass` takes out in any number of passes, on a stack.
+    """Close what `kernels.loops.close_pass` takes out in any number of passes, on a stack.
 
     ``first_sign`` is that of the first reversal; the second row of marks says which sample of the chunk a reversal is,
     0 if none. Returns how many are left, how many cycles there are, and whether all of that is known.
@@ -132,7 +132,7 @@ def count_side_exactly(
     room: Room,
     exact: Exact,
 ) -> None:
-    """Count one surface as `single.loops.count_side` does, with double precision where it is needed."""
+    """Count one surface as `kernels.loops.count_side` does, with double precision where it is needed."""
     known = state.sides[at]
     side = np.float32(1 - 2 * at[1])
     if not write_steps(m, b, steps, at, stage.flat, exact, room):
@@ -174,7 +174,7 @@ def count_chunk_exactly(
     exact: Exact,
     doubts: Places,
 ) -> None:
-    """Count the surfaces that `single.loops.count_chunk` has left out: rows and faces ``doubts`` (d, 2)."""
+    """Count the surfaces that `kernels.loops.count_chunk` has left out: rows and faces ``doubts`` (d, 2)."""
     points = stress.shape[0] // 2
     steps = samples + int(stage.ends and stage.recurs)
     for k in range(len(doubts)):

@@ -1,4 +1,4 @@
-"""The loops of `single.count`: what happens to one point and surface in one chunk of time."""
+"""The loops over samples and reversals: what happens to one point and surface in one chunk of time."""
 
 import importlib.util
 from typing import Any
@@ -8,12 +8,12 @@ from numba.extending import overload
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.single.power import PowerLaw, add_powers, add_up, raise_to_slope
-from fatigue.life.counting.single.state import PAD, Room, Stage, State
+from fatigue.life.counting.single.kernels.power import PowerLaw, add_powers, add_up, raise_to_slope
+from fatigue.life.counting.single.kernels.state import PAD, Room, Stage, State
 
 simd: Any = None
-if importlib.util.find_spec("fatigue.life.counting.single.simd"):
-    from fatigue.life.counting.single import simd
+if importlib.util.find_spec("fatigue.life.counting.single.kernels.simd"):
+    from fatigue.life.counting.single.kernels import simd
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating]
@@ -327,7 +327,7 @@ def count_chunk(
 ) -> int:
     """Count the steps to the columns 1 to ``samples`` of a block, its membrane rows above its bending rows.
 
-    Surfaces on which rounding may have decided are left to `single.doubt.count_chunk_exactly`: returns how many there
+    Surfaces on which rounding may have decided are left to `kernels.doubt.count_chunk_exactly`: returns how many there
     are in ``doubts`` (2 n, 2), row and face of each.
     """
     points = stress.shape[0] // 2

@@ -16,7 +16,7 @@ from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life import damage
+from fatigue.life.rule import ratio_factor
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating]
@@ -40,7 +40,7 @@ def power_law(k: float, uses_bending_ratio: bool) -> PowerLaw:
     """Prepare the slope k, and the bending ratio where the law uses it."""
     head = np.round(k * 2**8) / 2**8
     if uses_bending_ratio:
-        ratio = _series(lambda x: damage.ratio_factor(x + 0.5) ** -k, -0.5, 0.5, RATIO_DEGREE)
+        ratio = _series(lambda x: ratio_factor(x + 0.5) ** -k, -0.5, 0.5, RATIO_DEGREE)
     else:
         ratio = (*(_ZERO,) * RATIO_DEGREE, _ONE)
     return PowerLaw(np.float32(k), np.float32(head), np.float32(k - head), ratio)

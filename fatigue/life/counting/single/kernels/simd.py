@@ -1,6 +1,6 @@
-"""The inner loops of the fast counter in vector instructions of x86-64 processors, up to 16 samples at a time.
+"""The inner loops in vector instructions of x86-64 processors, up to 16 samples at a time.
 
-The two steps of `single.loops` select: turning points among samples, closed ranges among turning points. A comparison
+The two steps of `kernels.loops` select: turning points among samples, closed ranges among turning points. A comparison
 of vectors gives one bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would
 decide one after the other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps`` with
 a table of lane numbers). The results are bit for bit those of the plain loops, which run instead where this file says
@@ -150,7 +150,7 @@ class _Vector:
 def _reversals_of_lanes(
     typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, z: Any, zm: Any, n: Any
 ) -> Any:
-    """Do what `single.loops.write_reversals` does for the samples i to i + lanes - 1."""
+    """Do what `kernels.loops.write_reversals` does for the samples i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         m_, b_, side_, flat_, i_, up_, z_, zm_, n_ = args
@@ -201,7 +201,7 @@ def _cycles_of_lanes(
     cycles: Any,
     flat: Any,
 ) -> Any:
-    """Do what `single.loops.close_pass` does for the reversals i to i + lanes - 1."""
+    """Do what `kernels.loops.close_pass` does for the reversals i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_, flat_ = args
@@ -242,19 +242,19 @@ def _cycles_of_lanes(
     return types.Tuple((integer,) * 5)(z, zm, S, dm, *(integer,) * 6, types.float32), generate
 
 
-def _product_of_tile(typing: Any, shapes: Any, tile: Any, samples: Any, panel: Any, stress: Any) -> Any:
+def _product_of_tile(typing: Any, tiles: Any, tile: Any, samples: Any, panel: Any, stress: Any) -> Any:
     """Multiply a tile of 12 rows with a panel of 32 samples: 24 sums stay in the 32 registers of AVX-512.
 
     Samples are laid out in panels, or they are rows like those of the product, from column 1 on.
     """
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        shapes_, tile_, samples_, panel_, stress_ = args
+        tiles_, tile_, samples_, panel_, stress_ = args
         vector = _Vector(context, builder, stress)
         parts = range(PANEL // vector.size)
         left, right, out = (
             context.make_array(kind)(context, builder, array)
-            for kind, array in ((shapes, shapes_), (samples, samples_), (stress, stress_))
+            for kind, array in ((tiles, tiles_), (samples, samples_), (stress, stress_))
         )
         modes = cgutils.unpack_tuple(builder, left.shape)[1]
         column = builder.add(builder.mul(panel_, ir.Constant(I64, PANEL)), ir.Constant(I64, 1))
@@ -282,7 +282,7 @@ def _product_of_tile(typing: Any, shapes: Any, tile: Any, samples: Any, panel: A
                 vector.put(builder.load(sums[row][k]), builder.gep(start, [ir.Constant(I64, vector.size * k)]))
         return context.get_dummy_value()
 
-    return types.void(shapes, types.int64, samples, types.int64, stress), generate
+    return types.void(tiles, types.int64, samples, types.int64, stress), generate
 
 
 def _element(builder: Any, data: Any, at: list[Any]) -> Any:
@@ -301,7 +301,7 @@ product_of_tile = cast(Callable[..., None], intrinsic(_product_of_tile))
 def write_reversals(
     m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
 ) -> tuple[int, int, bool]:
-    """Do what `single.loops.write_reversals` does."""
+    """Do what `kernels.loops.write_reversals` does."""
     z, zm = room.numbers[0], room.numbers[1]
     small_steps = 0
     for i in range(0, samples, lanes_of(m)):
@@ -312,7 +312,7 @@ def write_reversals(
 
 @compiled()
 def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
-    """Do what `single.loops.close_pass` does."""
+    """Do what `kernels.loops.close_pass` does."""
     z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
     z[n] = z[n + 1] = -np.inf
     kept = 0
@@ -324,11 +324,11 @@ def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, i
     return kept, cycles, close_calls != 0
 
 
-def tiles_of(shapes: Singles) -> Singles:
-    """Lay shapes (n, m) out as `multiply` reads them: (n / 12, m, 12), filled up with zeros."""
-    rows, modes = shapes.shape
+def tiles_of(matrix: Singles) -> Singles:
+    """Lay a matrix (n, m) out as `multiply` reads them: (n / 12, m, 12), filled up with zeros."""
+    rows, modes = matrix.shape
     tiles = np.zeros((-(-rows // TILE), TILE, modes), np.float32)
-    tiles.reshape(len(tiles) * TILE, modes)[:rows] = shapes
+    tiles.reshape(len(tiles) * TILE, modes)[:rows] = matrix
     return np.ascontiguousarray(tiles.transpose(0, 2, 1))
 
 
@@ -362,15 +362,15 @@ def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
 
 
 @compiled("contract")
-def multiply_rows(shapes: Singles, samples: Singles, columns: int, stress: Singles) -> None:
+def multiply_rows(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
     """Write the product of a tile, (h 12,), with so many columns of samples (h, w), as they are, into the same columns.
 
     Up to 31 more columns of both are touched: w is that much larger.
     """
-    tile = shapes.reshape(1, len(samples), TILE)
+    tiles = tile.reshape(1, len(samples), TILE)
     for row in range(TILE):
         stress[row, 0] = 0.0
         for k in range(len(samples)):
-            stress[row, 0] += tile[0, k, row] * samples[k, 0]
+            stress[row, 0] += tiles[0, k, row] * samples[k, 0]
     for panel in range(-(-(columns - 1) // PANEL)):
-        product_of_tile(tile, 0, samples, panel, stress)
+        product_of_tile(tiles, 0, samples, panel, stress)

@@ -1,8 +1,9 @@
-"""The stress of some points in some samples: the product of their shapes with the modal coordinates.
+"""The stress of some points in some samples: the product of their modal stress with the modal coordinates.
 
-Both are laid out for the product first, the shapes once for all samples and the samples once for all points. In single
-precision with AVX-512 the product is that of `single.simd`, of tiles (n / 12, m, 12) and panels (t / 32, m, 32), else
-that of BLAS, of (n, m) and (m, t); they differ by rounding at most. Compiled code can call the former only.
+Both are laid out for the product first, the rows of modal stress once for all samples and the samples once for all
+points. In single precision with AVX-512 the product is that of `kernels.simd`, of tiles (n / 12, m, 12) and panels
+(t / 32, m, 32), else that of BLAS, of (n, m) and (m, t); they differ by rounding at most. Compiled code can call the
+former only.
 """
 
 import importlib.util
@@ -19,16 +20,16 @@ Numbers = NDArray[np.floating]
 Singles = NDArray[np.float32]
 
 STEP = 32  # samples that are laid out side by side
-TILE = 12  # shapes that are multiplied side by side
+TILE = 12  # rows that are multiplied side by side
 CACHE_LINE = 64  # bytes
 
 simd: Any = None
-if importlib.util.find_spec("fatigue.life.counting.single.simd"):
-    from fatigue.life.counting.single import simd
+if importlib.util.find_spec("fatigue.life.counting.single.kernels.simd"):
+    from fatigue.life.counting.single.kernels import simd
 
 
 def in_tiles(precision: type[np.floating]) -> bool:
-    """Whether the product is that of `single.simd`."""
+    """Whether the product is that of `kernels.simd`."""
     return simd is not None and simd.WIDTH == 512 and precision is np.float32
 
 
@@ -37,9 +38,9 @@ def is_in_panels(record: Samples) -> bool:
     return isinstance(record, np.ndarray) and record.ndim == 3
 
 
-def prepared_shapes(shapes: Numbers) -> Numbers:
-    """Lay shapes (n, m) out for `multiply`."""
-    return np.asarray(simd.tiles_of(shapes)) if in_tiles(shapes.dtype.type) else shapes
+def prepared_rows(rows: Numbers) -> Numbers:
+    """Lay rows (n, m) out for `multiply`."""
+    return np.asarray(simd.tiles_of(rows)) if in_tiles(rows.dtype.type) else rows
 
 
 def space_for_samples(modes: int, samples: int, precision: type[np.floating]) -> Numbers:
@@ -56,8 +57,8 @@ def prepared_samples(q: Numbers, into: Numbers) -> Numbers:
     return into
 
 
-def shapes_between(laid_out: Numbers, first: int, end: int) -> Numbers:
-    """Take some shapes of those that were laid out, from the first one of a tile on."""
+def rows_between(laid_out: Numbers, first: int, end: int) -> Numbers:
+    """Take some rows of those that were laid out, from the first one of a tile on."""
     return laid_out[first // TILE : -(-end // TILE)] if laid_out.ndim == 3 else laid_out[first:end]
 
 
@@ -73,45 +74,45 @@ def samples_of(record: Samples, first: int, end: int, into: Numbers) -> Numbers:
     return prepared_samples(record[:, first:end], into)
 
 
-def rows_in_tiles(shapes: Singles) -> Singles:
-    """Lay shapes (n, h) out for `multiply_rows`, tile after tile, the last one filled up with zeros."""
+def rows_in_tiles(matrix: Singles) -> Singles:
+    """Lay a matrix (n, h) out for `multiply_rows`, tile after tile, the last one filled up with zeros."""
     if in_tiles(np.float32):
-        return np.asarray(simd.tiles_of(shapes)).ravel()
-    return np.pad(shapes, ((0, -len(shapes) % TILE), (0, 0))).ravel()
+        return np.asarray(simd.tiles_of(matrix)).ravel()
+    return np.pad(matrix, ((0, -len(matrix) % TILE), (0, 0))).ravel()
 
 
 @compiled()
-def rows_by_blas(shapes: Singles, samples: Singles, columns: int, stress: Singles) -> None:
+def rows_by_blas(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
     """Do what `multiply_rows` does, in all columns."""
-    np.dot(shapes.reshape(TILE, len(samples)), samples, stress)
+    np.dot(tile.reshape(TILE, len(samples)), samples, stress)
 
 
 # Compiled code calls it: the product of one tile with samples (h, w) that are not laid out, in their own columns.
 multiply_rows = simd.multiply_rows if in_tiles(np.float32) else rows_by_blas
 
 
-def block_for(shapes: int, width: int, precision: type[np.floating]) -> Numbers:
-    """Memory for the products of so many shapes, ``width`` numbers of each and some more.
+def block_for(rows: int, width: int, precision: type[np.floating]) -> Numbers:
+    """Memory for the products of so many rows, ``width`` numbers of each and some more.
 
     Column 1 of every row begins a line of the cache, as products are written from there on.
     """
     in_line = CACHE_LINE // np.dtype(precision).itemsize
-    rows, width = -(-shapes // TILE) * TILE, -(-width // in_line) * in_line
+    rows, width = -(-rows // TILE) * TILE, -(-width // in_line) * in_line
     numbers = np.empty(rows * width + 2 * in_line, precision)
     first = (-numbers.ctypes.data % CACHE_LINE) // numbers.itemsize + in_line - 1
     return numbers[first : first + rows * width].reshape(rows, width)
 
 
-def multiply(shapes: Numbers, q: Numbers, stress: Numbers) -> None:
+def multiply(rows: Numbers, q: Numbers, stress: Numbers) -> None:
     """Write the product of what was laid out into the columns 1 to t of a block; the next 31 may get anything."""
-    if shapes.ndim == 3:
-        simd.multiply(shapes, q, stress)
+    if rows.ndim == 3:
+        simd.multiply(rows, q, stress)
     else:
-        np.matmul(shapes, q, out=stress[: len(shapes), 1 : q.shape[1] + 1])
+        np.matmul(rows, q, out=stress[: len(rows), 1 : q.shape[1] + 1])
 
 
-@overload(shapes_between, strict=False)
-def _shapes_between(laid_out: Any, first: Any, end: Any) -> Any:
+@overload(rows_between, strict=False)
+def _rows_between(laid_out: Any, first: Any, end: Any) -> Any:
     return lambda laid_out, first, end: laid_out[first // TILE : -(-end // TILE)]
 
 
@@ -121,6 +122,6 @@ def _samples_of(record: Any, first: Any, end: Any, into: Any) -> Any:
 
 
 @overload(multiply, strict=False)
-def _multiply(shapes: Any, q: Any, stress: Any) -> Any:
+def _multiply(rows: Any, q: Any, stress: Any) -> Any:
     product = simd.multiply
-    return lambda shapes, q, stress: product(shapes, q, stress)  # noqa: PLW0108
+    return lambda rows, q, stress: product(rows, q, stress)  # noqa: PLW0108

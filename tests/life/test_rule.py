@@ -1,22 +1,27 @@
-"""Equivalent range and damage of a cycle: constants, units, thickness rules, mean stress, shear."""
+"""The master equation: constants, units, thickness rules, mean stress, what it refuses, and its slopes."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from fatigue.life.curves import catalogue, damage_law, user_curve
-from fatigue.life.damage import (
+from fatigue.errors import CaseError
+from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
+from fatigue.life.rule import (
+    M_SS,
+    CycleRule,
     bending_ratio,
     cycle_damage,
+    equivalent_range,
+    local_slope,
+    log_ratio_factor_slope,
     mean_stress_factor,
     ratio_factor,
-    shear_factor,
+    size_exponent,
     size_factor,
 )
 
 STEEL = catalogue()["master-steel"]
 ALUMINIUM = catalogue()["master-aluminium"]
+PLAIN = user_curve("plain", (3.0, 5.0), (1e7,), 40.0, "structural", "a test")
 
 
 @pytest.mark.parametrize(
@@ -34,7 +39,7 @@ def test_equivalent_range_golden_values(curve, thickness, dm, db, rule, expected
     """The equivalent structural stress range of hand-worked cases, thickness in mm, range and not amplitude."""
     r = bending_ratio(np.array([dm]), np.array([db]))
     size = size_factor(np.array([thickness]), curve, rule)
-    assert (dm + db) * size / ratio_factor(r) == pytest.approx(expected, rel=5e-7)
+    assert equivalent_range(dm + db, size, ratio_factor(r), 1.0) == pytest.approx(expected, rel=5e-7)
 
 
 @pytest.mark.parametrize(("r", "expected"), [(0.0, 1.2214499), (0.4, 1.234874), (0.5, 1.2421248), (1.0, 1.3307839)])
@@ -109,25 +114,52 @@ def test_no_range_no_damage():
     assert cycle_damage(np.array([0.0]), damage_law(STEEL, None, "none", 1e7))[0] == 0.0
 
 
-def test_shear_below_a_third_costs_up_to_fifteen_percent():
-    """In phase and at the clause's threshold of a third, shear adds 15.5 % to the range."""
-    sigma, tau = 1.0, 1.0 / 3.0
-    factor = shear_factor(np.array([sigma**2]), np.array([tau**2]), np.array([sigma * tau]))
-    assert factor == pytest.approx(1.1547, rel=1e-4)
+def test_local_slope_changes_at_the_knees():
+    """At a knee the segment of the larger ranges holds, as in the damage itself."""
+    law = DamageLaw(np.array([3.0, 5.0]), np.array([20.0, 25.0]), np.array([40.0]), 0.0)
+    assert local_slope(np.array([80.0, 40.0, 39.9]), law).tolist() == [3.0, 3.0, 5.0]
+    x = np.array([80.0, 20.0])
+    numeric = (np.log(cycle_damage(x * 1.0001, law)) - np.log(cycle_damage(x, law))) / np.log(1.0001)
+    assert local_slope(x, law) == pytest.approx(numeric, rel=1e-9)
 
 
-@settings(deadline=None, max_examples=80)
-@given(tau=st.floats(0.01, 3.0), delta=st.floats(0.0, 3.14))
-def test_shear_factor_is_the_clause_for_harmonic_paths(tau, delta):
-    """The covariance form equals ASME's F(delta) for every amplitude ratio and phase."""
-    a, b = 1.0, 3.0 * tau**2
-    inner = 1.0 - 12.0 * tau**2 * np.sin(delta) ** 2 / (a + b) ** 2
-    F = np.sqrt(0.5) * np.sqrt(1.0 + np.sqrt(max(inner, 0.0)))
-    by_clause = np.sqrt(a + b) / F
-    by_covariance = shear_factor(np.array([0.5]), np.array([tau**2 / 2]), np.array([tau * np.cos(delta) / 2]))
-    assert by_covariance[0] == pytest.approx(by_clause, rel=1e-6)
+def test_slope_of_the_bending_ratio_factor():
+    """Slope d ln I^(1/m) / dr against differences of the factor itself."""
+    r, step = np.linspace(0.01, 0.99, 9), 1e-6
+    numeric = (np.log(ratio_factor(r + step)) - np.log(ratio_factor(r - step))) / (2 * step)
+    assert log_ratio_factor_slope(r) == pytest.approx(numeric, rel=1e-8)
 
 
-def test_shear_without_normal_stress_has_no_factor():
-    """Where the normal stress does not vary there is nothing to multiply."""
-    assert np.isnan(shear_factor(np.zeros(1), np.ones(1), np.zeros(1))[0])
+@pytest.mark.parametrize(
+    ("curve", "rule", "thickness", "expected"),
+    [
+        (ALUMINIUM, "actual", 8.0, (M_SS - 2) / (2 * M_SS)),
+        (ALUMINIUM, "asme", 20.0, (M_SS - 2) / (2 * M_SS)),
+        (ALUMINIUM, "asme", 8.0, 0.0),
+        (ALUMINIUM, "asme", 200.0, 0.0),
+        (PLAIN, "actual", 8.0, 0.0),
+        (user_curve("t", (3.0,), (), 40.0, "structural", "a test", None, 25.0, 0.2), "actual", 30.0, 0.2),
+        (user_curve("t", (3.0,), (), 40.0, "structural", "a test", None, 25.0, 0.2), "actual", 20.0, 0.0),
+    ],
+)
+def test_size_exponent_is_that_of_the_size_factor(curve, rule, thickness, expected):
+    """The exponent of the thickness rule, inside and outside its limits, against the factor itself."""
+    t, step = np.array([thickness]), 1e-6
+    numeric = np.log(size_factor(t * (1 + step), curve, rule) / size_factor(t, curve, rule))[0] / step
+    assert size_exponent(thickness, curve, rule) == pytest.approx(expected)
+    assert numeric == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_rule_with_mean_stress_needs_a_yield_stress():
+    """Refused where the rule is made."""
+    with pytest.raises(CaseError, match="f_M needs the yield stress"):
+        CycleRule(damage_law(STEEL, None, "none", 1e7), uses_bending_ratio=True, mean_stress=True)
+
+
+def test_what_a_rule_does_not_use_is_one():
+    """No bending ratio for curves in plain structural stress, no f_M where it is only shown beside the damage."""
+    rule = CycleRule(damage_law(PLAIN, None, "none", 1e7), uses_bending_ratio=False, yield_MPa=100.0)
+    r = np.array([0.0, 0.7])
+    assert rule.ratio_factor(r).tolist() == [1.0, 1.0]
+    assert rule.mean_stress_factor(np.array([90.0]), np.array([120.0])).tolist() == [1.0]
+    assert rule.yield_of_damage is None

@@ -1,4 +1,4 @@
-"""What the fast counter knows between two chunks of time, and its work space, in forms that compiled code can read."""
+"""What is known between two chunks of time, and its work space, in forms that compiled code can read."""
 
 from typing import NamedTuple
 

@@ -1,0 +1,79 @@
+"""A block of points: what is given of it, and what is kept of its cycles."""
+
+from dataclasses import dataclass, fields
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+BINS_PER_DECADE = 64
+HISTOGRAM_EDGES: Floats = np.logspace(-3.0, 5.0, 8 * BINS_PER_DECADE + 1)
+HISTOGRAM_BINS = HISTOGRAM_EDGES.size - 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BlockStress:
+    """Stress of n points per unit modal coordinate, and what is their own in the damage of a cycle.
+
+    Attributes
+    ----------
+    membrane, bending : (n, m) membrane stress, and bending stress of the top surface [MPa per unit modal coordinate]
+    size : (n,) factor of the thickness on the range
+    same_ratio : (n, 2) the one bending ratio of `BlockCount.damage_same_ratio`
+    """
+
+    membrane: Floats
+    bending: Floats
+    size: Floats
+    same_ratio: Floats
+
+    def __len__(self) -> int:
+        """Count the points."""
+        return len(self.size)
+
+    def at(self, rows: slice | NDArray[np.intp]) -> Self:
+        """Take some points."""
+        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))
+
+    def beside(self, others: Self) -> Self:
+        """Put other points behind these."""
+        return type(self)(*(np.concatenate([getattr(one, f.name) for one in (self, others)]) for f in fields(self)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BlockCount:
+    """What is kept of the cycles of n points; every array is (n, 2): top surface, bottom surface.
+
+    Attributes
+    ----------
+    damage : sum of n d(dS)
+    damage_same_ratio : sum of n d(dS) with one bending ratio for all cycles of a point, without the mean-stress factor
+    damage_mean_stress : sum of n d(dS) with the mean-stress factor; NaN without a yield stress
+    cycles : sum of n
+    power_sum : sum of n S**k of the structural stress ranges, k the first slope of the law [MPa**k]
+    max_range : largest structural stress range [MPa]
+    r_largest : stress ratio min/max of the largest cycle; NaN without a cycle or where max = 0
+    max_equivalent_range : largest dS
+    mean : mean of the structural stress samples [MPa]; NaN without samples
+    kurtosis : fourth over squared second central moment of the samples, 3 if Gaussian; NaN of a constant row
+    histogram : (n, 2, HISTOGRAM_BINS, 2) sum of n and sum of n dS**k between the `HISTOGRAM_EDGES` of dS, ranges beyond
+        them in the end bins; (n, 2, 0, 2) for a straight law, where damage scales with load**k
+    """
+
+    damage: Floats
+    damage_same_ratio: Floats
+    damage_mean_stress: Floats
+    cycles: Floats
+    power_sum: Floats
+    max_range: Floats
+    r_largest: Floats
+    max_equivalent_range: Floats
+    mean: Floats
+    kurtosis: Floats
+    histogram: Floats
+
+    def at(self, rows: slice | NDArray[np.intp]) -> Self:
+        """Take some points."""
+        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))

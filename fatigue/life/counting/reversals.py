@@ -1,0 +1,122 @@
+"""How cycles are found: from the samples of a signal to its reversals, and from these to cycles.
+
+Plain loops over one signal in float64: `turning_points` finds the reversals, `close_cycles` pairs them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.compiled import compiled
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+
+class Buffers(NamedTuple):
+    """Work space for one signal."""
+
+    path: Floats
+    step: NDArray[np.int8]
+    reversal: Indices
+    start: Indices
+    end: Indices
+    weight: Floats
+
+
+def buffers_for(samples: int) -> Buffers:
+    """Room for the reversals of a signal whose first sample is repeated at its end."""
+    reversal, start, end = (np.empty(samples + 2, np.intp) for _ in range(3))
+    path, weight = np.empty(samples + 1), np.empty(samples + 1)
+    return Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight)
+
+
+@compiled()
+def unroll(s: Floats, path: Floats) -> int:
+    """Write a recurring block (t,) into ``path`` (t + 1,) from its largest sample to the next time it occurs.
+
+    In between every cycle closes. Of a plateau, also one across the end of the block, the last sample is taken, as at
+    every reversal. Returns the index of that sample.
+    """
+    t = s.size
+    first = 0
+    for i in range(1, t):
+        first = i if s[i] > s[first] else first
+    for _ in range(t):
+        following = (first + 1) % t
+        if s[following] != s[first]:
+            break
+        first = following
+    path[: t - first] = s[first:]
+    path[t - first : t] = s[:first]
+    path[t] = s[first]
+    return first
+
+
+@compiled()
+def turning_points(s: Floats, step: NDArray[np.int8], reversal: Indices) -> int:
+    """Write the sample indices of the reversals of s (t,) into ``reversal`` (t + 1,) and return how many there are.
+
+    The first and the last sample are reversals; a plateau turns at its last sample; a constant signal has none.
+    """
+    for i in range(1, s.size):
+        step[i] = int(s[i] > s[i - 1]) - int(s[i] < s[i - 1])
+    reversal[0] = 0
+    n = 1
+    direction = 0
+    for i in range(1, s.size):
+        reversal[n] = i - 1
+        n += int(step[i] * direction < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
+        direction = step[i] if step[i] != 0 else direction
+    reversal[n] = s.size - 1
+    return n + 1 if direction != 0 else 0
+
+
+@compiled()
+def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: Buffers) -> int:
+    """Pair the reversals into cycles, in the order in which they close, and return how many (ASTM E1049-85, 5.4.4).
+
+    The latest range X closes the range Y before it if X >= Y. A Y that contains the starting point is a half cycle,
+    unless the block recurs; what is left at the end is half cycles. The open reversals are a stack at the front of
+    ``reversal``.
+    """
+    reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
+    cycles = 0
+    base = 0
+    top = -1
+    for k in range(reversals):
+        top += 1
+        reversal[top] = reversal[k]
+        while top - base >= 2:
+            X = abs(s[reversal[top]] - s[reversal[top - 1]])
+            Y = abs(s[reversal[top - 1]] - s[reversal[top - 2]])
+            if X < Y:
+                break
+            start[cycles], end[cycles] = reversal[top - 2], reversal[top - 1]
+            if top - base == 2 and not recurs:
+                weight[cycles] = 0.5
+                base += 1
+            else:
+                weight[cycles] = 1.0
+                reversal[top - 2] = reversal[top]
+                top -= 2
+            cycles += 1
+    for k in range(base, top):
+        start[cycles], end[cycles], weight[cycles] = reversal[k], reversal[k + 1], 0.5
+        cycles += 1
+    return cycles
+
+
+@compiled()
+def find_cycles(s: Floats, recurs: bool, buffers: Buffers) -> int:
+    """Write the cycles of s into ``start``, ``end`` and ``weight`` of the buffers and return how many there are."""
+    if not recurs or s.size == 0:
+        return close_cycles(s, turning_points(s, buffers.step, buffers.reversal), False, buffers)
+    path = buffers.path
+    first = unroll(s, path)
+    cycles = close_cycles(path, turning_points(path, buffers.step, buffers.reversal), True, buffers)
+    for c in range(cycles):
+        buffers.start[c] = (buffers.start[c] + first) % s.size
+        buffers.end[c] = (buffers.end[c] + first) % s.size
+    return cycles

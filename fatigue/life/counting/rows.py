@@ -1,0 +1,93 @@
+"""Counting whole rows in double precision, for any law: the plain reading of the standard that all else is tested by.
+
+The reversals of each row are found and paired, and membrane and bending stress at the two instants of every cycle give
+its damage, with the exact ranges. Of records that are in memory and not too long this is a fifth faster than `chunks`.
+"""
+
+import math
+from dataclasses import fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.compiled import compiled
+from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.moments import mean_and_kurtosis
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.reversals import Buffers, buffers_for, find_cycles
+from fatigue.life.counting.tally import (
+    CompiledRule,
+    Surface,
+    block_count,
+    compiled_rule,
+    nothing_counted,
+    plain,
+    refuse_not_finite,
+    tally,
+)
+from fatigue.life.records.history import Residue, stress_history
+from fatigue.life.rule import CycleRule
+
+Floats = NDArray[np.float64]
+
+SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before they are counted: 32 MB
+
+
+class _Histories(NamedTuple):
+    """Stresses of a block and, per point and surface, what is counted: see `nothing_counted`."""
+
+    membrane: Floats
+    bending: Floats
+    size: Floats
+    same_ratio: Floats
+    totals: NDArray[np.void]
+    histogram: Floats
+
+
+def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
+    """Count a block as `count` does: the histories of a few points at a time."""
+    rows = max(1, SAMPLES_AT_ONCE // record.q.shape[1])  # of the record only: the bytes do not depend on the machine
+    counts = []
+    for first in range(0, len(stress), rows):
+        some = stress.at(slice(first, first + rows))
+        membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
+        counts.append(count_histories(membrane, bending, some.size, some.same_ratio, record.residue, rule))
+    return BlockCount(*(np.concatenate([getattr(count, f.name) for count in counts]) for f in fields(BlockCount)))
+
+
+def count_histories(
+    membrane: Floats, bending: Floats, size: Floats, same_ratio: Floats, residue: Residue, rule: CycleRule
+) -> BlockCount:
+    """Count membrane + bending and membrane - bending of histories (n, t) [MPa]; the rest is as in `BlockStress`.
+
+    Raises
+    ------
+    NumericalError : a sample is not finite
+    """
+    refuse_not_finite(membrane, bending)
+    totals, histogram = nothing_counted(len(membrane), rule.law)
+    _count(
+        _Histories(plain(membrane), plain(bending), plain(size), plain(same_ratio), totals, histogram),
+        residue == "repeat",
+        compiled_rule(rule),
+        buffers_for(membrane.shape[1]),
+    )
+    return block_count(totals, histogram, rule)
+
+
+@compiled()
+def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers) -> None:
+    """Count both surfaces of every row of the block."""
+    s = np.empty(block.membrane.shape[1])
+    for row in range(block.membrane.shape[0]):
+        for surface in range(2):
+            side = 1.0 - 2.0 * surface
+            for i in range(s.size):
+                s[i] = block.membrane[row, i] + side * block.bending[row, i]
+            total, histogram = block.totals[row, surface], block.histogram[row, surface]
+            total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
+            total["r_largest"] = math.nan
+            same_ratio = block.same_ratio[row, surface]
+            point = Surface(block.membrane[row], block.bending[row], side, block.size[row], same_ratio)
+            tally(point, total, histogram, rule, buffers, find_cycles(s, recurs, buffers))

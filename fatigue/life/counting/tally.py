@@ -1,0 +1,139 @@
+"""What is kept of cycles: their damage and what goes with it, summed up for one surface of one point."""
+
+import math
+from dataclasses import fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.compiled import compiled
+from fatigue.life import rule as master
+from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount
+from fatigue.life.counting.reversals import Buffers
+from fatigue.life.counting.signal import not_finite
+from fatigue.life.curves import DamageLaw
+from fatigue.life.rule import CycleRule
+
+Floats = NDArray[np.float64]
+
+_SCALARS = tuple(field.name for field in fields(BlockCount) if field.name != "histogram")
+
+
+class CompiledRule(NamedTuple):
+    """A `CycleRule` in a form that compiled code can read, its law among it: see `compiled_rule`."""
+
+    slopes: Floats
+    log_constants: Floats
+    knees: Floats
+    cutoff: float
+    uses_bending_ratio: bool
+    yield_MPa: float  # noqa: N815
+    mean_stress: bool
+
+
+class Surface(NamedTuple):
+    """One surface of one point, ``side`` +1 or -1: its stresses (t,), and what is its own in the damage of a cycle."""
+
+    membrane: Floats
+    bending: Floats
+    side: float
+    size: float
+    same_ratio: float
+
+
+def compiled_rule(rule: CycleRule) -> CompiledRule:
+    """Put a rule into the form for compiled code; without a yield stress it is infinite, so that f_M is 1."""
+    law, yield_MPa = rule.law, math.inf if rule.yield_MPa is None else float(rule.yield_MPa)
+    curve = (plain(law.slopes), plain(law.log_constants), plain(law.knees), float(law.cutoff))
+    return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress)
+
+
+def nothing_counted(points: int, law: DamageLaw) -> tuple[NDArray[np.void], Floats]:
+    """Totals and histogram of a block before its first cycle."""
+    totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
+    return totals, np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
+
+
+def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule) -> BlockCount:
+    """Give the totals of a block their names."""
+    if rule.yield_MPa is None:
+        totals["damage_mean_stress"] = np.nan
+    return BlockCount(**{name: totals[name].copy() for name in _SCALARS}, histogram=histogram)
+
+
+def refuse_not_finite(membrane: Floats, bending: Floats) -> None:
+    """Refuse a block with a row in which a sample is NaN or infinite."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        row_sum = membrane.sum(axis=1) + bending.sum(axis=1)
+    if not np.isfinite(row_sum).all():
+        raise not_finite(f"row {np.flatnonzero(~np.isfinite(row_sum))[0]} of the block")
+
+
+def plain(array: Floats) -> Floats:
+    """Float64, contiguous and writable, so that one compiled version serves all callers."""
+    return np.require(array, np.float64, ["C", "W"])
+
+
+# The formulas as they are written down, for one cycle.
+ratio_factor = compiled()(master.ratio_factor)
+has_mean_stress = compiled()(master.has_mean_stress)
+factor_of_stress_ratio = compiled()(master.factor_of_stress_ratio)
+equivalent_range = compiled()(master.equivalent_range)
+segment = compiled()(master.segment)
+damage_on_segment = compiled()(master.damage_on_segment)
+
+
+@compiled()
+def mean_stress_factor(minimum: float, maximum: float, yield_MPa: float) -> float:
+    """f_M of a cycle between two stresses, 1 where it does not apply."""
+    if has_mean_stress(minimum, maximum, yield_MPa):
+        return float(factor_of_stress_ratio(minimum / maximum))
+    return 1.0
+
+
+@compiled()
+def cycle_damage(x: float, rule: CompiledRule) -> float:
+    """Damage d = 1 / N of one cycle of the equivalent range x, 0 below the cut-off."""
+    if x < rule.cutoff or x == 0.0:
+        return 0.0
+    j = segment(x, rule.knees)
+    return float(damage_on_segment(x, rule.slopes[j], rule.log_constants[j]))
+
+
+@compiled()
+def tally(
+    point: Surface, total: NDArray[np.void], histogram: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
+) -> None:
+    """Add cycles of one point and surface to its totals and its histogram."""
+    membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
+    k = rule.slopes[0]
+    I_same = ratio_factor(point.same_ratio) if rule.uses_bending_ratio else 1.0
+    same_scale = equivalent_range(1.0, size, I_same, 1.0)
+    for c in range(cycles):
+        i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
+        s_i, s_j = membrane[i] + side * bending[i], membrane[j] + side * bending[j]
+        minimum, maximum = min(s_i, s_j), max(s_i, s_j)
+        S = maximum - minimum
+        dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
+        I = ratio_factor(db / (dm + db)) if rule.uses_bending_ratio else 1.0  # noqa: E741 - the symbol of the standard
+        x = equivalent_range(S, size, I, 1.0)
+        f_M = mean_stress_factor(minimum, maximum, rule.yield_MPa)
+        dS = x / f_M if rule.mean_stress else x
+        damage = cycle_damage(dS, rule)
+        total["damage"] += n * damage
+        total["damage_mean_stress"] += n * (damage if f_M == 1.0 else cycle_damage(x / f_M, rule))
+        total["cycles"] += n
+        total["power_sum"] += n * math.exp(k * math.log(S))  # faster than pow
+        total["max_equivalent_range"] = max(total["max_equivalent_range"], dS)
+        if total["max_range"] < S:
+            total["max_range"] = S
+            total["r_largest"] = minimum / maximum if maximum != 0.0 else math.nan
+        if histogram.shape[0] > 0:
+            total["damage_same_ratio"] += n * cycle_damage(S * same_scale, rule)
+            decades = math.log10(max(dS, 1e-3)) + 3.0
+            bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
+            histogram[bin_, 0] += n
+            histogram[bin_, 1] += n * math.exp(k * math.log(dS))
+    if histogram.shape[0] == 0:  # d(a S) = d(a) S**k of a straight law
+        total["damage_same_ratio"] = cycle_damage(same_scale, rule) * total["power_sum"]
