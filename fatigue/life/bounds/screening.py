@@ -174,6 +174,7 @@ def _of_modal_stresses(S_m: Floats, S_b: Floats, limits: Floats) -> Floats:
 
 @compiled("reassoc", "contract")
 def _sum_sizes(S_m: Floats, S_b: Floats, limits: Floats, sums: Floats) -> None:
+    """``sum over k of limits_k |S_m,k + S_b,k|`` at the top, with a minus at the bottom."""
     for i in range(len(S_m)):
         for row in range(len(limits)):
             top = bottom = 0.0

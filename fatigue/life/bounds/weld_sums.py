@@ -145,7 +145,10 @@ def add_sums(u: Singles, columns: int, matrices: Singles, begin: Rows, room: Sin
 
 @compiled("reassoc", "nsz", "nnan", "contract")
 def sums_of_steps(a: Singles) -> tuple[np.floating, ...]:
-    """Find `Sums`, in its order, of the steps of a and of its samples but the first."""
+    """``sum |d(a^3)|``, ``sum |d(a^3 |a|)|``, ``sum d(a^3)^2``, ``sum a^6``, ``sum a^12``: `Sums`, in its order.
+
+    Of the steps d of a and of its samples but the first.
+    """
     widest_vectors()
     third = fourth = steps = sixth = twelfth = np.float32(0.0)
     cube_before = a[0] * a[0] * a[0]

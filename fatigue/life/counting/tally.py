@@ -105,7 +105,11 @@ def cycle_damage(x: float, rule: CompiledRule) -> float:
 def tally(
     point: Surface, total: NDArray[np.void], histogram: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
 ) -> None:
-    """Add cycles of one point and surface to its totals and its histogram."""
+    """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
+
+    A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` and
+    ``dS = S size / (I(r)^(1/m) f_M)``.
+    """
     membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rule.slopes[0]
     I_same = ratio_factor(point.same_ratio) if rule.uses_bending_ratio else 1.0

@@ -42,7 +42,7 @@ class Exact(NamedTuple):
 
 @compiled()
 def rise(exact: Exact, at: tuple[int, int], i: int, j: int) -> float:
-    """Stress at sample j of a chunk minus that at sample i, both from 1, in double precision."""
+    """``sum over k of (S_m,k + side S_b,k) (q_k,j - q_k,i)`` in double precision; samples i and j of a chunk from 1."""
     m_i = m_j = b_i = b_j = 0.0
     for k in range(len(exact.q)):
         m_i += exact.membrane[at[0], k] * exact.q[k, i - 1]
@@ -78,7 +78,7 @@ def write_steps(
 
 @compiled()
 def reaches(sample: Marks, i: int, sign: float, at: tuple[int, int], exact: Exact) -> int:
-    """Whether reversal i is as large as the one before it on its side (1) or not (0); -1 if that is not known.
+    """``sign (s_i - s_(i-2)) >= 0``: whether reversal i reaches the one before it on its side; -1 if not known.
 
     ``sign`` is that of both, 1 at peaks; ``sample`` says which sample of the chunk a reversal is, 0 if none.
     """

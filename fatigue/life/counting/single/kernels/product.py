@@ -83,7 +83,7 @@ def rows_in_tiles(matrix: Singles) -> Singles:
 
 @compiled()
 def rows_by_blas(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
-    """Do what `multiply_rows` does, in all columns."""
+    """``stress = tile @ samples``, as `multiply_rows` but in all columns."""
     np.dot(tile.reshape(TILE, len(samples)), samples, stress)
 
 
@@ -104,7 +104,7 @@ def block_for(rows: int, width: int, precision: type[np.floating]) -> Numbers:
 
 
 def multiply(rows: Numbers, q: Numbers, stress: Numbers) -> None:
-    """Write the product of what was laid out into the columns 1 to t of a block; the next 31 may get anything."""
+    """``stress[:, 1 : t + 1] = rows @ q`` of what was laid out; the next 31 columns may get anything."""
     if rows.ndim == 3:
         simd.multiply(rows, q, stress)
     else:

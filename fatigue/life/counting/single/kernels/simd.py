@@ -354,7 +354,7 @@ def lay_out(q: Singles, panels: Singles) -> Singles:
 
 @compiled()
 def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
-    """Write the product into the columns of ``stress`` from 1 on; rows and columns are as many as tiles and panels."""
+    """``stress[:, 1:] = tiles @ panels``; rows and columns are as many as tiles and panels."""
     for first in range(0, len(panels), CACHED):
         for tile in range(len(tiles)):
             for panel in range(first, min(first + CACHED, len(panels))):
@@ -363,7 +363,7 @@ def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
 
 @compiled("contract")
 def multiply_rows(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
-    """Write the product of a tile, (h 12,), with so many columns of samples (h, w), as they are, into the same columns.
+    """``stress[:, :columns] = tile @ samples[:, :columns]`` of a tile (h 12,) and samples (h, w) as they are.
 
     Up to 31 more columns of both are touched: w is that much larger.
     """
