@@ -11,8 +11,8 @@ and the life and the damage
 r is its bending ratio, f_M its mean-stress factor, C and h belong to the material (ASME VIII-2 5.5.5.2; Dong, 2001).
 Other S-N curves have the same form: a factor of the thickness, no I(r), and several segments d = x^k / A, k = 1 / h.
 
-Functions that take numbers as well as arrays are also compiled as they stand, for the counters. Code that was compiled
-before a formula here was changed is used again: delete ``__pycache__`` then.
+Functions that take numbers as well as arrays are also compiled as they stand, for the counters. After a change here the
+counters are to be compiled anew, see ``fatigue.compiled``.
 """
 
 from dataclasses import dataclass
@@ -180,8 +180,8 @@ def equivalent_range(S: Numbers, size: Numbers, ratio_factor: Numbers, f_M: Numb
 def segment(x: Numbers, knees: Floats) -> Numbers:
     """Index of the segment of a law on which each equivalent range x lies: how many ``knees`` are above it."""
     above: Numbers = 0
-    for knee in knees:
-        above = above + (x < knee)
+    for j in range(len(knees)):
+        above = above + (x < knees[j])
     return above
 
 

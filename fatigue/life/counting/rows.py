@@ -1,7 +1,7 @@
 """Counting whole rows in double precision, for any law: the plain reading of the standard that all else is tested by.
 
 The reversals of each row are found and paired, and membrane and bending stress at the two instants of every cycle give
-its damage, with the exact ranges. Of records that are in memory and not too long this is a fifth faster than `chunks`.
+its damage, with the exact ranges. Short records take a sixth less time here than in ``chunks``, long ones a tenth more.
 """
 
 import math

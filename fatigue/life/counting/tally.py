@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.compiled import compiled
+from fatigue.compiled import compiled, inlined
 from fatigue.life import rule as master
 from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount
 from fatigue.life.counting.reversals import Buffers
@@ -80,7 +80,7 @@ ratio_factor = compiled()(master.ratio_factor)
 has_mean_stress = compiled()(master.has_mean_stress)
 factor_of_stress_ratio = compiled()(master.factor_of_stress_ratio)
 equivalent_range = compiled()(master.equivalent_range)
-segment = compiled()(master.segment)
+segment = inlined(master.segment)
 damage_on_segment = compiled()(master.damage_on_segment)
 
 
