@@ -1,4 +1,4 @@
-"""The assessment as a story: files, stress shapes, cycles and spectra, damage, kilometres, tables."""
+"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables."""
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
-from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.events import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
@@ -33,7 +33,8 @@ from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
-from fatigue.results.folder import publish, refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.publish import publish
 from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
@@ -154,7 +155,7 @@ def assess(
 
 
 def _senseless(threads: object, share: object, executor: object) -> Iterator[Problem]:
-    """Find arguments that make no sense."""
+    """Arguments that make no sense."""
     if threads is not None and not (isinstance(threads, Integral) and int(threads) >= 1):
         yield Problem("argument", "threads", f"{threads!r} is no number of threads", "Give a whole number from 1 on")
     if share is not None and not (isinstance(share, Real) and 0.0 <= float(share) <= 1.0):
@@ -165,7 +166,7 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
 
 
 def write_documents(folder: Path, case: Case, verification: Verification) -> list[Path]:
-    """Write picture and page beside the tables of a result that is not published yet."""
+    """Write picture and page beside the tables of a result that is not published yet, and return their paths."""
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]
@@ -175,8 +176,8 @@ def write_documents(folder: Path, case: Case, verification: Verification) -> lis
 class Tally:
     """What adds up while groups of welds stream by.
 
-    ``stations`` are counted by the tier that settled them, ``samples_per_peak`` is the smallest of each event,
-    ``warnings`` has those about the welds in the order of their groups.
+    ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
+    ``warnings`` has the warnings about the welds in the order of their groups.
     """
 
     total: int
@@ -198,8 +199,8 @@ class Tally:
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
         self.warnings.add(group.model.warnings)
-        for passed, event in zip(work.plan.passes, result.events, strict=True):
-            fewest = float(np.nanmin(event.samples_per_peak, initial=np.inf))
+        for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
+            fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
         self.progress("assessing", min(sum(self.stations.values()), self.total), self.total)
 
@@ -207,26 +208,25 @@ class Tally:
 def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
     """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld."""
     model, result, plan = group.model, group.result, work.plan
-    stations, events = model.stations, result.events
-    worst = worst_points(stations, result)
-    tables["nodes"].write(node_rows(stations, result.mission, result.tier, plan))
+    stations, worst = model.stations, worst_points(model.stations, result)
+    tables["nodes"].write(node_rows(stations, result, plan))
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
-        tables["damage"].write(damage_rows(stations, events, plan, some))
+        tables["damage"].write(damage_rows(stations, result, plan, some))
         tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
     tables["welds"].write(weld_rows(model, plan, result.mission, worst))
     return worst
 
 
 def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:
-    """Choose the worst points of a group whose cycles go into ``cycles.parquet``."""
+    """The worst points of a group whose cycles go into ``cycles.parquet``."""
     stations, curve_of_weld, used_up = group.model.stations, group.model.curve_of_weld, group.result.mission.utilisation
     matter = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
     return [kept_point(stations, curve_of_weld, point) for point in matter]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
-    """Tell which records are sampled too coarsely for their points, and what damage that hides."""
+    """Warnings of records that are sampled too coarsely for their points, with the damage that hides."""
     slope = max(float(rated.rule.law.slopes[0]) for rated in body.curves.values())
     return [
         Problem(

@@ -30,7 +30,8 @@ from fatigue.results import (
     row_count,
     table_writer,
 )
-from fatigue.results.folder import publish, result_log, staging_in
+from fatigue.results.folder import result_log
+from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
 from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point
@@ -116,9 +117,9 @@ def diagnose(
         stage("writing tables")
         finished = staging / "tables"
         finished.mkdir()
-        for name, pieces in _tables(body, plan, attribution, levers, verdicts).items():
+        for name, blocks in _tables(body, plan, attribution, levers, verdicts).items():
             with table_writer(finished, name, record.get("result", "")) as table:
-                for rows in pieces:
+                for rows in blocks:
                     table.write(rows)
         publish(finished, folder)
     return findings(body, plan, attribution, levers, verdicts, chosen.what)
@@ -127,15 +128,15 @@ def diagnose(
 def _tables(
     body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts]
 ) -> dict[str, Iterator[dict[str, Any]]]:
-    """Rows of all tables by name, event by event and in each of them some points at a time."""
-    of = range(len(plan.passes))
+    """Rows of all tables by name, event by event, within an event block by block of points."""
+    events = range(len(plan.passes))
     firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
     some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
-    pieces = [(attribution.of(few), [verdict.of(few) for verdict in verdicts]) for few in some]
+    blocks = [(attribution.of(few), [verdict.of(few) for verdict in verdicts]) for few in some]
     return {
-        "attribution": (attribution_rows(body.modes, part, part.events[e]) for e in of for part, _ in pieces),
-        "track": (track_rows(part.points, part.events[e]) for e in of for part, _ in pieces),
-        "diagnosis": (diagnosis_rows(part.points, judged[e]) for e in of for part, judged in pieces),
+        "attribution": (attribution_rows(body.modes, block, block.events[e]) for e in events for block, _ in blocks),
+        "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
+        "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
         "levers": iter([lever_rows(body.modes, plan, attribution, levers)]),
     }
 

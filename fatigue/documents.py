@@ -1,5 +1,6 @@
 """The documents of a finished result as a story: page, picture, print, workbook and CSV, put in place together."""
 
+import logging
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,8 +28,10 @@ from fatigue.results import (
     refuse_mixed,
     write_list,
 )
-from fatigue.results.folder import publish, staging_in
+from fatigue.results.publish import publish, staging_in
 from fatigue.stages import stage
+
+log = logging.getLogger(__name__)
 
 AGAIN = (PAGE, PICTURE)  # written again without being asked
 CSV = tuple(f"{table}.csv" for table in CSV_TABLES)
@@ -56,7 +59,9 @@ def write_documents(
     verification: Callable[[], Sequence[Mapping[str, Any]]] = tuple,
     force: bool = False,
 ) -> Documents:
-    """Write documents of a finished result, all that can be written; they replace those that are there in one step.
+    """Write documents of a finished result, all that can be written; in one step they replace the ones there.
+
+    A document that cannot be written here is warned of before the work begins, and told once more by what is returned.
 
     Parameters
     ----------
@@ -76,6 +81,8 @@ def write_documents(
     case_file = case_of(record, folder) if case_file is None else named_case(record, case_file)
     refuse(DataError, _in_the_way(folder, wanted, record, case_file, force=force))
     missing = missing_extras(wanted)
+    for problem in missing.values():
+        log.warning("%s Going on with the others.", problem)
     with locked(folder), staging_in(folder) as staging:
         if read_provenance(folder) != record:
             what = "the result was replaced by another run just now"

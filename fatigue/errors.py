@@ -9,7 +9,7 @@ from typing import ClassVar
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One mistake or one doubt, in words for the person who can mend it.
+    """One mistake or one warning, in words for the person who can mend it.
 
     ``where`` is the file and the place in it, ``what`` the finding with its value, ``remedy`` what to do
     (an imperative without a full stop); ``code`` names the kind of problem for machines. One that sums up others has

@@ -62,7 +62,7 @@ def dirlik_by_quadrature(moments: NDArray[np.float64], law: DamageLaw) -> float:
 
     corners = sorted({x / 2 / deviation for x in (*law.knees, law.cutoff) if 0 < x / 2 / deviation < 40})
     edges = [0.0, *corners, *(z for z in (1.0, 3.0, 8.0, 40.0) if not corners or z > corners[-1])]
-    pieces = (quad(integrand, a, b, epsabs=0, epsrel=1e-11, limit=200)[0] for a, b in pairwise(edges))
+    pieces = (quad(integrand, a, b, epsabs=1e-200, epsrel=1e-11, limit=200)[0] for a, b in pairwise(edges))
     return float(shape.peaks[0] * sum(pieces))
 
 

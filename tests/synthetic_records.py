@@ -1,4 +1,4 @@
-"""Stress records whose nature is known, to try the diagnosis on: one defect each."""
+"""Stress records whose nature is known, to try the judgement on: one defect each."""
 
 from collections.abc import Callable
 

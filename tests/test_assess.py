@@ -412,7 +412,7 @@ def test_a_full_disk_is_one_clear_error_and_loses_nothing(tmp_path, monkeypatch,
         def open(self, name, mode="r", **options):
             """Open an array for writing, if there is space."""
             written.extend([name] * (mode == "w"))
-            if written.count("of_events.npy") == 3 and mode == "w":
+            if written.count("event_columns.npy") == 3 and mode == "w":
                 self.fp.write(b"half")
                 raise OSError(28, "No space left on device")
             return super().open(name, mode, **options)

@@ -9,10 +9,9 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.cli import cli, main
-from fatigue.cli.early import missing_foreign, missing_tables, refuse_bad_modes, refuse_missing_case
+from fatigue.cli.early import missing_foreign, missing_tables, refuse_missing_case
 from fatigue.errors import FatigueError
-from fatigue.readers.convert.modal_basis import mode_list
-from fatigue.readers.foreign.formats import recognise
+from fatigue.readers.foreign.read import recognise
 from fatigue.readers.neutral.files import open_columns
 
 ROOT = Path(__file__).parents[1]
@@ -117,12 +116,6 @@ def test_the_words_are_those_of_the_readers(tmp_path):
         assert tuple(missing_foreign(path)) == refusal_of(recognise, path)
     for path in (tmp_path / "none.csv", tmp_path, tmp_path / "There.csv"):
         assert tuple(missing_tables(path)) == refusal_of(open_columns, path, ())
-    for text in ("1-x", "1;2", "3,", "-4", "5-2", "1-999999", "1" * 60):
-        early_one, late = (refusal_of(do, *of)[0] for do, of in ((refuse_bad_modes, ("o", text)), (mode_list, (text,))))
-        assert (early_one.what, early_one.remedy) == (late.what, late.remedy)
-    for text in ("1-6", "1-6,31-52", " 7 , 8-9"):
-        refuse_bad_modes("o", text)
-        assert mode_list(text)
 
 
 def test_all_missing_files_are_named_at_once(folder):

@@ -58,6 +58,17 @@ def test_what_is_missing_is_known_at_once_and_the_rest_is_written(result, tmp_pa
     assert {path.name for path in done.written} == {*AGAIN, *CSV}
 
 
+def test_nothing_goes_on_that_is_refused(result, tmp_path, monkeypatch, caplog):
+    """CSV is there and no browser is: one refusal, and no word of going on; with force the others are written."""
+    monkeypatch.setenv("FATIGUE_BROWSER", str(tmp_path / "none"))
+    write_documents(result, CSV)
+    with pytest.raises(DataError, match="is there already"):
+        write_documents(result, [*AGAIN, *CSV, PRINT])
+    assert "Going on" not in caplog.text
+    assert {path.name for path in write_documents(result, [*CSV, PRINT], force=True).written} == set(CSV)
+    assert "Going on with the others." in caplog.text
+
+
 def test_a_browser_that_fails_costs_only_the_print(result, tmp_path, monkeypatch):
     """It is found out late; the others are there all the same."""
     monkeypatch.setenv("FATIGUE_BROWSER", str(program(tmp_path / "browser", "echo no display >&2; exit 1")))

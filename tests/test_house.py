@@ -21,7 +21,17 @@ def run(*command: str) -> subprocess.CompletedProcess[str]:
         ("-m", "ruff", "format", "--check", "."),
         ("-m", "mypy"),
         ("-c", "from importlinter.cli import lint_imports_command as c; c()"),
-        ("-m", "codespell_lib", "fatigue", "tests", "README.md", "CHANGELOG.md", "docs", "data/carbody/README.md"),
+        (
+            "-m",
+            "codespell_lib",
+            "fatigue",
+            "tests",
+            "README.md",
+            "CHANGELOG.md",
+            "CONTRIBUTING.md",
+            "docs",
+            "data/carbody/README.md",
+        ),
     ],
     ids=["lint", "format", "types", "imports", "spelling"],
 )
@@ -47,3 +57,21 @@ def test_files_stay_readable():
     """One file per idea: none of the package grows beyond 450 lines."""
     long = {p.name: n for p in (ROOT / "fatigue").rglob("*.py") if (n := len(p.read_text().splitlines())) > 450}
     assert not long
+
+
+def test_folders_stay_readable():
+    """One room, one subject: no folder of the package holds more than 16 files, ``__init__`` included."""
+    folders = {p.parent for p in (ROOT / "fatigue").rglob("*.py")}
+    crowded = {f.name: n for f in folders if (n := len(list(f.glob("*.py")))) > 16}
+    assert not crowded
+
+
+def test_tests_mirror_the_package():
+    """A folder of tests is named for the room it tests, those for sources, damaged files and a solver apart."""
+    apart = {"validation", "fuzz", "mystran"}
+    folders = {p.parent.relative_to(ROOT / "tests") for p in (ROOT / "tests").rglob("test_*.py")}
+    assert not [
+        str(f)
+        for f in folders
+        if f.parts[:1] not in {(name,) for name in apart} and not (ROOT / "fatigue" / f).is_dir()
+    ]

@@ -12,8 +12,7 @@ from fatigue.assess import assess
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
 from fatigue.example import write_example
-from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.convert.weld_lines import WeldSources
+from fatigue.readers.convert.options import ConvertOptions, WeldSources
 from fatigue.report.files.export import write_csv
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import report_page, write_report

@@ -11,9 +11,9 @@ from pydantic import BaseModel, ValidationError
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, read_text, syntax_problem
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
-from fatigue.known_formats import misplaced
+from fatigue.files.misplaced import misplaced
+from fatigue.files.naming import missing_file
 from fatigue.life.curves import catalogue
-from fatigue.naming import missing_file
 
 CASE_FILE = "this is a case (case.toml)"
 DISTANCE_TOLERANCE = 1e-3  # relative, between length_km and speed times duration

@@ -14,8 +14,8 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from fatigue.errors import CaseError, Problem
-from fatigue.known_formats import misplaced
-from fatigue.naming import composed, control_characters, missing_case
+from fatigue.files.misplaced import misplaced
+from fatigue.files.naming import composed, control_characters, missing_case
 
 SHARE_TOLERANCE = 1e-6  # of the sum of all shares
 

@@ -4,17 +4,17 @@ from pathlib import Path
 
 import click
 
+from fatigue.cli.arguments import FOLDER
 from fatigue.cli.early import refuse_existing
-from fatigue.cli.main import cli, print_json
+from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO
+from fatigue.cli.output import print_json
 from fatigue.cli.progress import is_quiet, narrated
 from fatigue.stages import stage
 
-_FOLDER = click.Path(path_type=Path, file_okay=False)
-
 
 @cli.command()
-@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--force", is_flag=True, help="Overwrite files of the same names.")
 def example(folder: Path, force: bool) -> None:
     """Write the shipped car body, a case in two variants, to DIR.
@@ -30,7 +30,7 @@ def example(folder: Path, force: bool) -> None:
 
 
 @cli.command()
-@click.argument("folder", metavar="DIR", type=_FOLDER)
+@click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--nodes", type=click.IntRange(min=10), default=10_000, show_default=True, help="Weld nodes.")
 @click.option("--modes", type=click.IntRange(min=2), default=60, show_default=True, help="Modes.")
 @click.option("--events", type=click.IntRange(min=1), default=3, show_default=True, help="Events.")

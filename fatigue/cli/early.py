@@ -1,14 +1,11 @@
 """Mistakes in paths and names, told before anything heavy is imported in the words of those who read the files."""
 
 import difflib
-import re
 from collections.abc import Iterable
 from pathlib import Path
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
-from fatigue.naming import missing_case, missing_file, missing_foreign_file
-
-MOST_MODES = 100_000  # of one range
+from fatigue.files.naming import missing_case, missing_case_of_result, missing_file, missing_foreign_file
 
 
 def refuse_missing_case(path: Path) -> None:
@@ -24,18 +21,15 @@ def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
 
         settle_folder(folder)
     if not (folder / "provenance.json").exists():
-        from fatigue.results.store import read_provenance
+        from fatigue.results.provenance import read_provenance
 
         read_provenance(folder)
     if case_file is not None and not case_file.is_file():
-        what, remedy = "there is no such file", "Correct the path after --case"
-        if case_file.is_dir():
-            what, remedy = "this is a folder", "Give the path of the case.toml in it"
-        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+        raise DataError(missing_case_of_result(case_file))
 
 
 def missing_foreign(*paths: Path) -> Iterable[Problem]:
-    """Name FE and simulation files that are not there, as `fatigue.readers.foreign.formats.recognise` does."""
+    """Name FE and simulation files that are not there, as `fatigue.readers.foreign.read.recognise` does."""
     for path in paths:
         try:
             path.open("rb").close()
@@ -58,15 +52,6 @@ def refuse_unknown_units(**systems: str) -> None:
 
     for where, name in systems.items():
         unit_system(name, where.replace("_", " "))
-
-
-def refuse_bad_modes(option: str, text: str) -> None:
-    """Refuse a list of modes that is none, as `fatigue.readers.convert.modal_basis.mode_list` does."""
-    for part in text.split(",") if text else ():
-        found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
-        if not found or not 0 <= int(found[2] or found[1]) - int(found[1]) <= MOST_MODES:
-            shown = part if len(part) <= 40 else part[:37] + "..."
-            raise CaseError(Problem("bad_modes", option, f"{shown!r} is no mode or range", "Write 1-6,31-52"))
 
 
 def refuse_unknown_curve(name: str) -> None:

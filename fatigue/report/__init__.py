@@ -1,1 +1,6 @@
-"""The pages, figures and scenes a person looks at."""
+"""The page, its figures, and the files a result is taken away as.
+
+``page`` is the story: ``result`` reads the tables, ``inputs`` finds the input files again, ``signals``, ``domains`` and
+``variants`` compute what no table holds; ``figures`` draws, ``sections`` lays out the parts of the page, ``templates``
+holds its text, ``wording`` writes numbers for people. ``files`` are the picture, the print, the workbook and CSV.
+"""

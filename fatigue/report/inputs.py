@@ -10,19 +10,20 @@ import numpy as np
 
 from fatigue.case import Case, Event
 from fatigue.errors import DataError, FatigueError, Problem
+from fatigue.files.hashes import sha256
 from fatigue.life.records.history import ModalHistory, kept
 from fatigue.readers.neutral.body import Mesh, read_mesh
 from fatigue.readers.neutral.history import read_history
 from fatigue.readers.neutral.register.weld_register import REGISTER
-from fatigue.results import case_of, sha256
+from fatigue.results import case_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Inputs:
+class FoundInputs:
     """The inputs of a result: the case as it was assessed, the folder of its files and their hashes.
 
     ``root`` is None where the case file was not found any more; ``lost`` says so then, and what to do. ``outdated``
-    are doubts about the welds, which are shown as they were assessed.
+    are warnings about the welds, which are shown as they were assessed.
     """
 
     case: Case
@@ -68,7 +69,7 @@ class Inputs:
         return path
 
 
-def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None) -> Inputs:
+def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None) -> FoundInputs:
     """Find the inputs of the result with this provenance record.
 
     The case file is where ``case_path`` says, by default where the record says. It counts as found when its text is the
@@ -90,7 +91,7 @@ def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None)
     root = path.parent if found == text else None
     hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
     lost, modes = _lost(record, moved=found is None), tuple(record["modes"]["used"])
-    return Inputs(case, root, lost, hashes, modes, () if root is None else tuple(_outdated(case, root, hashes)))
+    return FoundInputs(case, root, lost, hashes, modes, () if root is None else tuple(_outdated(case, root, hashes)))
 
 
 def _outdated(case: Case, root: Path, hashes: Mapping[str, str]) -> Iterator[Problem]:

@@ -13,8 +13,8 @@ from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.report import figures, wording
-from fatigue.report.figures.scene import Body
-from fatigue.report.inputs import Inputs, find_inputs
+from fatigue.report.figures.scene import BodyOutline
+from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.result import Result, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
@@ -69,7 +69,7 @@ def write_report(
 def report_page(
     folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
 ) -> str:
-    """Return the page as text; see `write_report`."""
+    """Return the page as text; see ``write_report``."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
@@ -142,7 +142,7 @@ def _environment() -> jinja2.Environment:
     return environment
 
 
-def _details(result: Result, inputs: Inputs, missing: list[Problem]) -> tuple[dict[str, Detail], dict[str, float]]:
+def _details(result: Result, inputs: FoundInputs, missing: list[Problem]) -> tuple[dict[str, Detail], dict[str, float]]:
     """Recover what the records say, or note why not."""
     try:
         return weld_details(result, inputs)
@@ -151,7 +151,7 @@ def _details(result: Result, inputs: Inputs, missing: list[Problem]) -> tuple[di
         return {}, {}
 
 
-def _body(inputs: Inputs, missing: list[Problem]) -> Body | None:
+def _body(inputs: FoundInputs, missing: list[Problem]) -> BodyOutline | None:
     """Read the mesh, or note why not (unless the whole case is gone, which is noted already)."""
     try:
         mesh = inputs.mesh()

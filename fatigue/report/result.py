@@ -83,7 +83,7 @@ class Result:
         cycles = read_rows(self.folder, "cycles", self.cycle_rows[weld], [*POINT, *columns]).to_pandas()
         return self._worst_of(weld, cycles).reset_index(drop=True)
 
-    def stress_shapes(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
+    def modal_stress(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
 
         Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the

@@ -15,10 +15,10 @@ DOMINANT_MODES = 4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Record:
+class EventRecord:
     """One event as every point needs it: modal coordinates, and their mean and covariance.
 
-    The stress factor is applied to the stress shapes of a point, and to ``covariance`` already.
+    The stress factor is applied to the modal stress of a point, and to ``covariance`` already.
     """
 
     history: ModalHistory
@@ -28,7 +28,7 @@ class Record:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Spectrum:
+class StressSpectrum:
     """One-sided stress spectrum of one event: frequency [Hz], density [MPa^2/Hz]."""
 
     event: str
@@ -56,40 +56,42 @@ class Envelope:
     high: NDArray[np.float64]
 
 
-def prepared(history: ModalHistory, stress_factor: float) -> Record:
+def prepared(history: ModalHistory, stress_factor: float) -> EventRecord:
     """Join a record with its stress factor and compute mean and covariance of its modal coordinates."""
     mean, covariance = mean_and_covariance(history.q)
-    return Record(history, stress_factor, mean, stress_factor**2 * covariance)
+    return EventRecord(history, stress_factor, mean, stress_factor**2 * covariance)
 
 
-def spectrum(record: Record, shape: NDArray[np.float64], segment_s: float, upper_hz: float) -> Spectrum | None:
-    """Welch spectrum of the stress ``shape @ q`` (m,); None where the record is shorter than one segment."""
+def spectrum(
+    record: EventRecord, modal_stress: NDArray[np.float64], segment_s: float, upper_hz: float
+) -> StressSpectrum | None:
+    """Welch spectrum of the stress of a point, ``modal_stress`` (m,) [MPa]; None for a record below one segment."""
     if not has_spectrum(record.history, segment_s):
         return None
     history = record.history
-    stress = replace(history, q=stress_history(record.stress_factor * shape[None], history.q))
+    stress = replace(history, q=stress_history(record.stress_factor * modal_stress[None], history.q))
     spectra = segment_spectra(stress, segment_s, upper_hz)
-    return Spectrum(history.event, spectra.frequency, cross_densities(spectra)[:, 0, 0])
+    return StressSpectrum(history.event, spectra.frequency, cross_densities(spectra)[:, 0, 0])
 
 
-def variance_shares(record: Record, shape: NDArray[np.float64]) -> NDArray[np.float64]:
+def variance_shares(record: EventRecord, modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:
     """Share of each mode in the variance of the stress (m,): ``s_k (C s)_k / s' C s``; shares sum to 1.
 
     A negative share is that of a mode that relieves the others. All are NaN where nothing varies.
     """
-    parts = shape * (record.covariance @ shape)
+    parts = modal_stress * (record.covariance @ modal_stress)
     total = parts.sum()
     return np.asarray(parts / total if total > 0.0 else np.full_like(parts, np.nan))
 
 
 def excerpts(
-    record: Record, shape: NDArray[np.float64], start_s: float, end_s: float, modes: Sequence[int]
+    record: EventRecord, modal_stress: NDArray[np.float64], start_s: float, end_s: float, modes: Sequence[int]
 ) -> list[Excerpt]:
     """Cut the stress around the two instants of a cycle: one excerpt where they are close, else one at each.
 
     ``modes`` are the rows of q whose parts of the stress are shown.
     """
-    history, factors = record.history, record.stress_factor * shape
+    history, factors = record.history, record.stress_factor * modal_stress
     last = history.q.shape[1] - 1
     at = sorted(min(max(round((t - history.start) / history.step), 0), last) for t in (start_s, end_s))
     groups = [at] if at[1] - at[0] <= 2 * CLOSE_UP_SAMPLES else [at[:1], at[1:]]
@@ -108,10 +110,10 @@ def excerpts(
     return found
 
 
-def envelope(record: Record, shape: NDArray[np.float64]) -> Envelope:
+def envelope(record: EventRecord, modal_stress: NDArray[np.float64]) -> Envelope:
     """Extremes of the stress over the whole kept record, in at most ``ENVELOPE_BINS`` spans."""
     history = record.history
-    stress = stress_history(record.stress_factor * shape, history.q)
+    stress = stress_history(record.stress_factor * modal_stress, history.q)
     starts = np.linspace(0, len(stress), min(ENVELOPE_BINS, len(stress)), endpoint=False).astype(np.int64)
     return Envelope(
         event=history.event,
@@ -121,6 +123,6 @@ def envelope(record: Record, shape: NDArray[np.float64]) -> Envelope:
     )
 
 
-def deviations(record: Record, shapes: NDArray[np.float64]) -> NDArray[np.float64]:
+def deviations(record: EventRecord, modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:
     """Compute the standard deviation of the stress at many stations: (n, m) -> (n,) [MPa]."""
-    return np.asarray(np.sqrt(np.maximum(((shapes @ record.covariance) * shapes).sum(axis=1), 0.0)))
+    return np.asarray(np.sqrt(np.maximum(((modal_stress @ record.covariance) * modal_stress).sum(axis=1), 0.0)))

@@ -32,8 +32,10 @@ from fatigue.results.columns import (
     WELDS,
     Column,
 )
+from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
-from fatigue.results.parts import (
+from fatigue.results.provenance import JOURNAL, input_register, read_provenance, software_versions
+from fatigue.results.rows import (
     number_groups,
     read_codes,
     read_rows,
@@ -42,21 +44,7 @@ from fatigue.results.parts import (
     rows_of_welds,
     worst_toes,
 )
-from fatigue.results.store import (
-    JOURNAL,
-    TableWriter,
-    coded,
-    input_register,
-    json_ready,
-    read_provenance,
-    read_table,
-    result_tables,
-    schema,
-    sha256,
-    software_versions,
-    table_writer,
-    write_json,
-)
+from fatigue.results.tables import TableWriter, coded, read_table, result_tables, schema, table_writer
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
 
 __all__ = [
@@ -109,7 +97,6 @@ __all__ = [
     "row_groups",
     "rows_of_welds",
     "schema",
-    "sha256",
     "software_versions",
     "strangers",
     "table_writer",

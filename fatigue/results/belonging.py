@@ -16,8 +16,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
-from fatigue.results.store import read_provenance, sha256, write_json
+from fatigue.results.json_records import write_json
+from fatigue.results.provenance import read_provenance
 
 PICTURE, PAGE, PRINT, WORKBOOK = "weld_lines.vtp", "report.html", "report.pdf", "nodes.xlsx"
 CSV_TABLES = ("nodes", "damage", "cycles", "welds")

@@ -1,9 +1,6 @@
-"""The result folder on disk: whose files are in it, the log, and how a finished result gets there."""
+"""The result folder on disk: whose files are in it, and the log of what was done."""
 
-import json
 import logging
-import os
-import shutil
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,14 +10,12 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.results.belonging import DOCUMENTS, LIST, is_derived
 from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
-from fatigue.results.store import JOURNAL, read_provenance
+from fatigue.results.provenance import PROVENANCE, read_provenance
 
-LAST = "provenance.json"  # a folder without it holds no finished result
 LOG = "fatigue.log"
-OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.html", LIST, LOG, LAST)
+OUTPUTS = (*(f"{table}.parquet" for table in TABLES), "weld_lines.vtp", "report.html", LIST, LOG, PROVENANCE)
 DERIVED = tuple(dict.fromkeys((*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST)))
 STATE = ".fatigue-state"  # of an interrupted run
-STAGING = ".fatigue-staging"
 _CASE_OF_STATE = "case"
 
 
@@ -52,11 +47,11 @@ def refuse_foreign(folder: Path, *, force: bool, case_file: Path | None = None, 
         refuse(DataError, _other_case(folder, record, case_file))
     has_state = (folder / STATE).is_dir()
     problems = []
-    for name in (*DERIVED, LOG, LAST):
+    for name in (*DERIVED, LOG, PROVENANCE):
         path = folder / name
         if not path.exists() or _is_one_of(path, inputs):
             continue
-        if name in (LOG, LAST) and (record is not None or has_state):
+        if name in (LOG, PROVENANCE) and (record is not None or has_state):
             continue
         if not is_derived(folder, name, record):
             what = "is there already and was not written by fatigue, or was changed since"
@@ -122,71 +117,3 @@ def stale_files(folder: Path, inputs: Collection[Path] = ()) -> list[str]:
     """Name everything in a result folder that was derived from its result, inputs of the case excepted."""
     there = [name for name in DERIVED if (folder / name).exists()]
     return [name for name in there if not _is_one_of(folder / name, inputs)]
-
-
-def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
-    """Put finished files in place of what was derived before, all of them or none.
-
-    They are forced to disk first. Then a journal says what goes and what comes; from there on the publication is
-    completed, by `complete` at the next command if need be. Provenance goes first and comes last, so that a half-moved
-    result never looks whole.
-
-    Parameters
-    ----------
-    finished : folder of the new files; a new result has its provenance among them
-    folder : the result folder, locked
-    stale : names of files to remove
-    """
-    files = sorted(finished.iterdir())
-    for path in files:
-        with path.open("rb+") as file:
-            os.fsync(file.fileno())
-    names = {path.name for path in files}
-    journal = {"from": os.path.relpath(finished, folder), "remove": [name for name in stale if name not in names]}
-    unfinished = folder / f"{JOURNAL}.unfinished"
-    with unfinished.open("w", encoding="utf-8") as file:
-        file.write(json.dumps(journal))
-        file.flush()
-        os.fsync(file.fileno())
-    unfinished.replace(folder / JOURNAL)
-    complete(folder)
-
-
-@contextmanager
-def staging_in(folder: Path) -> Iterator[Path]:
-    """Give a hidden folder in a result folder to write to; files are published from it when all are whole."""
-    staging = folder / STAGING
-    shutil.rmtree(staging, ignore_errors=True)
-    staging.mkdir()
-    try:
-        yield staging
-    finally:
-        if not (folder / JOURNAL).exists():  # else `complete` needs it
-            shutil.rmtree(staging, ignore_errors=True)
-
-
-def complete(folder: Path) -> None:
-    """Complete a publication that has begun; nothing where there is none. The folder has to be locked.
-
-    Raises
-    ------
-    DataError : a file cannot be replaced or removed, as one that is open on Windows
-    """
-    try:
-        journal = json.loads((folder / JOURNAL).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        return
-    finished = folder / journal["from"]
-    files = sorted(finished.iterdir(), key=lambda path: (path.name == LAST, path.name)) if finished.is_dir() else []
-    try:
-        for name in journal["remove"]:
-            (folder / name).unlink(missing_ok=True)
-        if any(path.name == LAST for path in files):
-            (folder / LAST).unlink(missing_ok=True)
-        for path in files:
-            path.replace(folder / path.name)
-    except PermissionError as error:
-        where, what = str(error.filename2 or error.filename or folder), f"cannot be replaced ({error.strerror})"
-        remedy = "Close the program that has it open and run the same command again"
-        raise DataError(Problem("cannot_write", where, what, remedy)) from error
-    (folder / JOURNAL).unlink()

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem
-from fatigue.results.store import sha256
+from fatigue.files.hashes import sha256
+from fatigue.files.naming import missing_case_of_result
 
 
 def way_to_case(case_file: Path, folder: Path) -> str:
@@ -48,10 +49,7 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
     DataError : there is no such file, or it is not the case that was assessed
     """
     if not case_file.is_file():
-        what, remedy = "there is no such file", "Correct the path after --case"
-        if case_file.is_dir():
-            what, remedy = "this is a folder", "Give the path of the case.toml in it"
-        raise DataError(Problem("missing_case", str(case_file), what, remedy))
+        raise DataError(missing_case_of_result(case_file))
     if _text(case_file) != record["case_text"]:
         what = f"is not the case of this result: its text differs from that of {record['case_file']} as it was assessed"
         remedy = "Name the case as it was assessed, or assess again"

@@ -9,7 +9,10 @@ from typing import Any
 import pandas as pd
 
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
-from fatigue.results import assessed, not_assessed, read_provenance, read_rows, read_welds, refuse_mixed, worst_toes
+from fatigue.results.belonging import refuse_mixed
+from fatigue.results.provenance import read_provenance
+from fatigue.results.rows import read_rows, worst_toes
+from fatigue.results.weld_table import assessed, not_assessed, read_welds
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.results.columns import WELDS
-from fatigue.results.store import read_table
+from fatigue.results.tables import read_table
 
 _TYPES = {"int": np.int64, "flag": np.bool_}
 

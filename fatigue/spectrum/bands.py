@@ -1,11 +1,11 @@
 """Frequency bands of a record that add up to the record exactly, and products taken band by band.
 
 The record is written in an orthonormal basis in time whose members each have one frequency. The sum of products over
-samples is then the same sum over coefficients, ``x @ y = X @ Y``, and a band is a run of coefficients: the parts of the
-product that belong to the bands add up to the whole, and the parts of the record do.
+samples is then the same sum over coefficients, ``x @ y = X @ Y``. A band is a slice of the coefficients. So the bands
+of a product add up to the whole product, and the bands of a record to the record.
 
-A record that recurs is periodic, and its basis that of Fourier. A single pass ends elsewhere than it began; the cosine
-basis (DCT-II) continues it as its own mirror image, so that the jump does not leak into every band.
+A record that recurs is periodic, and its basis is the Fourier basis. A single pass ends elsewhere than it began; the
+cosine basis (DCT-II) continues it as its own mirror image, so that the jump does not leak into every band.
 """
 
 import itertools
@@ -24,8 +24,11 @@ LOWEST_CENTRE_HZ, HIGHEST_CENTRE_HZ = 1.0, 80.0  # nominal one-third octaves a b
 def third_octaves(lowest_hz: float = LOWEST_CENTRE_HZ, highest_hz: float = HIGHEST_CENTRE_HZ) -> Floats:
     """Band edges of one-third octaves, ``10**(n/10) * 10**(+-1/20)`` Hz (IEC 61260-1, base ten).
 
-    The bands run from that around ``lowest_hz`` to that around ``highest_hz``; what lies below the first edge and above
-    the last one are bands as well, see `band_slices`.
+    The bands run from the one around ``lowest_hz`` to the one around ``highest_hz``; what lies below the first edge and
+    above the last one are bands as well, see ``band_slices``.
+
+    >>> third_octaves(1.0, 1.6).round(3)
+    array([0.891, 1.122, 1.413, 1.778])
     """
     first, last = round(10.0 * np.log10(lowest_hz)), round(10.0 * np.log10(highest_hz))
     return np.asarray(10.0 ** ((np.arange(first, last + 2) - 0.5) / 10.0))
@@ -34,7 +37,7 @@ def third_octaves(lowest_hz: float = LOWEST_CENTRE_HZ, highest_hz: float = HIGHE
 def coefficients(x: NDArray[np.floating], residue: Residue) -> Floats:
     """Coefficients (..., t) of records (..., t) in the orthonormal basis of a record that recurs, or of a single pass.
 
-    Their frequencies are `coefficient_frequencies`, ascending.
+    Their frequencies are ``coefficient_frequencies``, ascending.
     """
     if residue == "half":
         from scipy.fft import dct  # noqa: PLC0415 - scipy.fft takes a while to import
@@ -58,7 +61,7 @@ def coefficient_frequencies(samples: int, step: float, residue: Residue) -> Floa
 
 
 def band_slices(frequency: Floats, edges: Sequence[float] | Floats) -> list[slice]:
-    """Find the runs of coefficients below the first edge, between neighbouring edges, and from the last edge on.
+    """Slices of the coefficients below the first edge, between neighbouring edges, and from the last edge on.
 
     ``frequency`` is ascending [Hz]; a band contains its lower edge. One band more than there are edges; a band between
     two coefficients is empty.

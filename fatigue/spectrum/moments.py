@@ -2,13 +2,13 @@
 
 Stress is linear in the modal coordinates q, and a spectral moment is quadratic in stress. So with the moment matrices
 ``M_p = integral of f**p Re S_qq(f) df`` the moment of a point with stress per unit modal coordinate s is ``s' M_p s``.
-Windowed, detrended segments are linear in q as well: the result is that of Welch's method applied to the point's own
+Windowed, detrended segments are linear in q as well: the result is what Welch's method finds of the point's own
 stress history, to rounding (Braccesi, Cianetti et al. published the idea for modal models, 2005 and later).
 """
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -55,12 +55,8 @@ class Spectra:
     upper_hz: float
     segment_s: float
 
-    def part(self, first: int, last: int) -> "Spectra":
-        """Take the segments from ``first`` to before ``last``."""
-        return replace(self, starts=self.starts[first:last])
-
     def transforms(self) -> Iterator[NDArray[np.float64]]:
-        """Transform one segment after the other: (m, 2 f), the real and the imaginary part of each bin.
+        """Transforms of one segment after the other, (m, 2 f): the real and the imaginary part of each bin.
 
         The mean over segments of the products of two modes, summed over both parts of a bin, is the real part of their
         one-sided cross-spectral density [unit modal coordinate**2 / Hz]. The imaginary part is antisymmetric and leaves
@@ -75,7 +71,7 @@ class Spectra:
                 yield self._transform(samples[:, start - starts[0] : start - starts[0] + length])
 
     def _transform(self, samples: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Transform one segment, (m, length of a segment), some modes at a time."""
+        """Transform of one segment, (m, length of a segment), some modes at a time."""
         length, bins = samples.shape[1], len(self.frequency)
         amplitude = np.empty((len(samples), bins), dtype=np.complex128)
         at_once = max(1, CACHED_NUMBERS // length)
@@ -108,7 +104,7 @@ class MomentMatrices:
 
 
 def samples_per_segment(step: float, segment_s: float) -> int:
-    """Round the segment length to samples."""
+    """Number of samples of a segment, its length rounded."""
     return round(segment_s / step)
 
 
@@ -118,15 +114,15 @@ def has_spectrum(history: ModalHistory, segment_s: float) -> bool:
 
 
 def segment_count(samples: int, step: float, segment_s: float) -> int:
-    """Count the segments that a record of so many samples holds; 0 where a segment has fewer than four samples."""
+    """Number of segments in a record of so many samples; 0 where a segment has fewer than four samples."""
     length = samples_per_segment(step, segment_s)
     return len(segment_starts(samples, length)) if length >= 4 else 0
 
 
 def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) -> Spectra:
-    """Cut all modal coordinates into segments that overlap by half: own mean removed, periodic Hann window.
+    """Spectra of segments that overlap by half, of all modal coordinates: own mean removed, periodic Hann window.
 
-    Bins above ``upper_hz`` [Hz] are dropped. The scaling is that of Welch's method (1967), one-sided.
+    Bins above ``upper_hz`` [Hz] are dropped. The scaling is Welch's (1967), one-sided.
 
     Raises
     ------
@@ -166,7 +162,7 @@ def segment_starts(samples: int, length: int) -> range:
 
 
 def windowed(samples: NDArray[np.floating], window: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Remove the mean of one segment of modal coordinates (m, len(window)) and taper it.
+    """One segment of modal coordinates, (m, len(window)), without its mean and tapered.
 
     The mean goes in double precision: gravity can be a thousand times what is left.
     """
@@ -177,17 +173,17 @@ def windowed(samples: NDArray[np.floating], window: NDArray[np.float64]) -> NDAr
 
 
 def _from_first(samples: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Take samples from the first one of each mode, in double precision: a record at rest has exactly no spectrum."""
+    """Samples less the first one of each mode, in double precision: a record at rest has exactly no spectrum."""
     return np.asarray(samples - samples[:, :1].astype(np.float64), dtype=np.float64)
 
 
 def moment_matrices(spectra: Spectra, orders: Sequence[float] = DIRLIK_ORDERS) -> MomentMatrices:
-    """Integrate the cross-spectra of the modal coordinates, times f**p, over the kept bins."""
-    return next(moments_by_run(spectra, orders, len(spectra.starts)))
+    """Moment matrices M_p of an event, Eq. 18: integrals of ``f**p Re S_qq`` over the kept bins."""
+    return next(moments_by_chunk(spectra, orders, len(spectra.starts)))
 
 
-def moments_by_run(spectra: Spectra, orders: Sequence[float], run: int) -> Iterator[MomentMatrices]:
-    """Moment matrices of ``run`` segments after the other; at the end there may be fewer."""
+def moments_by_chunk(spectra: Spectra, orders: Sequence[float], size: int) -> Iterator[MomentMatrices]:
+    """Moment matrices of one chunk after the other, each of ``size`` segments; the last may have fewer."""
     modes, segments = spectra.history.q.shape[0], len(spectra.starts)
     exponents = np.asarray(orders, dtype=np.float64)
     roots = np.repeat(np.sqrt(spectra.weight * spectra.frequency ** exponents[:, None]), 2, axis=1)
@@ -196,12 +192,12 @@ def moments_by_run(spectra: Spectra, orders: Sequence[float], run: int) -> Itera
         for i, root in enumerate(roots):
             rows = parts * root
             matrix[i] += rows @ rows.T
-        in_run = number % run + 1
-        if in_run == run or number + 1 == segments:
+        done = number % size + 1
+        if done == size or number + 1 == segments:
             yield MomentMatrices(
                 orders=exponents,
-                matrix=matrix / in_run,
-                segments=in_run,
+                matrix=matrix / done,
+                segments=done,
                 resolution_hz=spectra.resolution_hz,
                 upper_hz=spectra.upper_hz,
             )
@@ -218,7 +214,7 @@ def cross_densities(spectra: Spectra) -> NDArray[np.float64]:
 
 
 def pair_densities(spectra: Spectra) -> NDArray[np.float64]:
-    """Real part of the one-sided cross-spectral density of each of the `pairs` of modes, (f, pairs), see above."""
+    """Real part of the one-sided cross-spectral density of each of the ``pairs`` of modes, (f, pairs)."""
     modes, bins = spectra.history.q.shape[0], len(spectra.frequency)
     upper = np.ravel_multi_index(pairs(modes), (modes, modes))
     density = np.zeros((bins, len(upper)))
@@ -237,22 +233,35 @@ def pair_densities(spectra: Spectra) -> NDArray[np.float64]:
     return density
 
 
-def point_moments(shapes: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:
-    """Spectral moments of the stress at every point.
+def point_moments(modal_stress: NDArray[np.float64], matrices: MomentMatrices) -> NDArray[np.float64]:
+    """Spectral moments ``s' M_p s`` of the stress at every point, (p, n) [MPa**2 Hz**p], never negative (Eq. 18).
 
-    ``shapes`` is (n, m), the stress per unit modal coordinate [MPa]; returns (p, n) [MPa**2 Hz**p], never negative.
+    ``modal_stress`` is (n, m) [MPa per unit modal coordinate].
+
+    Examples
+    --------
+    A coordinate of amplitude 3 at 5 Hz and 2 MPa per unit of it: the variance of a stress of amplitude 6 MPa.
+
+    >>> sine = 3.0 * np.sin(2 * np.pi * 5.0 * np.arange(4000) / 200)
+    >>> history = ModalHistory("sine", np.array([1]), sine[np.newaxis], 1 / 200, 0.0)
+    >>> matrices = moment_matrices(segment_spectra(history, segment_s=2.0, upper_hz=80.0))
+    >>> float(point_moments(np.array([[2.0]]), matrices)[0, 0].round(9))
+    18.0
     """
-    return np.maximum(quadratic_forms(shapes, matrices.matrix), 0.0)
+    return np.maximum(quadratic_forms(modal_stress, matrices.matrix), 0.0)
 
 
-def quadratic_forms(shapes: NDArray[np.floating], matrices: NDArray[Real]) -> NDArray[Real]:
-    """Evaluate ``s' M s`` for all rows s of ``shapes`` (n, m) and all M of ``matrices`` (p, m, m): (p, n).
+def quadratic_forms(modal_stress: NDArray[np.floating], matrices: NDArray[Real]) -> NDArray[Real]:
+    """Quadratic forms ``s' M s``, (p, n), of all rows s of ``modal_stress`` (n, m) and all M of ``matrices`` (p, m, m).
 
-    Works in the precision of the matrices.
+    They have the precision of the matrices.
+
+    >>> quadratic_forms(np.array([[1.0, 2.0]]), np.eye(2)[np.newaxis])
+    array([[5.]])
     """
-    forms = np.empty((len(matrices), len(shapes)), dtype=matrices.dtype)
-    for first in range(0, len(shapes), BLOCK_POINTS):
-        block = shapes[first : first + BLOCK_POINTS].astype(matrices.dtype, copy=False)
+    forms = np.empty((len(matrices), len(modal_stress)), dtype=matrices.dtype)
+    for first in range(0, len(modal_stress), BLOCK_POINTS):
+        block = modal_stress[first : first + BLOCK_POINTS].astype(matrices.dtype, copy=False)
         for row, matrix in zip(forms, matrices, strict=True):
             np.einsum("nm,nm->n", block @ matrix, block, out=row[first : first + BLOCK_POINTS])
     return forms

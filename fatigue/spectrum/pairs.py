@@ -1,8 +1,8 @@
 """Many quadratic forms of the same points at once, from the products of all pairs of modes.
 
 ``s' M s = sum over i <= j of w_ij s_i s_j`` with ``w_ii = M_ii`` and ``w_ij = 2 M_ij`` beside the diagonal. A symmetric
-matrix holds every number beside the diagonal twice, so this takes half the products of ``s' (M s)``, and for all
-matrices together it is one matrix product: that of their weights with the products of the pairs.
+matrix holds every number beside the diagonal twice, so this takes half the products of ``s' (M s)``. For all matrices
+together it is one matrix product, of their weights with the products of the pairs.
 """
 
 import numpy as np
@@ -25,11 +25,11 @@ def weights_of_pairs(modes: int) -> NDArray[np.float64]:
     return np.where(first == second, 1.0, 2.0)
 
 
-def pair_forms(shapes: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Evaluate quadratic forms given by their weights (p, pairs) for all rows of ``shapes`` (n, m): (p, n)."""
-    forms = np.empty((len(weights), len(shapes)), dtype=weights.dtype)
-    for begin in range(0, len(shapes), BLOCK_POINTS):
-        block = shapes[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
+def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Quadratic forms, (p, n), given by their weights (p, pairs), of all rows of ``modal_stress`` (n, m)."""
+    forms = np.empty((len(weights), len(modal_stress)), dtype=weights.dtype)
+    for begin in range(0, len(modal_stress), BLOCK_POINTS):
+        block = modal_stress[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
         products = np.empty((weights.shape[1], block.shape[1]), dtype=weights.dtype)
         _multiply_pairs(block, products)
         forms[:, begin : begin + BLOCK_POINTS] = weights @ products
@@ -38,7 +38,7 @@ def pair_forms(shapes: NDArray[np.floating], weights: NDArray[np.float32]) -> ND
 
 @compiled()
 def _multiply_pairs(block: NDArray[np.float32], products: NDArray[np.float32]) -> None:
-    """Write the products of all pairs of the modes of some points, (m, n), as (pairs, n), in the order of `pairs`."""
+    """Write the products of all pairs of the modes of some points, (m, n), as (pairs, n), in the order of ``pairs``."""
     pair = 0
     for first in range(len(block)):
         for second in range(first, len(block)):

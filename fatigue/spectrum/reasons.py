@@ -1,4 +1,4 @@
-"""The verdict of the diagnosis in words, with its numbers."""
+"""The verdict on a point in words, with its numbers."""
 
 import math
 from collections.abc import Callable
@@ -10,23 +10,23 @@ from fatigue.spectrum.trust import (
     HIGHEST_PEAK_RATE,
     SLOW_SHARE,
     VERDICTS,
-    Diagnosis,
+    Judgement,
     sampling_loss,
 )
 
 
-def reason(of: Diagnosis, i: int) -> str:
-    """Say in one or two sentences why point i has its verdict, and how far the record can be trusted."""
+def reason(of: Judgement, i: int) -> str:
+    """Why point i has its verdict, and how far the record can be trusted, in one or two sentences."""
     verdict = VERDICTS[of.verdict[i]]
     sentence = _SENTENCES[verdict](of, i)
     return sentence if verdict == "not_assessed" else f"{sentence} {_confidence(of, i)}".rstrip()
 
 
-def _not_assessed(of: Diagnosis, i: int) -> str:
+def _not_assessed(of: Judgement, i: int) -> str:
     return "Nothing to compare: the stress has no spectrum here or the counted damage is zero."
 
 
-def _valid(of: Diagnosis, i: int) -> str:
+def _valid(of: Judgement, i: int) -> str:
     return (
         f"Dirlik over rainflow {of.dirlik_ratio[i]:.2f} lies within {_band(of, i)}; {_modulation(of, i)}, kurtosis "
         f"{of.kurtosis[i]:.1f}, {of.line_share[i]:.0%} of the variance in tones, {of.slow_share[i]:.0%} below "
@@ -34,7 +34,7 @@ def _valid(of: Diagnosis, i: int) -> str:
     )
 
 
-def _sampling(of: Diagnosis, i: int) -> str:
+def _sampling(of: Judgement, i: int) -> str:
     if of.samples_per_peak[i] < FEWEST_SAMPLES_PER_PEAK:
         loss = sampling_loss(of.samples_per_peak[i], of.slope)
         return (
@@ -47,7 +47,7 @@ def _sampling(of: Diagnosis, i: int) -> str:
     )
 
 
-def _quasi_static(of: Diagnosis, i: int) -> str:
+def _quasi_static(of: Judgement, i: int) -> str:
     return (
         f"{of.slow_share[i]:.0%} of the variance lies below {of.slow_hz:.2g} Hz, fewer than ten cycles in this record "
         f"(limit {SLOW_SHARE:.0%}): loads so slow are a sequence, not a spectrum. Use rainflow"
@@ -55,7 +55,7 @@ def _quasi_static(of: Diagnosis, i: int) -> str:
     )
 
 
-def _single_event(of: Diagnosis, i: int) -> str:
+def _single_event(of: Judgement, i: int) -> str:
     return (
         f"The largest cycle alone does {of.top_cycle_share[i]:.0%} of the damage, chance allows "
         f"{of.top_cycle_limit[i]:.0%}: a single event governs, and no spectrum knows it. Dirlik over rainflow "
@@ -63,7 +63,7 @@ def _single_event(of: Diagnosis, i: int) -> str:
     )
 
 
-def _non_stationary(of: Diagnosis, i: int) -> str:
+def _non_stationary(of: Judgement, i: int) -> str:
     return (
         f"The variance changes over time {of.modulation_index[i]:.1f} times as much as chance lets it, "
         f"{of.modulation_high[i]:.1f} is allowed. One spectrum for all of it misses a factor of about "
@@ -72,7 +72,7 @@ def _non_stationary(of: Diagnosis, i: int) -> str:
     )
 
 
-def _harmonic(of: Diagnosis, i: int) -> str:
+def _harmonic(of: Judgement, i: int) -> str:
     return (
         f"The variance is steadier than noise can be (modulation index {of.modulation_index[i]:.2f}), "
         f"{of.line_share[i]:.0%} of it in tones: a limit cycle. Its peaks all have the same height, so Dirlik "
@@ -80,7 +80,7 @@ def _harmonic(of: Diagnosis, i: int) -> str:
     )
 
 
-def _non_gaussian(of: Diagnosis, i: int) -> str:
+def _non_gaussian(of: Judgement, i: int) -> str:
     sharper = of.kurtosis[i] > of.expected_kurtosis[i]
     kind = "peaks higher than Gaussian, as from impacts or play" if sharper else "clipped peaks, as from bump stops"
     side = "underestimates" if sharper else "overestimates"
@@ -90,7 +90,7 @@ def _non_gaussian(of: Diagnosis, i: int) -> str:
     )
 
 
-def _bandwidth(of: Diagnosis, i: int) -> str:
+def _bandwidth(of: Judgement, i: int) -> str:
     return (
         f"Dirlik over rainflow {of.dirlik_ratio[i]:.2f} lies outside {_band(of, i)} although the record is stationary "
         f"and Gaussian: an error of the formula at this bandwidth (alpha2 {of.alpha2[i]:.2f}). Tovo-Benasciutti gives "
@@ -98,11 +98,11 @@ def _bandwidth(of: Diagnosis, i: int) -> str:
     )
 
 
-def _band(of: Diagnosis, i: int) -> str:
+def _band(of: Judgement, i: int) -> str:
     return f"{of.ratio_low[i]:.2f} to {of.ratio_high[i]:.2f}"
 
 
-def _modulation(of: Diagnosis, i: int) -> str:
+def _modulation(of: Judgement, i: int) -> str:
     if math.isnan(of.modulation_index[i]):
         return f"whether it is stationary is unknown ({of.segments} spectral segments, {FEWEST_PERIODS} are needed)"
     if of.modulation_index[i] > of.modulation_high[i]:
@@ -113,12 +113,12 @@ def _modulation(of: Diagnosis, i: int) -> str:
     )
 
 
-def _cancelling(of: Diagnosis, i: int) -> str:
+def _cancelling(of: Judgement, i: int) -> str:
     agrees = of.ratio_low[i] <= of.dirlik_ratio[i] <= of.ratio_high[i]
     return f"; that both agree here ({of.dirlik_ratio[i]:.2f}) is two errors that cancel" if agrees else ""
 
 
-def _confidence(of: Diagnosis, i: int) -> str:
+def _confidence(of: Judgement, i: int) -> str:
     if not of.record_too_short[i]:
         return ""
     if math.isnan(of.damage_cov[i]):
@@ -132,7 +132,7 @@ def _confidence(of: Diagnosis, i: int) -> str:
     )
 
 
-_SENTENCES: dict[str, Callable[[Diagnosis, int], str]] = {
+_SENTENCES: dict[str, Callable[[Judgement, int], str]] = {
     "not_assessed": _not_assessed,
     "valid": _valid,
     "sampling": _sampling,

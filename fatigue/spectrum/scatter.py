@@ -1,8 +1,8 @@
 """The scatter of a variance by chance: what a stationary Gaussian process leads to expect from period to period.
 
 The variance of a Gaussian process' variance is a sum of squared autocovariances (Bendat and Piersol, Random Data,
-section 8.3), and the autocovariance of a point's stress at each lag is a quadratic form in its shape. Most of the
-hundreds of lags repeat each other, so a few forms hold nearly all of it.
+section 8.3), and the autocovariance of a point's stress at each lag is a quadratic form in its modal stress. Most of
+the hundreds of lags repeat each other, so a few forms hold nearly all of it.
 """
 
 import numpy as np
@@ -19,14 +19,14 @@ NEGLIGIBLE = 0.01  # share of the scatter energy the principal spectra may miss:
 def principal_scatter(
     spectra: Spectra, density: NDArray[np.float64], scale: NDArray[np.float64], taper: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Find forms H_j with ``sum (s' H_j s)**2`` the variance of a Gaussian process' tapered variance.
+    """Forms H_j with ``sum (s' H_j s)**2`` the variance of a Gaussian process' tapered variance, (r, pairs).
 
-    ``density`` (f, pairs) is that of the spectra, and is used up; ``s`` is the shape times ``scale`` (m,); ``taper`` is
-    the weight of each squared sample. The forms are given by their weights of pairs, (r, pairs).
+    ``density`` (f, pairs) belongs to the spectra, and is used up; ``s`` is the modal stress times ``scale`` (m,);
+    ``taper`` is the weight of each squared sample. The forms are given by their weights of pairs, (r, pairs).
 
     That variance is ``2 sum over lags of overlap(lag) (s' R(lag) s)**2`` with the autocovariance R of the coordinates
     and the autocorrelation of the taper. The few principal directions of the stack of matrices hold all but
-    `NEGLIGIBLE` of its energy, the sum of its squared numbers.
+    ``NEGLIGIBLE`` of its energy, the sum of its squared numbers.
     """
     first, second = pairs(len(scale))
     beside_diagonal = np.sqrt(weights_of_pairs(len(scale)))  # each number there stands twice in the energy

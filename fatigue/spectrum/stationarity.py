@@ -1,7 +1,8 @@
 """Is an event one stationary Gaussian case? Its variance over time, beside the scatter that chance allows.
 
-The record is cut into periods. The variance of a point's stress in each of them is a quadratic form in its shape, and
-the scatter to be expected of it a sum of squared ones, see `scatter`. Both need matrices of the modal coordinates only.
+The record is cut into periods. The variance of a point's stress in each period is a quadratic form in its modal
+stress, and the scatter to be expected of that variance is a sum of squared ones, see ``scatter``. Both need matrices of
+the modal coordinates only.
 """
 
 from collections.abc import Callable
@@ -16,7 +17,7 @@ from fatigue.spectrum.moments import (
     DIRLIK_ORDERS,
     MomentMatrices,
     Spectra,
-    moments_by_run,
+    moments_by_chunk,
     pair_densities,
     point_moments,
     samples_per_segment,
@@ -33,10 +34,11 @@ MOST_PERIODS = 32  # into which a long record is cut: more would cost time and t
 class PeriodMatrices:
     """Variance of the modal coordinates period by period, and the scatter to be expected of it by chance.
 
-    The forms are those of coordinates scaled to unit variance, in single precision: they take ``shapes * rms``. Each is
-    a row of ``forms``, its weights of the `pairs` of modes: first the variance of each period, then that of the record,
-    then the principal spectra of the scatter. The expected squared coefficient of variation of a point's variance from
-    period to period, were the record Gaussian and stationary, is ``sum of scatter**2 / mean**2``.
+    The forms belong to coordinates scaled to unit variance, in single precision: they take ``modal_stress * rms``.
+    Each is a row of ``forms``, its weights of the ``pairs`` of modes: first the variance of each period, then the
+    variance of the record, then the principal spectra of the scatter. The expected squared coefficient of variation of
+    a point's variance from period to period, were the record Gaussian and stationary, is
+    ``sum of scatter**2 / mean**2``.
 
     Attributes
     ----------
@@ -77,20 +79,20 @@ class Stationarity:
 
 def moments_and_variances(spectra: Spectra) -> tuple[MomentMatrices, NDArray[np.float64]]:
     """Moment matrices of an event, and from the same transforms the variance matrix of each period, (p, m, m)."""
-    run = segments_per_period(spectra)
+    size = segments_per_period(spectra)
     total, variances = np.zeros(()), []
-    for part in moments_by_run(spectra, DIRLIK_ORDERS, run):
-        total = total + part.segments * part.matrix
-        if part.segments == run:
-            variances.append(part.matrix[0].copy())
+    for chunk in moments_by_chunk(spectra, DIRLIK_ORDERS, size):
+        total = total + chunk.segments * chunk.matrix
+        if chunk.segments == size:
+            variances.append(chunk.matrix[0].copy())
     segments = len(spectra.starts)
-    return replace(part, matrix=total / segments, segments=segments), np.stack(variances)
+    return replace(chunk, matrix=total / segments, segments=segments), np.stack(variances)
 
 
 def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[np.float64]) -> PeriodMatrices | None:
-    """Judge the periods of an event, one or, in a long record, some segments each; None if there are fewer than eight.
+    """Matrices of the periods of an event, of one segment or, in a long record, some; None for fewer than eight.
 
-    ``variances`` is (p, m, m), see `moments_and_variances`.
+    ``variances`` is (p, m, m), see ``moments_and_variances``.
     """
     if len(spectra.starts) < FEWEST_PERIODS:
         return None
@@ -113,19 +115,22 @@ def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[
 
 
 def segments_per_period(spectra: Spectra) -> int:
-    """Segments that make one period, so that there are no more than `MOST_PERIODS`."""
+    """Segments that make one period, so that there are no more than ``MOST_PERIODS``."""
     return -(-len(spectra.starts) // MOST_PERIODS)
 
 
 def moments_by_period(spectra: Spectra, orders: tuple[float, ...]) -> list[MomentMatrices]:
     """Moment matrices of each period; segments that do not fill a last period are left out."""
-    run = segments_per_period(spectra)
-    return [part for part in moments_by_run(spectra, orders, run) if part.segments == run]
+    size = segments_per_period(spectra)
+    return [chunk for chunk in moments_by_chunk(spectra, orders, size) if chunk.segments == size]
 
 
-def stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices) -> Stationarity:
-    """Judge the variance over time of the stress at every point; ``shapes`` is (n, m). NaN where the stress is zero."""
-    forms = pair_forms(shapes * periods.rms, periods.forms).astype(np.float64)
+def stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices) -> Stationarity:
+    """Variance over time of the stress at every point, judged; NaN where the stress is zero.
+
+    ``modal_stress`` is (n, m) [MPa per unit modal coordinate].
+    """
+    forms = pair_forms(modal_stress * periods.rms, periods.forms).astype(np.float64)
     variance, mean = forms[: periods.periods], forms[periods.periods]
     scatter = np.sqrt(np.sum(forms[periods.periods + 1 :] ** 2, axis=0))
     expected_cov = quotient(scatter, mean)
@@ -145,7 +150,7 @@ def stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices) -> Statio
 
 
 def modulation_factor(of: Stationarity, k: float) -> NDArray[np.float64]:
-    """Damage of the periods, each at its own variance, over that at their mean variance: (n,), 1 when stationary.
+    """Damage of the periods, each at its own variance, over the damage at their mean variance: (n,), 1 when stationary.
 
     ``mean(v**(k/2)) / mean(v)**(k/2)``, over the value it has by chance, ``1 + (k/2)(k/2 - 1)/2 cov**2``.
     """
@@ -154,16 +159,16 @@ def modulation_factor(of: Stationarity, k: float) -> NDArray[np.float64]:
 
 
 def damage_rate_by_period(
-    shapes: NDArray[np.float64],
+    modal_stress: NDArray[np.float64],
     spectra: Spectra,
     damage_rate: Callable[[NDArray[np.float64]], NDArray[np.float64]],
 ) -> NDArray[np.float64]:
     """Mean over the periods of the damage rate of each: (n,) [1/s], for points where modulation is what is wrong.
 
     ``damage_rate`` maps moments (4, n) of orders 0, 1, 2, 4 of one period to damage per second. A sum over Gaussian
-    portions in the sense of Wolfsteiner (2017); short portions scatter, which adds some per cent of damage.
+    chunks in the sense of Wolfsteiner (2017); short chunks scatter, which adds some per cent of damage.
     """
-    rates = [damage_rate(point_moments(shapes, m)) for m in moments_by_period(spectra, (0.0, 1.0, 2.0, 4.0))]
+    rates = [damage_rate(point_moments(modal_stress, m)) for m in moments_by_period(spectra, (0.0, 1.0, 2.0, 4.0))]
     return np.asarray(np.mean(rates, axis=0))
 
 

@@ -2,8 +2,8 @@
 
 A surrogate is a stationary Gaussian record with all the cross-spectra of the real one. Counted by rainflow it gives the
 damage D_s, and the ratio splits exactly: ``D_dirlik / D_rainflow = (D_dirlik / D_s) (D_s / D_rainflow) = A B``. A is
-the error of the formula (and of the band limit), B that of taking the record for stationary and Gaussian. A ratio near
-1 can hide A and B that cancel.
+the error of the formula (and of the band limit), B the error of taking the record for stationary and Gaussian. A ratio
+near 1 can hide A and B that cancel.
 """
 
 from collections.abc import Callable
@@ -37,7 +37,7 @@ class RatioSplit:
 
 
 def gaussian_surrogate(history: ModalHistory, segment_s: float, rng: np.random.Generator) -> ModalHistory:
-    """Draw a stationary Gaussian record with the spectra and cross-spectra of ``history``, as long or 16 segments.
+    """Stationary Gaussian record with the spectra and cross-spectra of ``history``, as long or 16 segments.
 
     Each line of its spectrum is a sum of the spectra of the tapered segments at that frequency, each times a complex
     normal number of its own: that keeps all cross-spectra without ever factorising them.
@@ -68,7 +68,7 @@ def ratio_split(
     surrogates: int = 8,
     seed: int = 1985,
 ) -> RatioSplit:
-    """Split Dirlik over rainflow at some points; the same seed gives the same split.
+    """Dirlik over rainflow split at some points; the same seed gives the same split.
 
     ``damage_rate`` counts a record at these points: (n,) damage per second [1/s], the unit of ``dirlik_rate`` and
     ``rainflow_rate`` too.
@@ -85,6 +85,9 @@ def ratio_split(
 
 
 def explained_share(split: RatioSplit, factors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Share of ln B that known effects explain: ``factors`` (n,) on the damage, of modulation times that of tones."""
+    """Share of ln B, (n,), that known effects explain.
+
+    ``factors`` (n,) is the factor of modulation on the damage times the factor of tones.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(-np.log(factors) / np.log(split.process))

@@ -1,7 +1,7 @@
 """The periodic Hann window, which a spectrum wants (the symmetric one is for filters), on samples or on a transform.
 
-It is three lines, ``(1 - cos(2 pi i / n)) / 2``. So the transform under the window is that without it, half of each bin
-less a quarter of either neighbour; where few bins are kept that costs less than a product with all samples.
+The window ``(1 - cos(2 pi i / n)) / 2`` has three spectral lines. So a bin under the window is half the bin without it,
+less a quarter of either neighbour; where few bins are kept this costs less than a product with all samples.
 """
 
 import numpy as np
@@ -9,12 +9,16 @@ from numpy.typing import NDArray
 
 
 def hann(length: int) -> NDArray[np.float64]:
-    """Return the window."""
+    """Window of so many samples.
+
+    >>> hann(4)
+    array([0. , 0.5, 1. , 0.5])
+    """
     return 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(length) / length)
 
 
 def tapered(transform: NDArray[np.complex128], samples: int, bins: slice) -> NDArray[np.complex128]:
-    """Turn transforms (n, samples // 2 + 1) of real records into those of the records under the window, (n, bins)."""
+    """Transforms of records under the window, (n, bins), from their transforms without it, (n, samples // 2 + 1)."""
     before = transform[:, [1]].conj()  # mirror image: the bin below 0 Hz
     beyond = transform[:, [samples - transform.shape[1]]].conj()  # ... and that above the last one
     inside = transform[:, max(0, bins.start - 1) : bins.stop + 1]

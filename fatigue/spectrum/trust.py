@@ -52,16 +52,18 @@ MODULATION_MATTERS = 1.1  # factor on the damage
 EXPLAINED_KURTOSIS = 0.25  # share of the excess that modulation must make; with less, high peaks scatter the variance
 LINE_SHARE = 0.30  # of the variance, in tones
 STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
-NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, that of a mode with 3 % damping: a tone is narrower
+NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, of a mode with 3 % damping: a tone is narrower
 KURTOSIS_OFF = 0.5  # from what the modulation found explains
 RATIO_BAND = {4.0: (0.80, 1.25), 5.0: (0.65, 1.35)}  # of Dirlik / rainflow on Gaussian records, by slope k
 CONFIDENT = 0.25  # coefficient of variation of the damage from one record to the next
-RATIO_SCATTER = 0.5  # of ln(Dirlik / rainflow) over that of each damage (Monte Carlo): one record, common errors
+RATIO_SCATTER = (
+    0.5  # scatter of ln(Dirlik / rainflow) over the scatter of each damage (Monte Carlo): one record, common errors
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class DiagnosisMatrices:
-    """What the diagnosis of all points of an event needs, computed once.
+class TrustMatrices:
+    """Matrices of an event that the judgement of all its points needs, computed once.
 
     ``moments`` are the moment matrices of the event, from the same transforms as the periods. ``periods`` is None if
     the record holds too few segments to judge its scatter.
@@ -75,13 +77,13 @@ class DiagnosisMatrices:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Diagnosis:
+class Judgement:
     """Verdict and the numbers behind it; every array is (n,). What could not be measured is NaN.
 
     Attributes
     ----------
-    verdict : index into `VERDICTS`
-    record_too_short : the damage would scatter by more than `CONFIDENT` from record to record, or that is unknown
+    verdict : index into ``VERDICTS``
+    record_too_short : the damage would scatter by more than ``CONFIDENT`` from record to record, or that is unknown
     dirlik_ratio, tb_ratio : damage of Dirlik and of Tovo-Benasciutti over rainflow damage
     ratio_low, ratio_high : band in which the ratio means agreement
     alpha2 : irregularity
@@ -90,7 +92,7 @@ class Diagnosis:
     slow_share : of the variance, below ``slow_hz``
     top_cycle_share : of the rainflow damage, in the largest cycle
     top_cycle_limit : share that chance allows
-    modulation_index, modulation_low, modulation_high : see `Stationarity`
+    modulation_index, modulation_low, modulation_high : see ``Stationarity``
     modulation_factor : damage that the modulation found adds
     line_share : of the variance, in spectral lines
     line_factor : damage that lines take away: of tone plus noise over Gaussian of the same variance
@@ -131,10 +133,10 @@ class Diagnosis:
     segments: int
 
 
-def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatrices:
-    """Prepare the diagnosis of an event from its kept record and the segment spectra of it."""
+def trust_matrices(history: ModalHistory, spectra: Spectra) -> TrustMatrices:
+    """Matrices for the judgement of an event, from its kept record and the segment spectra of it."""
     moments, variances = moments_and_variances(spectra)
-    return DiagnosisMatrices(
+    return TrustMatrices(
         moments=moments,
         record=record_matrices(history, spectra.upper_hz),
         periods=period_matrices(history, spectra, variances),
@@ -143,10 +145,10 @@ def diagnosis_matrices(history: ModalHistory, spectra: Spectra) -> DiagnosisMatr
     )
 
 
-def diagnose(
-    shapes: NDArray[np.float64],
+def judge(
+    modal_stress: NDArray[np.float64],
     moments: NDArray[np.float64],
-    matrices: DiagnosisMatrices,
+    matrices: TrustMatrices,
     *,
     slope: float,
     dirlik_ratio: NDArray[np.float64],
@@ -155,12 +157,12 @@ def diagnose(
     top_cycle_share: NDArray[np.float64],
     samples_per_peak: NDArray[np.float64],
     top_mode_hz: float | None,
-) -> Diagnosis:
-    """Diagnose all points of one event.
+) -> Judgement:
+    """Judgement on all points of one event: the verdict and the numbers behind it.
 
     Parameters
     ----------
-    shapes : (n, m) stress per unit modal coordinate [MPa]
+    modal_stress : (n, m) stress per unit modal coordinate [MPa]
     moments : (4, n) spectral moments of that stress, orders 0, 1, 2, 4
     matrices : of the event
     slope : k of the S-N curve where the damage is done
@@ -172,17 +174,19 @@ def diagnose(
     """
     shape = spectral_shape(moments)
     record = matrices.record
-    total, slow, lines = (quadratic_forms(shapes, M[None])[0] for M in (record.covariance, record.slow, record.lines))
+    total, slow, lines = (
+        quadratic_forms(modal_stress, M[None])[0] for M in (record.covariance, record.slow, record.lines)
+    )
     line_share = np.clip(quotient(lines, total), 0.0, 1.0)
-    time = _stationarity(shapes, matrices.periods)
+    time = _stationarity(modal_stress, matrices.periods)
     lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
     variance_cov = np.sqrt(quotient(1.0, matrices.duration * time.bandwidth_hz))
     steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
     damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
     chance = np.exp(1.645 * RATIO_SCATTER * np.where(np.isnan(damage_cov), 2 * CONFIDENT, damage_cov))
-    diagnosis = Diagnosis(
-        verdict=np.zeros(len(shapes), dtype=np.int8),
+    judgement = Judgement(
+        verdict=np.zeros(len(modal_stress), dtype=np.int8),
         record_too_short=~(damage_cov <= CONFIDENT),
         dirlik_ratio=dirlik_ratio,
         tb_ratio=tb_ratio,
@@ -215,12 +219,16 @@ def diagnose(
         slow_hz=matrices.record.slow_hz,
         segments=matrices.segments,
     )
-    diagnosis.verdict[:] = _verdict(diagnosis)
-    return diagnosis
+    judgement.verdict[:] = _verdict(judgement)
+    return judgement
 
 
 def sampling_loss(samples_per_peak: NDArray[np.float64], k: float) -> NDArray[np.float64]:
-    """Share of the damage lost because peaks fall between samples: ``k (pi / samples per peak)**2 / 6``."""
+    """Share of the damage lost because peaks fall between samples: ``k (pi / samples per peak)**2 / 6`` (Eq. 6).
+
+    >>> float(sampling_loss(np.array(10.0), k=3.6).round(3))
+    0.059
+    """
     return np.asarray(np.minimum(k * (np.pi / samples_per_peak) ** 2 / 6, 1.0))
 
 
@@ -228,7 +236,10 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
     """Damage of a tone that holds ``share`` of the variance, plus narrow-band noise, over all-Gaussian damage.
 
     Mean of a Rice-distributed amplitude to the power k: ``1F1(-k/2; 1; -s) / (1 + s)**(k/2)`` with s the variance of
-    the tone over that of the noise (Rice, 1945); ``1 / Gamma(1 + k/2)`` for a pure tone.
+    the tone over the variance of the noise (Rice, 1945); ``1 / Gamma(1 + k/2)`` for a pure tone.
+
+    >>> float(tone_damage_factor(np.array(0.0), k=3.6))
+    1.0
     """
     from scipy.special import hyp1f1  # noqa: PLC0415 - slow to import
 
@@ -236,8 +247,8 @@ def tone_damage_factor(share: NDArray[np.float64], k: float) -> NDArray[np.float
     return np.asarray(hyp1f1(-k / 2, 1.0, -over_noise) / (1 + over_noise) ** (k / 2))
 
 
-def _verdict(of: Diagnosis) -> NDArray[np.int8]:
-    """Apply the rule: the first finding that holds; a number that could not be had accuses nobody."""
+def _verdict(of: Judgement) -> NDArray[np.int8]:
+    """Verdict by the rule: the first finding that holds; a number that could not be had accuses nobody."""
     modulated = (of.modulation_index > of.modulation_high) & (of.modulation_factor > MODULATION_MATTERS)
     high_peaks = of.expected_kurtosis - 3 < EXPLAINED_KURTOSIS * (of.kurtosis - 3)
     narrow = of.relative_bandwidth < NARROW_PEAK
@@ -259,11 +270,11 @@ def _verdict(of: Diagnosis) -> NDArray[np.int8]:
     return verdict
 
 
-def _stationarity(shapes: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
-    """Judge the variance over time, or say nothing (NaN) of a record too short for it."""
+def _stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices | None) -> Stationarity:
+    """Variance over time, judged; NaN for a record too short for it."""
     if periods is not None:
-        return stationarity(shapes, periods)
-    unknown = np.full(len(shapes), np.nan)
+        return stationarity(modal_stress, periods)
+    unknown = np.full(len(modal_stress), np.nan)
     return Stationarity(unknown[None], unknown, unknown, unknown, unknown, unknown)
 
 
@@ -274,7 +285,7 @@ def _ratio_band(slope: float) -> tuple[float, float]:
 
 
 def _rayleigh_cycles(shape: SpectralShape, time: Stationarity, duration: float, k: float) -> NDArray[np.float64]:
-    """Count the Rayleigh cycles that would do Dirlik's damage, those only that fall into the periods which do it."""
+    """Number of Rayleigh cycles that would do Dirlik's damage, in the periods which do it only."""
     variance = time.relative_variance
     damage = np.where(np.isnan(variance), 1.0, variance) ** (k / 2)
     busy = damage.mean(axis=0) ** 2 / np.mean(damage**2, axis=0)

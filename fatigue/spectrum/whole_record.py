@@ -42,7 +42,7 @@ class RecordMatrices:
 
 
 def record_matrices(history: ModalHistory, upper_hz: float) -> RecordMatrices:
-    """Split the covariance of the whole record; lines are looked for between the slow part and ``upper_hz`` [Hz].
+    """Covariance of the whole record and its parts; lines are looked for between the slow part and ``upper_hz`` [Hz].
 
     Some modes are transformed at a time, at least one, in about seven times the memory of their samples in double
     precision.
@@ -100,7 +100,7 @@ def _products(amplitude: NDArray[np.complex128]) -> NDArray[np.float64]:
 
 
 def _few_modes(modes: int, samples: int) -> list[slice]:
-    """Cut the modes so that the records of a few stay in the processor's cache."""
+    """Slices of the modes, so few each that their records stay in the processor's cache."""
     few = max(1, CACHED_NUMBERS // samples)
     return [slice(first, first + few) for first in range(0, modes, few)]
 
@@ -115,7 +115,10 @@ def _spectrum(q: Samples, some: slice, mean: NDArray[np.float64]) -> NDArray[np.
 
 
 def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Bins of (n, f) far above the medians of their block and of those beside it: the edge of a band is no tone."""
+    """Whether each bin, (n, f), is far above the medians of its block and the blocks beside it.
+
+    So the edge of a band is no tone.
+    """
     blocks = power.shape[1] // LINE_BLOCK
     if blocks == 0:
         return np.zeros(power.shape, dtype=np.bool_)
@@ -124,7 +127,5 @@ def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
     median = np.partition(block, (half - 1, half), axis=2)[:, :, half - 1 : half + 1].mean(axis=2)
     median = np.concatenate([median[:, :1], median, median[:, -1:]], axis=1)
     around = np.maximum(np.maximum(median[:, :-2], median[:, 1:-1]), median[:, 2:])
-    of_bin = np.minimum(
-        np.arange(power.shape[1]) // LINE_BLOCK, blocks - 1
-    )  # the last, incomplete one joins the one before
+    of_bin = np.minimum(np.arange(power.shape[1]) // LINE_BLOCK, blocks - 1)  # the last, incomplete block joins another
     return np.asarray(power > LINE_OVER_MEDIAN * around[:, of_bin])

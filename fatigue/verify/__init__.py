@@ -1,1 +1,1 @@
-"""Does the installed program compute what it says: known values, and a recount of finished results."""
+"""Does the program compute what it says: cases with ``known`` answers in a ``table``, and a ``recount`` of results."""

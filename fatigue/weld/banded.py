@@ -1,8 +1,8 @@
 """Symmetric banded systems that do not touch one another, with many right sides each.
 
-``A = L D L'`` without pivots, for a positive definite A; for a tridiagonal one the operations are those of LAPACK's
-ptsv. The right sides of a row lie side by side, so every step runs along memory, and one system is solved while it is
-in the cache.
+A positive definite A is factorised as ``A = L D L'`` without pivots; on a tridiagonal A this does the operations of
+LAPACK's ptsv. The right sides of a row lie side by side, so every step runs along memory, and one system is solved
+while it is in the cache.
 """
 
 import numpy as np

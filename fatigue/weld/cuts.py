@@ -1,4 +1,4 @@
-"""From weld edges to assessable cuts: a line of nodes, the one plate side it is seen from, and that side's elements.
+"""From weld edges to assessable cuts: a line of nodes, the one plate side it is seen from, and the side's elements.
 
 A weld edge with three shells is seen from three sides. Each side is followed along the weld on its own: from an edge to
 the next one as long as the plate goes on round the node between them. The elements met on the way, those touching a
@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from fatigue.weld.detection import Key, Topology
 from fatigue.weld.line import WeldLine
-from fatigue.weld.mesh import NONE, unit
+from fatigue.weld.line_geometry import unit
+from fatigue.weld.mesh import NONE
 
 STRAIGHT_DEG = 30.0
 """Where weld lines cross, a line goes on straight ahead within this angle or ends."""
@@ -45,7 +46,7 @@ class WeldCut:
 
 
 def trace(topo: Topology, keys: dict[int, Key]) -> list[WeldCut]:
-    """Join weld edges to lines, one for each plate side.
+    """Cuts of weld edges joined to lines, one for each plate side.
 
     Lines of one key are joined; they end at branches unless they go straight on, where the kind or the properties
     change, and where the plate side does not go on. Kinks stay in a line: the line is split there when it is assessed.
@@ -76,7 +77,7 @@ class _Walker:
         return b if node == a else a
 
     def away(self, edge: int, node: int) -> NDArray[np.float64]:
-        """Return the unit vector along an edge away from one of its nodes."""
+        """Unit vector along an edge away from one of its nodes."""
         xyz = self.topo.mesh.xyz
         return unit(xyz[self.other_end(edge, node)] - xyz[node])
 
@@ -107,7 +108,7 @@ class _Walker:
         return chain, False
 
     def step(self, side: int, node: int) -> int | None:
-        """Find the side of the next edge on the same plate, beyond ``node``."""
+        """Side of the next edge on the same plate, beyond ``node``; None where there is none."""
         edge = int(self.topo.edge[side])
         following = self.next_edge(edge, node)
         if following is None or self.next_edge(following, node) != edge:
@@ -117,7 +118,7 @@ class _Walker:
         return found[0] if len(found) == 1 else None
 
     def next_edge(self, edge: int, node: int) -> int | None:
-        """Find the edge of the same key that continues ``edge``: the only other one, or the one straight ahead."""
+        """Edge of the same key that continues ``edge``: the only other one, or the one straight ahead; else None."""
         others = [e for e in self.at_node[node] if e != edge and self.keys[e] == self.keys[edge]]
         if len(others) <= 1:
             return others[0] if others else None
@@ -181,7 +182,7 @@ def plate_round(topo: Topology, cut: WeldCut, node: int, before: int, after: int
 
 
 def _from_lowest(loop: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
-    """Begin a loop at its lowest node, so that it does not depend on where it was found."""
+    """Loop that begins at its lowest node, so that it does not depend on where it was found."""
     at = min(range(len(loop)), key=lambda k: loop[k][1])
     return loop[at:] + loop[:at]
 
@@ -242,7 +243,7 @@ def _line_nodes(
 
 
 def _side_normals(topo: Topology, sides: list[int]) -> NDArray[np.float64]:
-    """Turn the normals of the elements along a line the same way, towards the attached plate if there is one."""
+    """Normals of the elements along a line, all turned the same way, towards the attached plate if there is one."""
     normal = topo.normal[[side // 4 for side in sides]].copy()
     for k in range(1, len(sides)):
         if normal[k] @ normal[k - 1] < 0:
@@ -255,7 +256,7 @@ def _side_normals(topo: Topology, sides: list[int]) -> NDArray[np.float64]:
 
 
 def _named(cuts: Iterable[WeldCut]) -> list[WeldCut]:
-    """Name every cut; the letters of cuts with equal ends follow their lowest element."""
+    """Cuts with their names; the letters of cuts with equal ends follow their lowest element."""
     groups: dict[str, list[WeldCut]] = defaultdict(list)
     for cut in cuts:
         ends = f"{cut.line.node[0]}_loop" if cut.line.closed else f"{cut.line.node[0]}_{cut.line.node[-1]}"
@@ -277,7 +278,7 @@ def _renamed(cut: WeldCut, name: str) -> WeldCut:
 
 
 def _letters(number: int) -> str:
-    """Turn 0, 1, ... into a, b, ..., z, aa, ab, ..."""
+    """Letters a, b, ..., z, aa, ab, ... for the numbers 0, 1, ..."""
     text = ""
     while True:
         text = chr(ord("a") + number % 26) + text

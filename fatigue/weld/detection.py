@@ -65,7 +65,7 @@ class Topology:
 
 
 def topology(mesh: ShellMesh) -> Topology:
-    """Find the edges of a mesh."""
+    """Edges of a mesh and the sides of elements that meet there."""
     ends = np.sort(mesh.side_ends().reshape(-1, 2), axis=1)
     used = np.flatnonzero(ends[:, 0] != NONE)
     unique, which = np.unique(ends[used], axis=0, return_inverse=True)
@@ -106,7 +106,7 @@ def classify(topo: Topology) -> dict[int, Key]:
 
 
 def stacked_elements(mesh: ShellMesh) -> NDArray[np.int64]:
-    """Ids of elements that share all their corners with another one: such doubled shells look like welds all round."""
+    """Ids of elements that share all their corners with another one; such doubled shells look like welds all round."""
     corners = np.sort(mesh.corner, axis=1)
     _, which, count = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
     return mesh.element[count[which.ravel()] > 1]

@@ -1,9 +1,9 @@
 """Recognise nodal forces of parabolic elements on a line without mid-side nodes.
 
-A constant line load on parabolic edges has the nodal forces l/6, 2l/3, l/6: solved as linear edges of half the length
+A constant line load on parabolic edges has the nodal forces l/6, 2l/3, l/6. Solved as linear edges of half the length
 it comes out as 0, 2, 0, 2, ..., twice the stress. Connectivity is not at hand where forces come already summed, so the
-forces themselves are asked: they are doubted when the solved line load zigzags from node to node as linear edges, and
-does not as parabolic ones.
+forces themselves are asked: they bring a warning when the solved line load zigzags from node to node on linear edges,
+and does not on parabolic ones.
 """
 
 from dataclasses import replace
@@ -25,7 +25,7 @@ SHORTEST = 5  # nodes: on a single parabolic edge one zigzag in three nodes prov
 
 
 def jumpy_lines(line: Lines, load: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Lines of a stack, by position, whose load, (n, ...), zigzags from node to node though they mark no mid nodes."""
+    """Positions in a stack of the lines whose load, (n, ...), zigzags though they mark no mid-side nodes."""
     zigzag, norm = _norms(line, load)
     marked = np.logical_or.reduceat(line.edge_mid, line.begin[:-1])
     long_enough = np.diff(line.begin) >= SHORTEST
@@ -33,7 +33,7 @@ def jumpy_lines(line: Lines, load: NDArray[np.float64]) -> NDArray[np.intp]:
 
 
 def edge_type_warnings(line: WeldLine, nodal: NDArray[np.floating], where: str) -> list[Problem]:
-    """Warn, with the code ``edge_type``, if nodal forces, (n, ...), fit parabolic edges and the line marks none."""
+    """Warning ``edge_type`` if nodal forces, (n, ...), fit parabolic edges and the line marks none; else nothing."""
     load = line_load(line, nodal)
     if not jumpy_lines(line, load).size:
         return []

@@ -1,8 +1,8 @@
 """Element nodal forces: the balance of each element, and their sum along a weld line.
 
-Only the elements of one plate on one side of the line count, among them those that touch it at one corner only:
-without these the resultant is wrong. Where a line is split at a kink, its corner node belongs to two parts and each
-element there has to be given to one of them.
+Only the elements of one plate on one side of the line count. Elements that touch the line at one corner only are among
+them: without these the resultant is wrong. Where a line is split at a kink, its corner node belongs to two parts, and
+each element there has to be given to one of them.
 """
 
 from collections.abc import Iterator, Mapping
@@ -45,11 +45,11 @@ class ElementForces:
                 object.__setattr__(self, name, getattr(self, name)[order])
 
     def rows(self, at: NDArray[np.int64] | NDArray[np.bool_]) -> "ElementForces":
-        """Keep the rows at the given positions, or those marked."""
+        """Rows at the given positions, or the rows marked."""
         return ElementForces(self.mode[at], self.node[at], self.element[at], self.force[at])
 
     def of(self, elements: NDArray[np.int64]) -> "ElementForces":
-        """Keep the rows of the given elements."""
+        """Rows of the given elements."""
         wanted = np.unique(elements)
         begin, end = np.searchsorted(self.element, wanted), np.searchsorted(self.element, wanted, side="right")
         return self.rows(np.concatenate([np.arange(0), *map(np.arange, begin, end)]))
@@ -110,7 +110,7 @@ def side_forces(
     modes: NDArray[np.int64],
     where: str,
 ) -> list[NDArray[np.float64]]:
-    """Sum the forces of the assessed side's elements at the nodes of each part of a line, (n, m, 6) each [N, N mm].
+    """Forces of the assessed side's elements summed at the nodes of each part of a line, (n, m, 6) each [N, N mm].
 
     At a corner an element belongs to the part from which the fewest element edges have to be crossed to reach it,
     beginning in the element along the part's last edge; one as near to both parts is shared half and half. So the
@@ -132,7 +132,7 @@ def side_forces(
 def _pairs(
     a: NDArray[np.int64], b: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Return the distinct pairs of ids, (k,) and (k,), and the number of each row's pair, (r,)."""
+    """Distinct pairs of ids, (k,) and (k,), and the number of each row's pair, (r,)."""
     a_ids, a_at = np.unique(a, return_inverse=True)
     b_ids, b_at = np.unique(b, return_inverse=True)
     pairs, group = np.unique(a_at * b_ids.size + b_at, return_inverse=True)
@@ -140,7 +140,7 @@ def _pairs(
 
 
 def _sums(values: NDArray[np.float64], group: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Sum the vectors of each group, (k, 3)."""
+    """Sum of the vectors of each group, (k, 3)."""
     return np.column_stack([np.bincount(group, component) for component in values.T])
 
 
@@ -160,7 +160,7 @@ def _residual(
 
 
 def _coordinates(forces: ElementForces, xyz: Mapping[int, NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Look up the coordinates of each row's node, (r, 3)."""
+    """Coordinates of each row's node, (r, 3)."""
     nodes, at = np.unique(forces.node, return_inverse=True)
     unknown = np.array([node for node in nodes.tolist() if node not in xyz])
     if unknown.size:
@@ -170,7 +170,7 @@ def _coordinates(forces: ElementForces, xyz: Mapping[int, NDArray[np.float64]]) 
 
 
 def _gaps(absent: NDArray[np.int64], bare: NDArray[np.int64], where: str) -> Iterator[Problem]:
-    """Name elements without forces and line nodes without elements."""
+    """Problems of elements without forces and of line nodes without elements."""
     if absent.size:
         what = f"element {absent[0]}{_more(absent.size)} of the assessed side has no forces"
         yield Problem("missing_element", where, what, "Request the element forces of the whole side")
@@ -241,7 +241,7 @@ def elements_around(node: int, side: ElementForces) -> dict[int, set[int]]:
 
 
 def _nearest(last_edge: dict[int, set[int]], around: dict[int, set[int]]) -> dict[int, list[int]]:
-    """Of the parts that meet at a corner, given by place and last edge, those nearest to each element around it."""
+    """Parts nearest to each element round a corner; the parts that meet there are given by place and last edge."""
     crossed = {place: _edges_crossed(around, edge) for place, edge in last_edge.items()}
     nearest = {}
     for element in around:
@@ -267,5 +267,5 @@ def _edges_crossed(around: dict[int, set[int]], edge: set[int]) -> dict[int, int
 
 
 def _more(count: int) -> str:
-    """Say how many others there are besides the one that is named."""
+    """Words for how many others there are besides the one that is named."""
     return f" (and {count - 1} more)" if count > 1 else ""

@@ -1,7 +1,7 @@
 """Weld lines of one plate side that join end to end, made one line: its nodes, and the elements it is seen from.
 
 The line is what it would be had it never been cut: where two lines meet, thickness, normal and outward vector are the
-means of both. The elements are those of both lines but for the ones round the node where they meet. There each line by
+means of both. The joined line has the elements of both lines, except round the node where they meet. There each line by
 itself ends openly and takes the elements beyond its end, some of them behind the other line; the joined line has the
 fan of the plate between its two edges and nothing else.
 """
@@ -31,7 +31,7 @@ class Joint:
 
 
 def joined(lines: Sequence[WeldLine], names: Sequence[str], where: str) -> tuple[WeldLine, tuple[Joint, ...]]:
-    """Join lines end to end, turned where necessary, into one open or closed line from its lower end on.
+    """One open or closed line of lines joined end to end, turned where necessary, from its lower end on; its joints.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def joined_elements(
     Parameters
     ----------
     sides : elements of each line
-    touching : for each joint, those of them that touch it
+    touching : for each joint, the elements of the lines that touch it
     fans : for each joint, the elements of the plate round it
     """
     elements: set[int] = set().union(*(side.tolist() for side in sides))

@@ -86,11 +86,11 @@ class LineStack:
     kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __len__(self) -> int:
-        """Count the lines."""
+        """Number of lines."""
         return len(self.weld)
 
     def __getitem__(self, number: int) -> WeldLine:
-        """Cut out one line, a view of its nodes."""
+        """One line of the stack, a view of its nodes."""
         nodes = slice(int(self.begin[number]), int(self.begin[number + 1]))
         length_given = float(self.end_length[number])
         return WeldLine(
@@ -104,11 +104,11 @@ class LineStack:
         )
 
     def __iter__(self) -> Iterator[WeldLine]:
-        """Cut out one line after the other."""
+        """One line of the stack after the other."""
         return (self[number] for number in range(len(self)))
 
     def lines(self, some: slice) -> "LineStack":
-        """Take some neighbouring lines, a view of their nodes."""
+        """Some neighbouring lines, a view of their nodes."""
         first, end, _ = some.indices(len(self))
         nodes = slice(int(self.begin[first]), int(self.begin[end]))
         return LineStack(
@@ -125,9 +125,9 @@ Computed = TypeVar("Computed")
 
 
 def once(compute: Callable[[Lines], Computed]) -> Callable[[Lines], Computed]:
-    """Compute something of a line or stack at the first call and keep it there: half of the rest is computed from it.
+    """Function that computes something of a line or stack at the first call and keeps it there: much is made from it.
 
-    What is returned must not be changed.
+    What such a function returns must not be changed.
     """
 
     @wraps(compute)
@@ -141,7 +141,7 @@ def once(compute: Callable[[Lines], Computed]) -> Callable[[Lines], Computed]:
 
 
 def stacked(lines: Sequence[WeldLine]) -> LineStack:
-    """Lay lines one after another."""
+    """Lines laid one after another."""
     return LineStack(
         weld=tuple(line.weld for line in lines),
         part=np.array([line.part for line in lines]),

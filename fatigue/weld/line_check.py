@@ -1,4 +1,4 @@
-"""What makes a weld line unfit for assessment (refusals), and what makes it doubtful (warnings).
+"""What makes a weld line unfit for assessment (refusals), and what is doubtful about it (warnings).
 
 The judgements take a line or a stack of lines. Thousands of lines are judged together first, and the few that stand
 out then one by one, in words.
@@ -44,7 +44,7 @@ def check_line(line: WeldLine, where: str) -> None:
 
 
 def unfit_lines(line: Lines) -> NDArray[np.intp]:
-    """Lines of a stack, by their position, that ``check_line`` refuses."""
+    """Positions in a stack of the lines that ``check_line`` refuses."""
     unfit = np.diff(line.begin) < _least_nodes(line)
     with np.errstate(all="ignore"):
         for findings in _REFUSALS:
@@ -53,17 +53,17 @@ def unfit_lines(line: Lines) -> NDArray[np.intp]:
 
 
 def line_warnings(line: WeldLine, where: str) -> list[Problem]:
-    """Doubts about a line that passes ``check_line``: short edges, steps of thickness, crooked geometry."""
-    return _problems(line, where, _doubts(line))
+    """Warnings about a line that passes ``check_line``: short edges, steps of thickness, crooked geometry."""
+    return _problems(line, where, _warnings(line))
 
 
-def doubtful_lines(line: Lines) -> NDArray[np.intp]:
-    """Lines of a stack, all fit for assessment, by position, about which ``line_warnings`` has something to say."""
-    return np.flatnonzero(_touched(line, _doubts(line)))
+def warned_lines(line: Lines) -> NDArray[np.intp]:
+    """Positions in a stack of the lines that ``line_warnings`` warns about; all lines are fit for assessment."""
+    return np.flatnonzero(_touched(line, _warnings(line)))
 
 
-def _doubts(line: Lines) -> list[_Finding]:
-    """Judge what does not forbid an assessment."""
+def _warnings(line: Lines) -> list[_Finding]:
+    """Findings that do not forbid an assessment."""
     nodes, points, t = edge_nodes(line), edge_points(line), line.thickness
     owner = line_of_node(line)
     chord = np.linalg.norm(points[:, 2] - points[:, 0], axis=1)
@@ -102,12 +102,12 @@ def _doubts(line: Lines) -> list[_Finding]:
 
 
 def _least_nodes(line: Lines) -> NDArray[np.int64]:
-    """Count the nodes that each line needs, (k,)."""
+    """Number of nodes that each line needs, (k,)."""
     return np.where(is_closed(line), 3, 2)
 
 
 def _wrong_rows(line: Lines) -> list[_Finding]:
-    """Judge the rows of the table one by one."""
+    """Findings in single rows of the table."""
     first, last, closed = line.begin[:-1], line.begin[1:] - 1, is_closed(line)
     thin = ~(np.isfinite(line.thickness) & (line.thickness > 0))
     is_end = np.zeros_like(line.edge_mid)
@@ -167,7 +167,7 @@ def _wrong_rows(line: Lines) -> list[_Finding]:
 
 
 def _coincident_nodes(line: Lines) -> list[_Finding]:
-    """Judge the distances between the nodes."""
+    """Findings about the distances between nodes."""
     first, last = line.begin[:-1], line.begin[1:] - 1
     gap = np.linalg.norm(line.xyz[neighbours(line)[1]] - line.xyz, axis=1)
     size = np.linalg.norm(np.maximum.reduceat(line.xyz, first) - np.minimum.reduceat(line.xyz, first), axis=1)
@@ -184,7 +184,7 @@ def _coincident_nodes(line: Lines) -> list[_Finding]:
 
 
 def _wrong_mid_nodes(line: Lines) -> list[_Finding]:
-    """Judge where the mid-side nodes lie."""
+    """Findings about where the mid-side nodes lie."""
     nodes = edge_nodes(line)
     fraction, sagitta = _mid_position(edge_points(line))
     astray = (np.abs(fraction - 0.5) >= 0.25) | (sagitta >= 0.5)
@@ -199,7 +199,7 @@ def _wrong_mid_nodes(line: Lines) -> list[_Finding]:
 
 
 def _turns_back(line: Lines) -> list[_Finding]:
-    """Judge whether every node has a tangent."""
+    """Findings about nodes without a tangent."""
     before, after = edge_tangents(line)
     back = np.linalg.norm(before + after, axis=1) < 0.02
     return [
@@ -208,7 +208,7 @@ def _turns_back(line: Lines) -> list[_Finding]:
 
 
 def _wrong_normals(line: Lines) -> list[_Finding]:
-    """Judge the plate normals."""
+    """Findings about the plate normals."""
     z = unit(line.normal)
     flips = np.sum(z * z[neighbours(line)[1]], axis=1) < 0
     flips[line.begin[1:] - 1] &= is_closed(line)
@@ -229,7 +229,7 @@ def _wrong_normals(line: Lines) -> list[_Finding]:
 
 
 def _wrong_sides(line: Lines) -> list[_Finding]:
-    """Judge on which side of the line the assessed plate lies."""
+    """Findings about the side of the line on which the assessed plate lies."""
     across = unit(np.cross(unit(line.normal), tangents(line)))
     reach = np.sum(unit(line.outward) * across, axis=1)
     blind = np.abs(reach) < 0.01
@@ -255,7 +255,7 @@ _REFUSALS = (_wrong_rows, _coincident_nodes, _wrong_mid_nodes, _turns_back, _wro
 
 
 def _repeated(owner: NDArray[np.int64], node: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Mark the nodes that occur more than once on their line, (n,)."""
+    """Whether each node occurs more than once on its line, (n,)."""
     order = np.lexsort((node, owner))
     same = (np.diff(owner[order]) == 0) & (np.diff(node[order]) == 0)
     repeated = np.zeros(node.size, dtype=bool)
@@ -282,21 +282,21 @@ def _mid_position(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDA
 
 
 def _touched(line: Lines, findings: Iterable[_Finding]) -> NDArray[np.bool_]:
-    """Lines of a stack that any finding concerns, (k,)."""
+    """Whether any finding concerns each line of a stack, (k,)."""
     nodes = np.any([found.at for found in findings], axis=0)
     touched: NDArray[np.bool_] = np.logical_or.reduceat(nodes, line.begin[:-1])
     return touched
 
 
 def _marked(line: Lines, at: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Mark the nodes at the given positions, (n,)."""
+    """Whether each node is at one of the given positions, (n,)."""
     mask = np.zeros(line.node.size, dtype=bool)
     mask[at] = True
     return mask
 
 
 def _problems(line: WeldLine, where: str, findings: Iterable[_Finding]) -> list[Problem]:
-    """Name for each finding the first node it occurs at, and how many others."""
+    """Problems of the findings: each names the first node it occurs at, and how many others."""
     problems = []
     for at, code, what, remedy in findings:
         if at.any():

@@ -115,7 +115,7 @@ def corners(line: Lines) -> NDArray[np.bool_]:
 
 
 def split_at_kinks(line: WeldLine) -> tuple[WeldLine, ...]:
-    """Split a line at its corners into open parts; a corner node belongs to both parts that meet there.
+    """Open parts of a line split at its corners; a corner node belongs to both parts that meet there.
 
     A closed line begins anew at its first corner; without corners the line itself is the only part.
     """
@@ -123,22 +123,22 @@ def split_at_kinks(line: WeldLine) -> tuple[WeldLine, ...]:
     if not corner.size:
         return (line,)
     n = line.node.size
-    cuts = np.append(corner, corner[0] + n) if line.closed else np.concatenate([[0], corner, [n - 1]])
-    pieces = list(pairwise(cuts))
+    bounds = np.append(corner, corner[0] + n) if line.closed else np.concatenate([[0], corner, [n - 1]])
+    parts = list(pairwise(bounds))
     return tuple(
-        _piece(
+        _part(
             line,
             number,
             np.arange(begin, end + 1) % n,
             corner_start=line.closed or number > 1 or line.corner_start,
-            corner_end=line.closed or number < len(pieces) or line.corner_end,
+            corner_end=line.closed or number < len(parts) or line.corner_end,
         )
-        for number, (begin, end) in enumerate(pieces, start=1)
+        for number, (begin, end) in enumerate(parts, start=1)
     )
 
 
-def _piece(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bool, corner_end: bool) -> WeldLine:
-    """Take the nodes ``at`` of a line as an open part."""
+def _part(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bool, corner_end: bool) -> WeldLine:
+    """Open part of a line with the nodes ``at``."""
     return replace(
         line,
         part=part,
@@ -156,14 +156,15 @@ def _piece(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bo
 
 
 def unit(vectors: Vectors) -> Vectors:
-    """Vectors of length 1."""
-    scaled: Vectors = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+    """Vectors of length 1 along the last axis; a zero vector stays zero."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    scaled: Vectors = np.divide(vectors, length, out=np.zeros(vectors.shape), where=length > 0)
     return scaled
 
 
 @once
 def edge_tangents(line: Lines) -> tuple[Vectors, Vectors]:
-    """Return the unit tangents before and after each node, (n, 3) each; zero where an open line has no edge."""
+    """Unit tangents before and after each node, (n, 3) each; zero where an open line has no edge."""
     first, mid, last = edge_nodes(line).T
     at_first, at_mid, at_last = np.moveaxis(unit(edge_derivative(edge_points(line), np.array([-1.0, 0.0, 1.0]))), 1, 0)
     before, after = np.zeros_like(line.xyz), np.zeros_like(line.xyz)
@@ -174,6 +175,6 @@ def edge_tangents(line: Lines) -> tuple[Vectors, Vectors]:
 
 
 def tangents(line: Lines) -> Vectors:
-    """Return the unit tangent at each node, (n, 3): the normalised sum of those before and after it."""
+    """Unit tangent at each node, (n, 3): the normalised sum of the unit tangents before and after it."""
     before, after = edge_tangents(line)
     return unit(before + after)

@@ -1,9 +1,9 @@
 """From nodal forces along a weld line to the line load, and its treatment at weld ends.
 
 The work-equivalent nodal forces of a line load f(s) interpolated like the edges are ``F_i = int N_i f ds``, hence
-``A f = F`` with ``A_ij = int N_i N_j ds`` (Dong, Int. J. Fatigue 23 (2001) 865; Dong & Hong 2003; ASME VIII-2 Annex
-5-A). The system is solved in global axes, once for all components and modes: rotating nodal forces into local axes
-first would lose a factor on curved lines.
+``A f = F`` with ``A_ij = int N_i N_j ds`` (Eq. 1; Dong, Int. J. Fatigue 23 (2001) 865; Dong & Hong 2003; ASME VIII-2
+Annex 5-A). The system is solved in global axes, once for all components and modes: rotating nodal forces into local
+axes first would lose a factor on curved lines.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,10 @@ from fatigue.weld.line_geometry import GAUSS_POINT, GAUSS_WEIGHT, arc_length, ed
 
 
 def line_load_matrix(line: Lines) -> csr_array:
-    """Consistent matrix A of ``A f = F``, (n, n) [mm], for linear and parabolic, straight and curved edges."""
+    """Consistent matrix A of ``A f = F``, (n, n) [mm], for linear and parabolic, straight and curved edges.
+
+    It is assembled from the edge matrices of Eq. 2; see ``line_load`` for an example.
+    """
     nodes = edge_nodes(line)
     shape = _shape_functions(nodes, GAUSS_POINT)
     ds = np.linalg.norm(edge_derivative(edge_points(line), GAUSS_POINT), axis=-1) * GAUSS_WEIGHT
@@ -30,10 +33,32 @@ def line_load_matrix(line: Lines) -> csr_array:
 
 
 def line_load(line: Lines, nodal: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Solve ``A f = F`` for the line load, (n, ...) [N/mm or N], of nodal forces or moments, (n, ...) [N or N mm].
+    """Line load f, (n, ...) [N/mm or N], of nodal forces or moments F, (n, ...) [N or N mm], by ``A f = F`` (Eq. 1).
 
     A is symmetric, positive definite, banded and, scaled to a unit diagonal, has eigenvalues in [0.5, 1.5] for any
     spacing: a plain banded factorisation needs no regularisation. What is returned is contiguous.
+
+    Examples
+    --------
+    Two linear edges of 10 mm, the edge matrix of Eq. 2, and the nodal forces of a load that grows to 100 N/mm:
+
+    >>> from fatigue.weld.line import WeldLine
+    >>> number = np.arange(3)
+    >>> line = WeldLine(
+    ...     weld="toe", part=1, order=number, node=number, xyz=10.0 * np.outer(number, [1, 0, 0]),
+    ...     thickness=np.full(3, 8.0), normal=np.tile([0, 0, 1], (3, 1)), outward=np.tile([0, 1, 0], (3, 1)),
+    ...     edge_mid=np.zeros(3, dtype=bool), closed=False, end_length=None,
+    ... )
+    >>> A = line_load_matrix(line)
+    >>> (A.toarray() * 6 / 10).round(9)
+    array([[2., 1., 0.],
+           [1., 4., 1.],
+           [0., 1., 2.]])
+    >>> F = A @ [0.0, 50.0, 100.0]
+    >>> F.round(3)
+    array([ 83.333, 500.   , 416.667])
+    >>> abs(line_load(line, F) - [0.0, 50.0, 100.0]).max() < 1e-12
+    np.True_
     """
     order, right_sides = _band_order(line), np.ascontiguousarray(nodal).reshape(line.node.size, -1)
     load = np.empty(right_sides.shape)
@@ -69,7 +94,7 @@ class EndTreatment:
 
 
 def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
-    """Replace the line load, (n, ...), near the ends of open lines by its mean over the end zone.
+    """Line load, (n, ...), near the ends of open lines replaced by its mean over the end zone (Eq. 4).
 
     The plate solution is singular at a weld end, and at a corner, so the value there grows under mesh refinement while
     its mean over a fixed length ``a`` does not. ``a`` is the line's end length, the plate thickness by default, and
@@ -103,7 +128,9 @@ def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
     treated: NDArray[np.bool_] = np.logical_or(*zones)
     taken, node = np.nonzero(zones[:, treated])
     share = 1.0 / zones[:, treated].sum(axis=0)[node]
-    number = taken * len(given) + owner[treated][node]  # of the mean: those of the first ends, then of the last ones
+    number = (
+        taken * len(given) + owner[treated][node]
+    )  # of the mean: first the means at first ends, then those at last ends
     to_nodes = csr_array((share, (node, number)), (np.count_nonzero(treated), 2 * len(given)))
     mean = to_nodes @ (vstack(of_means) @ load.reshape(line.node.size, -1))
     return EndTreatment(
@@ -126,7 +153,7 @@ def _band_order(line: Lines) -> NDArray[np.int64]:
 
 
 def _band(matrix: csr_array, order: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Diagonals of A in that order as `solve_banded` takes them, (n, w + 1)."""
+    """Diagonals of A in that order as ``solve_banded`` takes them, (n, w + 1)."""
     place, entries = np.argsort(order), matrix.tocoo()
     row = place[entries.row]
     below = row - place[entries.col]

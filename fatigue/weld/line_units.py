@@ -1,6 +1,6 @@
 """Lengths of weld lines that cannot be mm (refusals), and thicknesses that are hardly mm (warnings).
 
-A wrong unit goes through every formula without a trace: with a plate of 3 mm given as 0.003 stresses are a thousand
+A wrong unit goes through every formula without a trace: with a plate of 3 mm given as 0.003, stresses are a thousand
 times too large, or more, and every weld misses its target. So plates are compared with what is welded at all (sheet of
 0.5 mm, extrusions of 1.5 to 40 mm, bogie plates of up to 100 mm), and with the line they stand along: edges of shells
 are 0.1 to 20 times as long as the plate is thick, but 100 times and more where the thickness alone is in m.
@@ -20,7 +20,7 @@ USUAL = 0.5, 200.0  # [mm] what lies outside may be right (a coupon of foil, a f
 
 
 def unit_problems(lines: LineStack, file: str) -> list[Problem]:
-    """Find thicknesses and coordinates that cannot be mm; ``file`` is the one they come from, or its path in the case.
+    """Problems of thicknesses and coordinates that cannot be mm; ``file`` holds them, or is its path in the case.
 
     With a wrong thickness nothing is said about the coordinates, which are judged by it.
     """
@@ -29,7 +29,7 @@ def unit_problems(lines: LineStack, file: str) -> list[Problem]:
 
 
 def unit_warnings(lines: LineStack, file: str) -> list[Problem]:
-    """Doubt thicknesses that few plates have; for lines that ``unit_problems`` lets pass."""
+    """Warnings of thicknesses that few plates have, of lines that ``unit_problems`` lets pass."""
     at = (lines.thickness < USUAL[0]) | (lines.thickness > USUAL[1])
     if not at.any():
         return []
@@ -38,7 +38,7 @@ def unit_warnings(lines: LineStack, file: str) -> list[Problem]:
 
 
 def _too_thin(lines: LineStack, file: str) -> list[Problem]:
-    """Find thicknesses in m: nothing is welded so thin, or not along such long edges."""
+    """Problem of thicknesses in m: nothing is welded so thin, or not along such long edges."""
     thin = lines.thickness <= THIN
     if not thin.any():
         return []
@@ -62,7 +62,7 @@ def _too_thin(lines: LineStack, file: str) -> list[Problem]:
 
 
 def _too_thick(lines: LineStack, file: str) -> list[Problem]:
-    """Find thicknesses that a factor of 1000 has come into."""
+    """Problem of thicknesses that a factor of 1000 has come into."""
     at = lines.thickness >= BLOCK
     if not at.any():
         return []
@@ -71,7 +71,7 @@ def _too_thick(lines: LineStack, file: str) -> list[Problem]:
 
 
 def _coordinates(lines: LineStack, file: str) -> list[Problem]:
-    """Find coordinates in m: every weld line shorter than its plate is thick."""
+    """Problem of coordinates in m: every weld line is shorter than its plate is thick."""
     if any(length(line) >= line.thickness.min() for line in lines):
         return []
     longest = max(lines, key=length)
@@ -92,7 +92,7 @@ def _first(lines: LineStack, at: NDArray[np.bool_]) -> float:
 
 
 def _place(lines: LineStack, at: NDArray[np.bool_], file: str) -> str:
-    """Name the first node that is marked, and how many others."""
+    """Place of the first node that is marked, and how many others."""
     first, others = int(at.argmax()), np.count_nonzero(at) - 1
     weld = lines.weld[line_of_node(lines)[first]]
     place = f"{file}: weld {weld}, node {lines.node[first]} (order {lines.order[first]})"

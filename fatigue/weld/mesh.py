@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.weld.line_geometry import unit
+
 NONE = -1
 """Index of a corner or a mid-side node an element does not have."""
 
@@ -19,7 +21,7 @@ class ShellMesh:
     xyz : (n, 3) coordinates [mm]
     element : (e,) element ids, ascending
     corner : (e, 4) indices into ``node`` round the element; the last is -1 on a triangle
-    mid : (e, 4) indices of the mid-side nodes, that of side k between corners k and k + 1; -1 where there is none
+    mid : (e, 4) indices of the mid-side nodes; side k lies between corners k and k + 1; -1 where there is none
     pid : (e,) property ids
     thickness : (e,) thickness [mm], NaN if unknown
     offset : (e,) distance from the nodes to the mid-surface along the element normal [mm]
@@ -34,13 +36,8 @@ class ShellMesh:
     thickness: NDArray[np.float64]
     offset: NDArray[np.float64]
 
-    @property
-    def sides(self) -> NDArray[np.int64]:
-        """Number of sides of each element, (e,)."""
-        return np.where(self.corner[:, 3] == NONE, 3, 4)
-
     def side_ends(self) -> NDArray[np.int64]:
-        """Give the indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
+        """Indices of the two end nodes of every side, (e, 4, 2); -1 for the fourth side of a triangle."""
         first = self.corner
         last = np.roll(first, -1, axis=1)
         triangle = first[:, 3] == NONE
@@ -57,7 +54,7 @@ def centroids(mesh: ShellMesh) -> NDArray[np.float64]:
 
 
 def normals(mesh: ShellMesh) -> NDArray[np.float64]:
-    """Return the unit normal of each element by the right-hand rule, (e, 3); zero for an element without area."""
+    """Unit normal of each element by the right-hand rule, (e, 3); zero for an element without area."""
     a, b, c, d = (mesh.xyz[mesh.corner[:, k]] for k in range(4))
     is_triangle = (mesh.corner[:, 3] == NONE)[:, None]
     vector = np.where(is_triangle, np.cross(b - a, c - a), np.cross(c - a, d - b))
@@ -65,16 +62,9 @@ def normals(mesh: ShellMesh) -> NDArray[np.float64]:
 
 
 def inward(mesh: ShellMesh) -> NDArray[np.float64]:
-    """Return the unit vector from each side into its element, normal to the side, (e, 4, 3); zero on no side."""
+    """Unit vector from each side into its element, normal to the side, (e, 4, 3); zero on no side."""
     ends = mesh.side_ends()
     along = mesh.xyz[ends[:, :, 1]] - mesh.xyz[ends[:, :, 0]]
     vector = unit(np.cross(normals(mesh)[:, None, :], along))
     vector[ends[:, :, 1] == NONE] = 0.0
     return vector
-
-
-def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Vectors of length one along the last axis; a zero vector stays zero."""
-    length = np.linalg.norm(vector, axis=-1, keepdims=True)
-    scaled: NDArray[np.float64] = np.divide(vector, length, out=np.zeros_like(vector), where=length > 0)
-    return scaled

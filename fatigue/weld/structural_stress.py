@@ -1,11 +1,13 @@
 """Dong's structural stress: the line load in the local axes of the weld, over the plate's section.
 
 With z' the plate normal, y' out of the plate across the line, x' = y' x z' and forces on the assessed elements, the
-traction sigma(z) y' has the resultant f_y' = int sigma dz and the moment m_x' = -int z sigma dz, the shear traction
-tau(z) x' the moment m_y' = int z tau dz (Dong, Int. J. Fatigue 23 (2001) 865; ASME VIII-2 5.5.5.2 and Annex 5-A).
+traction sigma(z) y' has the resultant f_y' = int sigma dz and the moment m_x' = -int z sigma dz; the shear traction
+tau(z) x' has the moment m_y' = int z tau dz. Hence the signs of Eq. 3. Sources: Dong, Int. J. Fatigue 23 (2001) 865;
+ASME VIII-2 5.5.5.2 and Annex 5-A.
 """
 
 from dataclasses import dataclass, fields
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,15 +24,15 @@ Floats = NDArray[np.float64]
 class StructuralStress:
     """Structural stress of each node and mode, (n, m) [MPa per unit modal coordinate].
 
-    Bending and twist are those of the top surface; on the bottom they have the other sign.
+    Bending and twist belong to the top surface; on the bottom they have the other sign.
 
     Attributes
     ----------
-    membrane : mean normal stress across the line
-    bending : normal stress of the bending part, top surface
-    in_plane_shear : mean shear stress along the line
-    twist_shear : shear stress of the twisting part, top surface
-    transverse_shear : mean shear stress through the plate
+    membrane : mean normal stress across the line, f_y' / t
+    bending : normal stress of the bending part, top surface, -6 m_x' / t^2
+    in_plane_shear : mean shear stress along the line, f_x' / t
+    twist_shear : shear stress of the twisting part, top surface, 6 m_y' / t^2
+    transverse_shear : mean shear stress through the plate, f_z' / t
     """
 
     membrane: Floats
@@ -40,15 +42,27 @@ class StructuralStress:
     transverse_shear: Floats
 
 
-def structural_stress(line: Lines, load: Floats) -> StructuralStress:
-    """Structural stress of a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
-    return _of_section(local_axes(line), line.thickness, load)
+def structural_stress(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
+    """Structural stress of a line force and moment, Eq. 3.
 
+    Parameters
+    ----------
+    axes : (n, 3, 3) local axes x', y', z' of each node, as ``local_axes`` returns them
+    t : (n,) thickness [mm]
+    load : (n, m, 6) line force and moment in global axes [N/mm, N]
 
-def _of_section(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
-    """Structural stress at nodes with the given local axes, (n, 3, 3), and thickness, (n,) [mm]."""
-    x, y, z = np.moveaxis(axes, 1, 0) / t[:, np.newaxis]
-    along = np.stack([y, -6 * x / t[:, np.newaxis], x, 6 * y / t[:, np.newaxis], z], axis=1)
+    Examples
+    --------
+    A plate of 10 mm under 100 N/mm across the line and a moment of 50 N mm/mm about it:
+
+    >>> load = np.array([[[0.0, 100.0, 0.0, 50.0, 0.0, 0.0]]])
+    >>> found = structural_stress(np.eye(3)[np.newaxis], np.array([10.0]), load)
+    >>> float(found.membrane[0, 0]), float(found.bending[0, 0])
+    (10.0, -3.0)
+    """
+    x, y, z = np.moveaxis(axes, 1, 0)
+    t = t[:, np.newaxis]
+    along = np.stack([y / t, -6 * x / t**2, x / t, 6 * y / t**2, z / t], axis=1)
     stress = np.empty((5, *load.shape[:2]))
     _components(np.ascontiguousarray(load), along, stress)
     return StructuralStress(*stress)
@@ -56,9 +70,10 @@ def _of_section(axes: Floats, t: Floats, load: Floats) -> StructuralStress:
 
 @compiled()
 def _components(load: Floats, along: Floats, stress: Floats) -> None:
-    """Write the products of the load, (n, m, 6), with the vectors of each node, (n, 5, 3), as (5, n, m).
+    """Write ``f . a`` and ``m . a`` of the load (n, m, 6) and the vectors a of each node (n, 5, 3) as (5, n, m).
 
-    The order is that of `StructuralStress`; bending and twist are those of the moment, its last three components.
+    The five stand in the order of ``StructuralStress``. Bending and twist come from the moment m, the last three
+    components of the load; the others come from the force f.
     """
     for i in range(load.shape[0]):
         across, bending, along_line, twist, through = along[i]
@@ -72,6 +87,25 @@ def _components(load: Floats, along: Floats, stress: Floats) -> None:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class RawEnds:
+    """Nodes whose stress the treatment of weld ends replaces, and their raw stress: as it was solved.
+
+    Attributes
+    ----------
+    rows : (e,) these nodes, ascending
+    stress : their stress before the treatment, (e, m)
+    """
+
+    rows: NDArray[np.intp]
+    stress: StructuralStress
+
+    def at(self, rows: NDArray[np.intp]) -> Self:
+        """Take those among some nodes, ascending, by their places among these."""
+        _, mine, theirs = np.intersect1d(self.rows, rows, assume_unique=True, return_indices=True)
+        return type(self)(theirs, StructuralStress(*(part[mine] for part in _parts(self.stress))))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class LineStress:
     """Structural stress along a line or a stack of lines, with the ends treated and as it was solved (raw).
 
@@ -79,15 +113,14 @@ class LineStress:
     ----------
     line : the weld line or lines, n nodes
     treated : structural stress after the treatment of weld ends
-    mended, before : (z,) nodes whose stress the treatment has replaced, ascending, and their stress before
+    raw_ends : nodes whose stress the treatment has replaced, and their stress before
     at_end, at_corner : (n,) near a weld end; at a kink of more than 30 degrees
     unresolved : (n,) end node whose edge is longer than the end zone
     """
 
     line: Lines
     treated: StructuralStress
-    mended: NDArray[np.intp]
-    before: StructuralStress
+    raw_ends: RawEnds
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
     unresolved: NDArray[np.bool_]
@@ -96,8 +129,8 @@ class LineStress:
     def raw(self) -> StructuralStress:
         """Structural stress of all nodes before the treatment of weld ends."""
         raw = [part.copy() for part in _parts(self.treated)]
-        for part, before in zip(raw, _parts(self.before), strict=True):
-            part[self.mended] = before
+        for part, at_ends in zip(raw, _parts(self.raw_ends.stress), strict=True):
+            part[self.raw_ends.rows] = at_ends
         return StructuralStress(*raw)
 
 
@@ -111,17 +144,16 @@ def line_stress(line: Lines, load: Floats) -> LineStress:
     axes, ends, at_corner = local_axes(line), treat_ends(line, load), corners(line)
     at_corner[line.begin[:-1]] |= line.corner_start
     at_corner[line.begin[1:] - 1] |= line.corner_end
-    mended = np.flatnonzero(ends.treated)
-    stress = _of_section(axes, line.thickness, load)
-    before = StructuralStress(*(part[mended] for part in _parts(stress)))
-    after = _of_section(axes[mended], line.thickness[mended], ends.mean)
+    rows = np.flatnonzero(ends.treated)
+    stress = structural_stress(axes, line.thickness, load)
+    raw_ends = RawEnds(rows, StructuralStress(*(part[rows] for part in _parts(stress))))
+    after = structural_stress(axes[rows], line.thickness[rows], ends.mean)
     for part, of_mean in zip(_parts(stress), _parts(after), strict=True):
-        part[mended] = of_mean
+        part[rows] = of_mean
     return LineStress(
         line=line,
         treated=stress,
-        mended=mended,
-        before=before,
+        raw_ends=raw_ends,
         at_end=ends.at_end,
         at_corner=at_corner,
         unresolved=ends.unresolved,

@@ -1,8 +1,8 @@
-"""Whose damage it is: that of every point and event, shared out to modes, frequency bands and places on the track.
+"""Whose damage it is: the damage of every point and event shared out to modes, frequency bands and places on the track.
 
-One pass over the records. Cycles are counted as in the assessment, so the parts add up to the damage of the result; see
-`fatigue.life.attribution` for the method. Everything is weighted with the mission: damages are per km, and the sum over
-the events is the ``damage_per_km`` of a point.
+The records are gone through once. Cycles are counted as in the assessment, so the parts add up to the damage of the
+result; ``fatigue.life.attribution`` has the method. Everything is weighted with the mission: damages are per km, and
+the sum over the events is the ``damage_per_km`` of a point.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 TIME_BINS = 40  # of an event that has no distance
 _OTHER_NUMBERS = 50  # of a point and event: damage, slopes, what the verdict says
-_SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a piece of points: 8 MB
+_SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a block of points: 8 MB
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,7 +116,7 @@ class Attribution:
 
     @property
     def resonant_share(self) -> Floats:
-        """Part of `mode_share` that each mode makes in its own resonance, (p, m); NaN without damping."""
+        """Part of ``mode_share`` that each mode makes in its own resonance, (p, m); NaN without damping."""
         return self.share(np.asarray(sum(event.resonant for event in self.events)))
 
     @property
@@ -155,23 +155,23 @@ def attribute_event(
     bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
 
     rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # of the record only: the numbers are the same on every machine
-    pieces = []
+    blocks = []
     for first in range(0, len(points), rows):
         some = points.of(slice(first, first + rows))
-        shapes_m, shapes_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
-        sigma_m, sigma_b = shapes_m @ q, shapes_b @ q
+        modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
+        sigma_m, sigma_b = modal_m @ q, modal_b @ q
         counted = [
             count_credit(m, b, side, size, rule, residue)
             for m, b, side, size, rule in zip(sigma_m, sigma_b, some.side, some.size, some.rule, strict=True)
         ]
         share = coefficients(np.stack([c.share for c in counted]), residue)
         by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
-        shapes = shapes_m + some.side[:, None] * shapes_b
-        owed = shapes[:, :, None] * band_products(share, Q, bands)
-        slope = shapes_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
-        slope += shapes_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
+        modal_s = modal_m + some.side[:, None] * modal_b
+        owed = modal_s[:, :, None] * band_products(share, Q, bands)
+        slope = modal_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
+        slope += modal_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
         load_slope = np.array([c.slope for c in counted])
-        pieces.append(
+        blocks.append(
             {
                 "damage": np.array([c.damage for c in counted]),
                 "top_cycle": np.array([c.top_cycle for c in counted]),
@@ -180,13 +180,13 @@ def attribute_event(
                 "rule_slope": load_slope * some.size_exponent,
                 "mode": owed.sum(axis=2),
                 "mode_slope": slope.sum(axis=2),
-                "resonant": shapes * _resonant_products(share, Q, frequency, modes),
+                "resonant": modal_s * _resonant_products(share, Q, frequency, modes),
                 "band": owed.sum(axis=1),
                 "band_slope": slope.sum(axis=1),
                 "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in counted]),
             }
         )
-    per_pass = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    per_pass = {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
     damage, top_cycle = per_pass["damage"], per_pass.pop("top_cycle")
     return EventAttribution(
         event=one_pass.event,

@@ -26,7 +26,7 @@ HALF = 0.5
 
 @dataclass(frozen=True, slots=True)
 class ModeFinding:
-    """A mode and what it has to do with the damage of a point; see `fatigue.why.attribute.Attribution`."""
+    """A mode and what it has to do with the damage of a point; see ``fatigue.why.attribute.Attribution``."""
 
     mode: int
     kind: str

@@ -46,7 +46,7 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
         q = np.asarray(load.counted.q)
         scale = load.stress_factor * np.where(mode[:, :, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
         for w, (side, size, rule) in enumerate(zip(points.side, points.size, points.rule, strict=True)):
-            sigma_m, sigma_b = ((scale[w] * shape[w]) @ q for shape in (points.membrane, points.bending))
+            sigma_m, sigma_b = ((scale[w] * modal_stress[w]) @ q for modal_stress in (points.membrane, points.bending))
             counted = [
                 count_credit(m, b, side, size, rule, load.residue) for m, b in zip(sigma_m, sigma_b, strict=True)
             ]

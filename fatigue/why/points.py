@@ -1,4 +1,4 @@
-"""Which points of a result are diagnosed, and what is needed of them: stress shapes and the rule of their damage."""
+"""Which points of a result are diagnosed, and what is needed of them: modal stress and the rule of their damage."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
@@ -34,7 +34,7 @@ class Points:
     ----------
     weld, part, order, node, face : (p,) where they are; face 0 is the top, 1 the bottom
     chosen : (p,) why they were chosen
-    membrane, bending : (p, m) stress shapes with treated ends, bending of the top face [MPa per unit modal coordinate]
+    membrane, bending : (p, m) modal stress with treated ends, bending of the top face [MPa per unit modal coordinate]
     rule : (p,) from stress range to damage, a `CycleRule` each
     size, size_exponent : (p,) factor of the thickness on the range, and d ln(size) / d ln(t)
     """
@@ -166,7 +166,7 @@ def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
     DataError : the result in the folder has other points than the case
     """
     node = read_table(folder, "nodes", ["node"])["node"].to_numpy()
-    pieces, first = [], 0
+    gathered, first = [], 0
     for number, of_case in enumerate(_nodes(groups)):
         end = first + 2 * len(of_case)
         if not np.array_equal(node[first:end], np.repeat(of_case, 2)):
@@ -174,11 +174,11 @@ def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
         here = slice(*np.searchsorted(chosen.rows, [first, end]).tolist())
         rows = chosen.rows[here] - first
         if len(rows):
-            pieces.append(points_of(solve_group(groups, number), rows // 2, rows % 2, chosen.why[here]))
+            gathered.append(points_of(solve_group(groups, number), rows // 2, rows % 2, chosen.why[here]))
         first = end
     if first != len(node):
         raise DataError(_other_points(folder, f"has {len(node)} points where the case has {first}"))
-    return Points(*(np.concatenate([getattr(piece, f.name) for piece in pieces]) for f in fields(Points)))
+    return Points(*(np.concatenate([getattr(points, f.name) for points in gathered]) for f in fields(Points)))
 
 
 def _nodes(groups: WeldGroups) -> Iterator[NDArray[np.int64]]:

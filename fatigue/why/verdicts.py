@@ -18,8 +18,7 @@ from fatigue.spectrum.moments import point_moments, segment_spectra
 from fatigue.spectrum.reasons import reason
 from fatigue.spectrum.stationarity import damage_rate_by_period
 from fatigue.spectrum.surrogates import RatioSplit, explained_share, ratio_split
-from fatigue.spectrum.trust import VERDICTS, Diagnosis, diagnosis_matrices
-from fatigue.spectrum.trust import diagnose as spectral_diagnosis
+from fatigue.spectrum.trust import VERDICTS, Judgement, judge, trust_matrices
 from fatigue.why.attribute import EventAttribution, count_credit
 from fatigue.why.points import Points
 
@@ -27,7 +26,7 @@ Floats = NDArray[np.float64]
 
 NO_SPECTRUM = "The record is shorter than one spectral segment, so there is no frequency-domain estimate to judge."
 MEASURED = tuple(
-    field.name for field in fields(Diagnosis) if field.name not in {"verdict", "slope", "slow_hz", "segments"}
+    field.name for field in fields(Judgement) if field.name not in {"verdict", "slope", "slow_hz", "segments"}
 )
 
 
@@ -38,10 +37,10 @@ class EventVerdicts:
     Attributes
     ----------
     event : name
-    verdict, reason : one of `fatigue.spectrum.trust.VERDICTS`, and the same in words with its numbers
-    measured : the numbers of `fatigue.spectrum.trust.Diagnosis` by name
+    verdict, reason : one of ``fatigue.spectrum.trust.VERDICTS``, and the same in words with its numbers
+    measured : the numbers of ``fatigue.spectrum.trust.Judgement`` by name
     segmentwise_ratio : Dirlik summed over the periods of the record, over rainflow; where the event is not stationary
-    formula, process, standard_error : the split of Dirlik over rainflow, see `RatioSplit`; where it was asked for
+    formula, process, standard_error : the split of Dirlik over rainflow, see ``RatioSplit``; where it was asked for
     explained : share of ln(process) that the modulation and the tones found explain
     """
 
@@ -91,16 +90,16 @@ def event_verdicts(
         return found
 
     spectra = segment_spectra(load.counted, body.case.spectrum.segment_s, load.moments.upper_hz)
-    matrices = diagnosis_matrices(load.counted, spectra)
-    shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
+    matrices = trust_matrices(load.counted, spectra)
+    modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
     one_ratio = _one_ratio_sizes(points, assessed)
     for law in {id(rule.law): rule.law for rule in points.rule}.values():
         at = np.flatnonzero([rule.law is law for rule in points.rule])
         here = assessed.iloc[at]
         same_ratio = here["damage_same_ratio_per_pass"].to_numpy()
-        diagnosis = spectral_diagnosis(
-            shapes[at],
-            point_moments(shapes[at], load.moments),
+        judgement = judge(
+            modal_stress[at],
+            point_moments(modal_stress[at], load.moments),
             matrices,
             slope=_slope_of_damage(attribution, at, float(law.slopes[0])),
             dirlik_ratio=quotient(here["damage_dirlik_per_pass"].to_numpy(), same_ratio),
@@ -110,13 +109,13 @@ def event_verdicts(
             samples_per_peak=here["samples_per_peak"].to_numpy(),
             top_mode_hz=load.top_mode_hz,
         )
-        found.verdict[at] = np.array(VERDICTS, dtype=object)[diagnosis.verdict]
-        found.reason[at] = [reason(diagnosis, i) for i in range(len(at))]
+        found.verdict[at] = np.array(VERDICTS, dtype=object)[judgement.verdict]
+        found.reason[at] = [reason(judgement, i) for i in range(len(at))]
         for name in MEASURED:
-            found.measured[name][at] = getattr(diagnosis, name)
+            found.measured[name][at] = getattr(judgement, name)
         changing = at[found.verdict[at] == "non_stationary"]
         rate = damage_rate_by_period(
-            shapes[changing] * one_ratio[changing, None], spectra, partial(dirlik_damage_rate, law=law)
+            modal_stress[changing] * one_ratio[changing, None], spectra, partial(dirlik_damage_rate, law=law)
         )
         counted = assessed["damage_same_ratio_per_pass"].to_numpy()[changing]
         found.segmentwise_ratio[changing] = quotient(load.duration * rate, counted)
@@ -139,8 +138,8 @@ def _split(load: EventLoad, points: Points, size: Floats, assessed: pd.DataFrame
     ``size`` (p,) contains the one bending ratio of the event. The surrogates are those of the few stresses, not of the
     many modal coordinates: both have the same spectra.
     """
-    shapes = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
-    stresses = replace(load.counted, mode=np.arange(len(shapes)), q=shapes @ np.asarray(load.counted.q))
+    modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
+    stresses = replace(load.counted, mode=np.arange(len(modal_stress)), q=modal_stress @ np.asarray(load.counted.q))
 
     rules = [CycleRule(rule.law, uses_bending_ratio=False) for rule in points.rule]
 

@@ -16,20 +16,17 @@ from fatigue.readers.convert.folder import read_record
 from fatigue.readers.convert.modal_basis import common_modes
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
-from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.neutral.forces.tables import (
-    open_nodal_forces,
-    read_element_forces,
-    read_nodal_forces,
-    read_weld_elements,
-)
+from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
+from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
+from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces, read_nodal_forces
 from fatigue.readers.neutral.history import read_history
-from fatigue.readers.neutral.register.weld_register import open_register
+from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.tables import open_table
 from fatigue.results import read_provenance, read_table
-from fatigue.results.store import schema, write_json
+from fatigue.results.json_records import write_json
+from fatigue.results.tables import schema
 from tests.fuzz import damage
 from tests.readers import neutral_tables as neutral
 from tests.readers.foreign.histories.test_foreign_history import MCF
@@ -121,14 +118,14 @@ def _neutral_welds(folder: Path) -> Any:
 
 
 def _weld_nodes(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
-    found, warnings = read_weld_nodes(path, _neutral_welds(path.parent), strict=False)
+    found, warnings = neutral.read_weld_nodes(path, _neutral_welds(path.parent), strict=False)
     names = ("order", "node", "xyz", "thickness", "normal", "outward", "edge_mid")
     return {name: getattr(found, name) for name in names}, tuple(warnings)
 
 
 def _nodal_forces(path: Path) -> tuple[Columns, tuple[Problem, ...]]:
     nodes = neutral.write(path.parent / "weld_nodes.csv", neutral.WELD_NODES)
-    lines, _ = read_weld_nodes(nodes, _neutral_welds(path.parent), strict=False)
+    lines, _ = neutral.read_weld_nodes(nodes, _neutral_welds(path.parent), strict=False)
     mode = np.array(sorted(neutral.MODES["mode"]))
     ones = np.ones(mode.size)
     modes = Modes(mode, ones, ones, ones, ("normal",) * mode.size, ones)

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fatigue.readers.foreign.formats import read_forces
+from fatigue.readers.foreign.read import read_forces
 from tests.mystran.chain import chain
 from tests.mystran.drawn import drawn
 from tests.mystran.solver import listed_modes, needs_mystran

@@ -10,7 +10,7 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.convert.audit.audit import audit
 from fatigue.readers.convert.audit.tension_patch import DECK, convention_of
-from fatigue.readers.foreign.formats import read_forces, read_model
+from fatigue.readers.foreign.read import read_forces, read_model
 from tests.mystran import plates as joints
 from tests.mystran.chain import chain
 from tests.mystran.decks import plain

@@ -1,10 +1,14 @@
 """A small body in the neutral format: two welds, three modes; each test spoils one thing in it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
+
+from fatigue.errors import Problem
+from fatigue.readers.neutral.body import Modes, Weld, checked_lines, read_lines, read_modes, read_welds
+from fatigue.weld.line import LineStack
 
 Columns = dict[str, list]
 
@@ -84,6 +88,21 @@ def write(path: Path, columns: Mapping[str, list], types: Mapping[str, pa.DataTy
         arrays[name] = pa.array(values, types.get(name))
     pq.write_table(pa.table(arrays), path)
     return path
+
+
+def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple[LineStack, list[Problem]]:
+    """Read the lines of all welds, and check their geometry."""
+    lines, warnings = read_lines(path, welds, {weld.name for weld in welds}, strict=strict)
+    return lines, warnings + checked_lines(lines, path.name)
+
+
+def small_body(folder: Path, ignore_modes=(), scale=None) -> tuple[Modes, LineStack]:
+    """Write and read the small body."""
+    columns = MODES if scale is None else MODES | {"scale": scale}
+    modes, _ = read_modes(write(folder / "m.csv", columns), ignore_modes, strict=True)
+    welds, _ = read_welds(write(folder / "w.csv", WELDS), {"master-steel"}, strict=True)
+    lines, _ = read_weld_nodes(write(folder / "n.csv", WELD_NODES), welds, strict=True)
+    return modes, lines
 
 
 def _cell(value: object) -> str:

@@ -8,10 +8,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
-from fatigue.readers.neutral.register.weld_register import open_register
+from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
+from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.results import read_table
-from fatigue.results.store import schema
+from fatigue.results.tables import schema
 from tests.fuzz.sources import punch, small_run
 from tests.readers.foreign.histories.test_foreign_history import MCF
 

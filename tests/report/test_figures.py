@@ -14,7 +14,7 @@ from fatigue.report.figures.cycles import cumulative
 from fatigue.report.figures.lines import _end_zones, _unrolled
 from fatigue.report.figures.records import _thinned
 from fatigue.report.figures.style import life_axis, life_scale
-from fatigue.report.signals import Envelope, Excerpt, Spectrum
+from fatigue.report.signals import Envelope, Excerpt, StressSpectrum
 
 
 @pytest.fixture(scope="module")
@@ -169,7 +169,7 @@ def test_spectra_keep_their_peaks_when_thinned():
 
 def test_a_spectrum_that_does_not_vary_is_drawn():
     """A point without stress has a flat spectrum and no error."""
-    flat = Spectrum("run", np.array([0.0, 1.0, 2.0]), np.zeros(3))
+    flat = StressSpectrum("run", np.array([0.0, 1.0, 2.0]), np.zeros(3))
     fig = figures.stress_spectrum([flat], {"run": "#000000"}, {}, "run")
     assert np.isfinite(fig.layout.yaxis.range).all()
 

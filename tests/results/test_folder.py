@@ -15,7 +15,8 @@ from fatigue.pipeline.run.checkpoint import settle_folder
 from fatigue.report.files.export import write_csv
 from fatigue.report.files.vtp import write_vtp
 from fatigue.results import JOURNAL, read_provenance, strangers
-from fatigue.results.folder import publish, refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.publish import publish
 from tests.small_case import sine_only
 
 

@@ -12,7 +12,7 @@ from fatigue.spectrum.moments import (
     cross_densities,
     has_spectrum,
     moment_matrices,
-    moments_by_run,
+    moments_by_chunk,
     point_moments,
     quadratic_forms,
     segment_spectra,
@@ -48,10 +48,10 @@ def test_equals_welch_of_the_recovered_stress(samples, step, segment_s, upper_hz
     """All orders agree with the trapezoid rule on Welch's spectrum of each point, to rounding."""
     rng = np.random.default_rng(1)
     q = coloured(rng, 7, samples)
-    shapes = rng.normal(size=(40, 7))
+    modal_stress = rng.normal(size=(40, 7))
     spectra = segment_spectra(history(q, step), segment_s, upper_hz)
-    ours = point_moments(shapes, moment_matrices(spectra, ORDERS))
-    slow = welch_moments(shapes @ q, step, round(segment_s / step), upper_hz, ORDERS)
+    ours = point_moments(modal_stress, moment_matrices(spectra, ORDERS))
+    slow = welch_moments(modal_stress @ q, step, round(segment_s / step), upper_hz, ORDERS)
     np.testing.assert_allclose(ours, slow, rtol=1e-12)
 
 
@@ -80,14 +80,14 @@ def test_densities_add_up_to_the_variance(modes, monkeypatch):
     np.testing.assert_allclose(cross_densities(spectra), density, rtol=1e-12)
 
 
-@pytest.mark.parametrize("run", [1, 2, 3, 8])
-def test_runs_of_segments_make_up_the_record(run):
-    """Each run is the mean over its segments; the last one holds what is left."""
+@pytest.mark.parametrize("size", [1, 2, 3, 8])
+def test_chunks_of_segments_make_up_the_record(size):
+    """Each chunk is the mean over its segments; the last one holds what is left."""
     spectra = segment_spectra(history(coloured(np.random.default_rng(5), 3, 1250)), 1.0, 60.0)
-    runs = list(moments_by_run(spectra, ORDERS, run))
-    assert sum(part.segments for part in runs) == len(spectra.starts) == 9
-    assert all(part.segments == run for part in runs[:-1])
-    together = sum(part.segments * part.matrix for part in runs) / len(spectra.starts)
+    chunks = list(moments_by_chunk(spectra, ORDERS, size))
+    assert sum(chunk.segments for chunk in chunks) == len(spectra.starts) == 9
+    assert all(chunk.segments == size for chunk in chunks[:-1])
+    together = sum(chunk.segments * chunk.matrix for chunk in chunks) / len(spectra.starts)
     np.testing.assert_allclose(together, moment_matrices(spectra, ORDERS).matrix, rtol=1e-12)
 
 
@@ -95,11 +95,11 @@ def test_a_large_constant_part_in_single_precision_leaves_no_trace():
     """Gravity a thousand times the vibration, stored as float32: only the storage itself costs digits."""
     rng = np.random.default_rng(2)
     q = (rng.normal(size=(4, 4000)) + 1000.0 * rng.normal(size=(4, 1))).astype(np.float32)
-    shapes = rng.normal(size=(10, 4))
-    ours = point_moments(shapes, moment_matrices(segment_spectra(history(q), 4.0, 60.0)))
+    modal_stress = rng.normal(size=(10, 4))
+    ours = point_moments(modal_stress, moment_matrices(segment_spectra(history(q), 4.0, 60.0)))
     exact = q.astype(np.float64)
     exact -= exact.mean(axis=1, keepdims=True)
-    slow = welch_moments(shapes @ exact, 0.004, 1000, 60.0, (0, 1, 2, 4))
+    slow = welch_moments(modal_stress @ exact, 0.004, 1000, 60.0, (0, 1, 2, 4))
     np.testing.assert_allclose(ours, slow, rtol=1e-10)
 
 
@@ -113,8 +113,8 @@ def test_cancelling_modes_never_give_a_negative_moment():
     """Two modes that move alike cancel in a point; rounding must not make its variance negative."""
     q = np.random.default_rng(3).normal(size=(1, 3000))
     matrices = moment_matrices(segment_spectra(history(np.vstack([q, q, 3 * q])), 4.0, 60.0))
-    shapes = np.array([[1.0, -1.0, 0.0], [3.0, 0.0, -1.0], [1e3, -1e3 - 1e-6, 0.0], [1.0, 2.0, -1.0]])
-    assert np.all(point_moments(shapes, matrices) >= 0)
+    modal_stress = np.array([[1.0, -1.0, 0.0], [3.0, 0.0, -1.0], [1e3, -1e3 - 1e-6, 0.0], [1.0, 2.0, -1.0]])
+    assert np.all(point_moments(modal_stress, matrices) >= 0)
 
 
 @pytest.mark.parametrize(
@@ -144,10 +144,10 @@ def test_moments_are_quadratic_in_stress_and_add_over_independent_segments(seed,
 @settings(deadline=None, max_examples=10)
 @given(points=st.integers(0, 2100), modes=st.integers(1, 5))
 def test_quadratic_forms_do_not_depend_on_the_block(points, modes):
-    """Blocks of points are cut for speed only; single-precision shapes are taken as they are."""
+    """Blocks of points are cut for speed only; single-precision modal_stress are taken as they are."""
     rng = np.random.default_rng(points)
     half = rng.normal(size=(3, modes, modes))
     matrices = half @ half.transpose(0, 2, 1)
-    shapes = rng.normal(size=(points, modes)).astype(np.float32)
-    slow = np.einsum("ni,pij,nj->pn", *(x.astype(np.float64) for x in (shapes, matrices, shapes)))
-    np.testing.assert_allclose(quadratic_forms(shapes, matrices), slow, rtol=1e-9)
+    modal_stress = rng.normal(size=(points, modes)).astype(np.float32)
+    slow = np.einsum("ni,pij,nj->pn", *(x.astype(np.float64) for x in (modal_stress, matrices, modal_stress)))
+    np.testing.assert_allclose(quadratic_forms(modal_stress, matrices), slow, rtol=1e-9)

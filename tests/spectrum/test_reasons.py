@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fatigue.spectrum.reasons import reason
-from fatigue.spectrum.trust import VERDICTS, Diagnosis
+from fatigue.spectrum.trust import VERDICTS, Judgement
 
 MEASURED = {
     "dirlik_ratio": 1.02,
@@ -33,9 +33,9 @@ MEASURED = {
 
 
 def of(verdict, too_short=False, **measured):
-    """Make a diagnosis of one point."""
+    """Make a judgement on one point."""
     values = {name: np.array([value]) for name, value in (MEASURED | measured).items()}
-    return Diagnosis(
+    return Judgement(
         verdict=np.array([VERDICTS.index(verdict)], dtype=np.int8),
         record_too_short=np.array([too_short]),
         slope=3.6,

@@ -47,14 +47,16 @@ def test_expected_scatter_is_the_sum_over_lags():
     rng = np.random.default_rng(0)
     q = rng.normal(size=(4, 4)) @ ensemble(modal_spectrum(), 4, 29 * 512, 1)
     history, _, periods = prepared(q)
-    shapes = rng.normal(size=(20, 4))
+    modal_stress = rng.normal(size=(20, 4))
 
     long = segment_spectra(history, 8.0, 80.0)
     length = round(4.0 * RATE)
     weight = hann(length) ** 2 / np.sum(hann(length) ** 2)
     window = hann(2 * length)
-    for shape, found in zip(shapes, stationarity(shapes, periods).expected_cov, strict=True):
-        density = np.mean([np.sum((shape @ parts).reshape(-1, 2) ** 2, axis=1) for parts in long.transforms()], axis=0)
+    for of_point, found in zip(modal_stress, stationarity(modal_stress, periods).expected_cov, strict=True):
+        density = np.mean(
+            [np.sum((of_point @ parts).reshape(-1, 2) ** 2, axis=1) for parts in long.transforms()], axis=0
+        )
         variance = 0.0
         for lag in range(0, int(0.4 * len(window)), 2):
             if lag >= length:
@@ -103,10 +105,10 @@ def test_moments_and_variances_are_those_of_the_segments(modes, samples):
 def test_many_modes_or_few_make_the_same_scatter():
     """More pairs of modes than bins, or fewer: the same scatter at a point that sees the same modes."""
     q = ensemble(modal_spectrum(), 3, 29 * 512, 11)
-    shapes = np.random.default_rng(12).normal(size=(10, 3))
-    few = stationarity(shapes, prepared(q)[2])
+    modal_stress = np.random.default_rng(12).normal(size=(10, 3))
+    few = stationarity(modal_stress, prepared(q)[2])
     still = np.zeros((50, q.shape[1]))
-    many = stationarity(np.hstack([shapes, np.ones((10, 50))]), prepared(np.vstack([q, still]))[2])
+    many = stationarity(np.hstack([modal_stress, np.ones((10, 50))]), prepared(np.vstack([q, still]))[2])
     np.testing.assert_allclose(many.expected_cov, few.expected_cov, rtol=1e-5)
 
 
@@ -122,26 +124,28 @@ def test_modulation_shows():
 
 def test_dirlik_by_period_follows_the_modulation():
     """Where one spectrum for all misses a quarter of the damage, the sum over periods comes close to rainflow."""
-    law, shapes = straight_law(3.6), np.ones((1, 1))
+    law, modal_stress = straight_law(3.6), np.ones((1, 1))
     at_once, by_period = [], []
     for seed in range(4):
         record = speed_steps(np.random.default_rng(seed), 205 * 512)
         history, spectra, _ = prepared(record)
         cycles = rainflow(record, "repeat")
         counted = np.sum(cycles.count * cycles.range**3.6) / history.duration
-        at_once.append(dirlik_damage_rate(point_moments(shapes, moment_matrices(spectra)), law)[0] / counted)
-        by_period.append(damage_rate_by_period(shapes, spectra, partial(dirlik_damage_rate, law=law))[0] / counted)
+        at_once.append(dirlik_damage_rate(point_moments(modal_stress, moment_matrices(spectra)), law)[0] / counted)
+        by_period.append(
+            damage_rate_by_period(modal_stress, spectra, partial(dirlik_damage_rate, law=law))[0] / counted
+        )
     assert np.mean(at_once) == pytest.approx(0.79, abs=0.06)
     assert np.mean(by_period) == pytest.approx(1.1, abs=0.06)  # Dirlik is 7 % high here, short periods scatter
 
 
 def test_units_and_factors_do_not_matter():
-    """Scaled modal coordinates, scaled shapes: the same numbers; they are ratios."""
+    """Scaled modal coordinates, scaled modal_stress: the same numbers; they are ratios."""
     q = ensemble(modal_spectrum(), 3, 29 * 512, 6)
-    shapes = np.random.default_rng(7).normal(size=(10, 3))
-    plain = stationarity(shapes, prepared(q)[2])
+    modal_stress = np.random.default_rng(7).normal(size=(10, 3))
+    plain = stationarity(modal_stress, prepared(q)[2])
     scale = np.array([1e-9, 1.0, 1e6])
-    scaled = stationarity(1e3 * shapes / scale, prepared(q * scale[:, None])[2])
+    scaled = stationarity(1e3 * modal_stress / scale, prepared(q * scale[:, None])[2])
     for name in ("modulation_index", "bandwidth_hz", "expected_cov"):
         np.testing.assert_allclose(getattr(scaled, name), getattr(plain, name), rtol=1e-3)
 

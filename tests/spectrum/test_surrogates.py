@@ -41,7 +41,7 @@ def test_surrogates_keep_all_cross_spectra():
     samples = 8 * 2048
     a, b = stationary(rng, samples), stationary(rng, samples)
     record = history(np.stack([a, b, 2 * np.roll(a, 7) - b]))
-    shapes = rng.normal(size=(6, 3))
+    modal_stress = rng.normal(size=(6, 3))
     wanted = moment_matrices(segment_spectra(record, 4.0, 80.0), (0, 1, 2))
     found = np.mean(
         [
@@ -50,7 +50,7 @@ def test_surrogates_keep_all_cross_spectra():
         ],
         axis=0,
     )
-    ratio = np.einsum("ni,pij,nj->pn", shapes, found, shapes) / point_moments(shapes, wanted)
+    ratio = np.einsum("ni,pij,nj->pn", modal_stress, found, modal_stress) / point_moments(modal_stress, wanted)
     np.testing.assert_allclose(ratio, 1.0, atol=0.15)
     np.testing.assert_allclose(np.mean(ratio), 1.0, atol=0.03)
 

@@ -7,7 +7,7 @@ from io import StringIO
 import pandas as pd
 import pytest
 
-from fatigue.readers.neutral.register.weld_register import open_register
+from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.verify.recount.inputs.register import weld_entries
 
 NAMES = "weld,line,status,reason,length_mm,thickness_mm,confirmed,surface,curve,end_length_mm,description,notes"

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fatigue.errors import DataError
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.line import stacked
-from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
+from fatigue.weld.line_check import check_line, line_warnings, unfit_lines, warned_lines
 from fatigue.weld.line_load import line_load, line_load_matrix
 from fatigue.weld.structural_stress import assess_line, line_stress
 from tests.weld_lines import fields, lines, ring, straight
@@ -78,7 +78,7 @@ def test_doubts_about_lines_of_a_stack(some):
     """The lines that are warned about alone, and no others."""
     some = [*some, straight([10.0, 1.5, 10]), SMOOTH, straight([4.0, 6], edge_mid=[0, 1, 0])]
     assert not unfit_lines(stacked(some)).size
-    assert doubtful_lines(stacked(some)).tolist() == [i for i, line in enumerate(some) if line_warnings(line, "here")]
+    assert warned_lines(stacked(some)).tolist() == [i for i, line in enumerate(some) if line_warnings(line, "here")]
 
 
 def test_forces_of_parabolic_elements_stand_out():

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.weld.line_geometry import arc_length
+from fatigue.weld.line_geometry import arc_length, local_axes
 from fatigue.weld.line_load import line_load_matrix
 from fatigue.weld.structural_stress import StructuralStress, assess_line, structural_stress
 from tests.weld_lines import fields, lines, moved, reversed_line, ring, rotations, shifted, straight, weld_line
@@ -40,7 +40,8 @@ def test_one_component_at_a_time(component, name, stress):
     """Thickness 10, local axes = global axes: f / t from 100 N/mm, 6 m / t^2 from 100 N; drilling is no stress."""
     load = np.zeros((2, 1, 6))
     load[..., component] = 100.0
-    found = structural_stress(straight([10.0]), load)
+    line = straight([10.0])
+    found = structural_stress(local_axes(line), line.thickness, load)
     for other in NAMES:
         np.testing.assert_allclose(getattr(found, other), stress if other == name else 0.0, atol=1e-15)
 
@@ -65,7 +66,8 @@ def test_each_node_has_its_own_thickness():
     """The line load does not depend on the thickness, the stress does."""
     load = np.zeros((2, 1, 6))
     load[..., 1] = 100.0
-    found = structural_stress(straight([10.0], thickness=[10, 20]), load)
+    line = straight([10.0], thickness=[10, 20])
+    found = structural_stress(local_axes(line), line.thickness, load)
     np.testing.assert_allclose(found.membrane[:, 0], [10, 5], rtol=1e-14)
 
 

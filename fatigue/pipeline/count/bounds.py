@@ -1,16 +1,35 @@
-"""Proven bounds for one pass of an event at a block of stations, in place of counting."""
+"""Proven bounds for the events of a block of stations in place of counting, and which stations they settle."""
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.bounds.screening import PowerSums, damage_bound, may_need_mean_stress
-from fatigue.life.mission import Plan
-from fatigue.pipeline.solve.modal_stress import Shapes
+from fatigue.life.bounds.screening import ModalExtent, PowerSums, damage_bound, may_need_mean_stress
+from fatigue.life.counting.block import BlockCount
+from fatigue.life.counting.record import SingleRecord
+from fatigue.life.mission import Plan, mission_sum
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.modal_stress import ModalStress
 
-Unsettled = Callable[[NDArray[np.intp]], NDArray[np.intp]]  # those of some stations that are not settled
+ABOVE = 1.0 + 1e-6  # so that what was counted in single precision is a bound as well
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Screening:
+    """What settles points without counting.
+
+    A bound below ``share`` of the damage limit is enough. With ``proves_worst`` the worst point of welds that stay
+    below the share everywhere has to be proven, too. ``extents`` and ``records`` say of every event how far and how
+    much its modal coordinates move, without and with a loop over time.
+    """
+
+    share: float
+    proves_worst: bool
+    extents: tuple[ModalExtent, ...]
+    records: tuple[SingleRecord, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,65 +40,111 @@ class Bound:
     max_range: NDArray[np.float64]
     max_equivalent_range: NDArray[np.float64]
 
-    def at(self, rows: NDArray[np.intp]) -> "Bound":
+    def at(self, rows: NDArray[np.intp]) -> Self:
         """Take some stations."""
-        return Bound(self.damage[rows], self.max_range[rows], self.max_equivalent_range[rows])
+        return type(self)(self.damage[rows], self.max_range[rows], self.max_equivalent_range[rows])
 
-    def tightened(self, other: "Bound", rows: NDArray[np.intp]) -> "Bound":
-        """Take the lower one of two bounds at some stations, those of ``other`` in their order."""
+    def tightened(self, other: Self, rows: NDArray[np.intp]) -> Self:
+        """The lower one of two bounds at some stations; ``other`` has these stations only, in their order."""
         arrays = []
-        for mine, theirs in (
-            (self.damage, other.damage),
-            (self.max_range, other.max_range),
-            (self.max_equivalent_range, other.max_equivalent_range),
-        ):
-            lower = mine.copy()
-            lower[rows] = np.minimum(mine[rows], theirs)
+        for name in ("damage", "max_range", "max_equivalent_range"):
+            lower = getattr(self, name).copy()
+            lower[rows] = np.minimum(lower[rows], getattr(other, name))
             arrays.append(lower)
-        return Bound(*arrays)
+        return type(self)(*arrays)
+
+    @classmethod
+    def of_count(cls, counted: BlockCount) -> Self:
+        """The bound that a count is."""
+        return cls(ABOVE * counted.damage, ABOVE * counted.max_range, ABOVE * counted.max_equivalent_range)
+
+    def as_count(self) -> BlockCount:
+        """A count that the bound stands for; what only cycles could tell is NaN."""
+        unknown = {field.name: np.full_like(self.damage, np.nan) for field in fields(BlockCount)}
+        known = {field.name: getattr(self, field.name) for field in fields(self)}
+        return BlockCount(**(unknown | known | {"histogram": np.zeros((*self.damage.shape, 0, 2))}))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bounds:
+    """Upper bounds of all events at the n stations of a block, and which of the stations they settle.
+
+    Attributes
+    ----------
+    of_events : the bound of every event; they are tightened one by one
+    plan : how often the events occur
+    toe : (n, 2) faces that carry a weld toe
+    worst : (n, 1) share of the limit that a point of the weld is known to use up, 0 until one was counted
+    screening : what is enough
+    """
+
+    of_events: list[Bound]
+    plan: Plan
+    toe: NDArray[np.bool_]
+    worst: NDArray[np.float64]
+    screening: Screening
+
+    def tighten(self, event: int, rows: NDArray[np.intp], found: Bound) -> None:
+        """Take another bound of an event at some stations where it is lower."""
+        self.of_events[event] = self.of_events[event].tightened(found, rows)
+
+    def utilisation(self, rows: NDArray[np.intp] | slice = slice(None)) -> NDArray[np.float64]:
+        """Largest share of the damage limit that the whole mission can use up at some stations, (n, 2)."""
+        return utilisation(self.of_events, self.plan, rows)
+
+    def unsettled(self, rows: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Those of some stations whose bound stays neither below the share nor below the worst point of their weld."""
+        at_most = self.utilisation(rows)
+        remains = at_most >= self.screening.share
+        if self.screening.proves_worst:
+            remains |= self.toe[rows] & (at_most > self.worst[rows])
+        return rows[np.flatnonzero(remains.any(axis=1))]
+
+    def event_by_event(self, rows: NDArray[np.intp]) -> Iterator[tuple[int, NDArray[np.intp]]]:
+        """The number of each event, and the stations that are still unsettled when it is its turn.
+
+        The events whose bounds make up most of the damage come first. The caller tightens the bound of an event before
+        he asks for the next one.
+        """
+        for event in self._by_share(rows):
+            yield event, rows
+            rows = self.unsettled(rows)
+            if not rows.size:
+                return
+
+    def _by_share(self, rows: NDArray[np.intp]) -> list[int]:
+        """Numbers of the events; the events whose bounds make up most of the damage of some stations come first."""
+        weights = np.array([p.passes_per_km for p in self.plan.passes])[:, None, None]
+        damage = weights * np.stack([bound.damage[rows] for bound in self.of_events])
+        with np.errstate(invalid="ignore"):  # no bound, or no damage at all
+            share = np.nan_to_num(damage / damage.sum(axis=0), nan=1.0)
+        return [int(event) for event in np.argsort(-share.sum(axis=(1, 2)), kind="stable")]
+
+
+def utilisation(
+    bounds: Sequence[Bound], plan: Plan, rows: NDArray[np.intp] | slice = slice(None)
+) -> NDArray[np.float64]:
+    """Largest share of the damage limit that a mission can use up by the bounds of its events, (n, 2)."""
+    per_km = mission_sum(np.stack([bound.damage[rows] for bound in bounds]), plan.passes)
+    return per_km * plan.target_km / plan.damage_limit
 
 
 def event_bound(
     found: tuple[NDArray[np.float64], PowerSums],
-    stress_factor: float,
-    shapes: Shapes,
+    stress: ModalStress,
     rows: NDArray[np.intp] | slice,
+    load: EventLoad,
     mean: NDArray[np.float64],
 ) -> Bound:
-    """Bound one pass at some ``rows`` of a block from bounds of range and sum n S^q, (n, 2) each, of the record.
+    """Bound of one pass at some ``rows`` of a block, from bounds of range and sum n S^q, (n, 2) each, of its record.
 
-    They are those before the event's ``stress_factor``. ``mean`` (n, 2) is the time mean of the stress [MPa]. Where
-    the damage contains the mean-stress factor, stations that may need it have no bound.
+    ``found`` does not contain the stress factor of the event. ``mean`` (n, 2) is the time mean of the stress [MPa].
+    Where the damage contains the mean-stress factor, stations that may need the factor have no bound.
     """
-    stress_range = stress_factor * found[0]
-    power_sums = {q: stress_factor**q * power_sum for q, power_sum in found[1].items()}
-    size = shapes.size[rows, None]
-    damage, largest = damage_bound(stress_range, power_sums, size, shapes.rule)
-    yield_MPa = shapes.rule.yield_of_damage
+    stress_range = load.stress_factor * found[0]
+    power_sums = {q: load.stress_factor**q * power_sum for q, power_sum in found[1].items()}
+    damage, largest = damage_bound(stress_range, power_sums, stress.size[rows, None], stress.rule)
+    yield_MPa = stress.rule.yield_of_damage
     if yield_MPa is not None:
         damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)
-
-
-def event_by_event(
-    rows: NDArray[np.intp], bounds: Sequence[Bound], plan: Plan, unsettled: Unsettled
-) -> Iterator[tuple[int, NDArray[np.intp]]]:
-    """Give the number of each event and those of some stations that are still unsettled when it is its turn.
-
-    The events whose bounds make up most of the damage come first; whoever asks tightens the ``bounds`` of an event, by
-    which stations are settled, before he asks for the next one.
-    """
-    for number in _by_share(bounds, rows, plan):
-        yield number, rows
-        rows = unsettled(rows)
-        if not rows.size:
-            return
-
-
-def _by_share(bounds: Sequence[Bound], rows: NDArray[np.intp], plan: Plan) -> list[int]:
-    """Numbers of the events, those first whose bounds make up most of the damage of some stations."""
-    weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
-    damage = weights * np.stack([bound.damage[rows] for bound in bounds])
-    with np.errstate(invalid="ignore"):  # no bound, or no damage at all
-        share = np.nan_to_num(damage / damage.sum(axis=0), nan=1.0)
-    return [int(number) for number in np.argsort(-share.sum(axis=(1, 2)), kind="stable")]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.bounds.forms import face_forms
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.modal_stress import Shapes
+from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.quotient import quotient
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
 from fatigue.spectrum.moments import quadratic_forms
@@ -51,43 +51,43 @@ class Estimate:
         )
 
 
-def mean_stress(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
+def mean_stress(stress: ModalStress, load: EventLoad) -> NDArray[np.float64]:
     """Time mean of the stress at both faces of every station, (n, 2) [MPa]."""
-    mean_m, mean_b = (load.stress_factor * (S @ load.mean) for S in (shapes.membrane, shapes.bending))
+    mean_m, mean_b = (load.stress_factor * (S @ load.mean) for S in (stress.membrane, stress.bending))
     return np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
 
 
-def member_variances(shapes: Shapes, load: EventLoad) -> NDArray[np.float64]:
+def member_variances(stress: ModalStress, load: EventLoad) -> NDArray[np.float64]:
     """Variances of membrane and of bending stress over the kept samples, (n, 2), stress factor left out [MPa^2]."""
     C = load.covariance[None]
-    return np.stack([np.maximum(quadratic_forms(S, C)[0], 0.0) for S in (shapes.membrane, shapes.bending)], axis=1)
+    return np.stack([np.maximum(quadratic_forms(S, C)[0], 0.0) for S in (stress.membrane, stress.bending)], axis=1)
 
 
-def estimate_event(shapes: Shapes, load: EventLoad, variances: NDArray[np.float64]) -> Estimate:
-    """Estimate the damage of one pass of an event at every station of a block from its spectrum.
+def estimate_event(stress: ModalStress, load: EventLoad, variances: NDArray[np.float64]) -> Estimate:
+    """Estimate of one pass of an event at every station of a block, from the spectrum of its record.
 
-    ``variances`` (n, 2) are the `member_variances`.
-    Both the estimates and the rainflow damage they are compared with use one bending ratio per station.
+    ``variances`` (n, 2) are the ``member_variances``. The estimates, and the rainflow damage that they are compared
+    with, use one bending ratio per station.
     """
-    S_m, S_b, f = shapes.membrane, shapes.bending, load.stress_factor
+    S_m, S_b, f = stress.membrane, stress.bending, load.stress_factor
     std_m, std_b = f * np.sqrt(variances.T)
     bending_ratio = np.repeat(quotient(std_b, std_m + std_b)[:, None], 2, axis=1)
-    mean = mean_stress(shapes, load)
+    mean = mean_stress(stress, load)
     if load.moments is None:
         nothing = np.full(mean.shape, np.nan)
         return Estimate(bending_ratio, mean, np.full((4, *mean.shape), np.nan), *(nothing,) * 5)
 
     moments = f**2 * np.concatenate([face_forms(S_m, S_b, pair) for pair in load.moment_pairs])
-    I_s = shapes.rule.ratio_factor(np.nan_to_num(bending_ratio))
-    equivalent = (moments * (shapes.size[:, None] / I_s) ** 2).reshape(4, -1)
+    I_s = stress.rule.ratio_factor(np.nan_to_num(bending_ratio))
+    equivalent = (moments * (stress.size[:, None] / I_s) ** 2).reshape(4, -1)
     m0, _, m2, m4 = moments
     peaks_per_s = np.sqrt(quotient(m4, m2))
     return Estimate(
         bending_ratio=bending_ratio,
         mean=mean,
         moments=moments,
-        dirlik=load.duration * dirlik_damage_rate(equivalent, shapes.rule.law).reshape(mean.shape),
-        tb=load.duration * tovo_benasciutti_damage_rate(equivalent, shapes.rule.law).reshape(mean.shape),
+        dirlik=load.duration * dirlik_damage_rate(equivalent, stress.rule.law).reshape(mean.shape),
+        tb=load.duration * tovo_benasciutti_damage_rate(equivalent, stress.rule.law).reshape(mean.shape),
         irregularity=quotient(m2, np.sqrt(m0 * m4)),
         peaks_per_s=peaks_per_s,
         samples_per_peak=quotient(np.full_like(m0, 1.0 / load.counted.step), peaks_per_s),

@@ -1,13 +1,11 @@
-"""One event on one block of stations: superpose, count, sum, and the frequency-domain estimate beside it."""
+"""One pass of one event at a block of stations: cycles counted, or bounds in their place, beside the estimate."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import NumericalError, Problem
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.count import count
 from fatigue.life.rule import cycle_damage
@@ -15,186 +13,138 @@ from fatigue.life.shear import shear_factor
 from fatigue.pipeline.count.bounds import Bound
 from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.modal_stress import RawEnds, Shapes, faces
+from fatigue.pipeline.solve.modal_stress import ModalStress, faces
 from fatigue.quotient import quotient
-from fatigue.spectrum.trust import VERDICTS, diagnose
+from fatigue.spectrum.trust import VERDICTS, judge
+from fatigue.weld.structural_stress import RawEnds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EventBlock:
     """One pass of one event at a block of stations; every array is (n, 2): top and bottom face.
 
-    Damages are Miner sums of one pass, ``damage_raw_end`` that without the end treatment; so are ``cycles`` (sum n) and
-    ``power_sum`` (sum n S^k). ``histogram`` is (n, 2, b, 2), see ``BlockCount``; ``verdict`` is an index into
-    ``VERDICTS``. What needs a spectrum is NaN without one, what needs cycles is NaN where bounds stand for them.
+    Attributes
+    ----------
+    estimate : the pass in the frequency domain
+    count : its cycles; where bounds stand for them, what only cycles could tell is NaN
+    damage_shear : Miner sum with the shear counted with the normal stress
+    shear_ratio : standard deviation of the shear over the standard deviation of the normal stress
+    damage_raw_end : Miner sum without the end treatment, NaN where that was not counted
+    verdict : index into ``VERDICTS``
     """
 
-    damage: NDArray[np.float64]
-    damage_same_ratio: NDArray[np.float64]
-    damage_mean_stress: NDArray[np.float64]
+    estimate: Estimate
+    count: BlockCount
     damage_shear: NDArray[np.float64]
-    damage_raw_end: NDArray[np.float64]
-    damage_dirlik: NDArray[np.float64]
-    damage_tb: NDArray[np.float64]
-    cycles: NDArray[np.float64]
-    power_sum: NDArray[np.float64]
-    max_range: NDArray[np.float64]
-    r_largest: NDArray[np.float64]
-    max_equivalent_range: NDArray[np.float64]
-    mean: NDArray[np.float64]
-    kurtosis: NDArray[np.float64]
-    bending_ratio: NDArray[np.float64]
     shear_ratio: NDArray[np.float64]
-    irregularity: NDArray[np.float64]
-    peaks_per_s: NDArray[np.float64]
-    samples_per_peak: NDArray[np.float64]
+    damage_raw_end: NDArray[np.float64]
     verdict: NDArray[np.int8]
-    histogram: NDArray[np.float64]
 
-    def at(self, rows: NDArray[np.bool_]) -> "EventBlock":
+    def at(self, rows: NDArray[np.intp]) -> Self:
         """Take some stations."""
-        return EventBlock(*(getattr(self, field.name)[rows] for field in fields(self)))
+        return type(self)(
+            estimate=self.estimate.at(rows),
+            count=self.count.at(rows),
+            damage_shear=self.damage_shear[rows],
+            shear_ratio=self.shear_ratio[rows],
+            damage_raw_end=self.damage_raw_end[rows],
+            verdict=self.verdict[rows],
+        )
+
+    def without_histogram(self) -> Self:
+        """The same without its histogram, which is larger than all else and serves the load factor only."""
+        nothing = np.zeros((*self.verdict.shape, 0, 2))
+        return replace(self, count=replace(self.count, histogram=nothing))
 
 
-def count_event(shapes: Shapes, load: EventLoad, estimate: Estimate) -> EventBlock:
-    """Count one pass of an event at every station of a block; see `judged` for the verdict.
+def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> EventBlock:
+    """One pass of an event counted at every station of a block; ``judged`` gives the verdict.
 
-    The equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5).
+    The equivalent range of a cycle has the bending ratio of this cycle (ASME VIII-2 5.5.5).
     """
-    counted, raw_end = _counted(shapes, load, estimate.one_ratio)
-    var, shear_var, covar, shear_bending_ratio = _variances(shapes, load)
-    I_s, I_t = shapes.rule.ratio_factor(estimate.one_ratio), shapes.rule.ratio_factor(shear_bending_ratio)
-    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** shapes.rule.law.slopes[0]
+    counted, damage_raw_end = _counted(stress, load, estimate.one_ratio)
+    var, shear_var, covar, shear_bending_ratio = _variances(stress, load)
+    rule = stress.rule
+    I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
+    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** rule.law.slopes[0]
     return EventBlock(
-        damage=counted.damage,
-        damage_same_ratio=counted.damage_same_ratio,
-        damage_mean_stress=counted.damage_mean_stress,
+        estimate=estimate,
+        count=counted,
         damage_shear=np.where(counted.damage > 0.0, counted.damage * with_shear, 0.0),
-        damage_raw_end=raw_end,
-        damage_dirlik=estimate.dirlik,
-        damage_tb=estimate.tb,
-        cycles=counted.cycles,
-        power_sum=counted.power_sum,
-        max_range=counted.max_range,
-        r_largest=counted.r_largest,
-        max_equivalent_range=counted.max_equivalent_range,
-        mean=estimate.mean,
-        kurtosis=counted.kurtosis,
-        bending_ratio=estimate.bending_ratio,
         shear_ratio=quotient(np.sqrt(shear_var), np.sqrt(var)),
-        irregularity=estimate.irregularity,
-        peaks_per_s=estimate.peaks_per_s,
-        samples_per_peak=estimate.samples_per_peak,
-        verdict=np.full(var.shape, VERDICTS.index("not_assessed"), dtype=np.int8),
-        histogram=counted.histogram,
+        damage_raw_end=damage_raw_end,
+        verdict=_not_assessed(var),
     )
 
 
-def judged(event: EventBlock, shapes: Shapes, load: EventLoad, estimate: Estimate) -> EventBlock:
-    """Judge by what was counted whether the estimate may be trusted at each point of a block."""
-    if load.diagnosis is None:
+def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBlock:
+    """The same event with its verdict: whether, by what was counted, the estimate may be trusted at each point."""
+    if load.trust is None:
         return event
-    law, stress = shapes.rule.law, load.stress_factor * faces(shapes.membrane, shapes.bending)
-    same_ratio, damage = event.damage_same_ratio.reshape(-1), event.damage.reshape(-1)
-    found = diagnose(
-        stress.reshape(-1, stress.shape[-1]),
+    law, both = stress.rule.law, load.stress_factor * faces(stress.membrane, stress.bending)
+    counted, estimate = event.count, event.estimate
+    same_ratio, damage = counted.damage_same_ratio.reshape(-1), counted.damage.reshape(-1)
+    found = judge(
+        both.reshape(-1, both.shape[-1]),
         estimate.moments.reshape(len(estimate.moments), -1),
-        load.diagnosis,
+        load.trust,
         slope=float(law.slopes[0]),
         dirlik_ratio=quotient(estimate.dirlik.reshape(-1), same_ratio),
         tb_ratio=quotient(estimate.tb.reshape(-1), same_ratio),
-        kurtosis=event.kurtosis.reshape(-1),
-        top_cycle_share=quotient(cycle_damage(event.max_equivalent_range.reshape(-1), law), damage),
+        kurtosis=counted.kurtosis.reshape(-1),
+        top_cycle_share=quotient(cycle_damage(counted.max_equivalent_range.reshape(-1), law), damage),
         samples_per_peak=estimate.samples_per_peak.reshape(-1),
         top_mode_hz=load.top_mode_hz,
     )
-    return replace(event, verdict=found.verdict.reshape(event.damage.shape))
+    return replace(event, verdict=found.verdict.reshape(event.verdict.shape))
 
 
 def bounded_event(estimate: Estimate, bound: Bound, raw_ends: RawEnds) -> EventBlock:
-    """Take proven bounds for one pass of an event: damage and largest ranges are never larger; nothing was counted."""
-    unknown = np.full(bound.damage.shape, np.nan)
-    raw_end = bound.damage.copy()
-    raw_end[raw_ends.rows] = np.nan
-    return EventBlock(
-        damage=bound.damage,
-        damage_same_ratio=unknown,
-        damage_mean_stress=unknown,
-        damage_shear=unknown,
-        damage_raw_end=raw_end,
-        damage_dirlik=estimate.dirlik,
-        damage_tb=estimate.tb,
-        cycles=unknown,
-        power_sum=unknown,
-        max_range=bound.max_range,
-        r_largest=unknown,
-        max_equivalent_range=bound.max_equivalent_range,
-        mean=estimate.mean,
-        kurtosis=unknown,
-        bending_ratio=estimate.bending_ratio,
-        shear_ratio=unknown,
-        irregularity=estimate.irregularity,
-        peaks_per_s=estimate.peaks_per_s,
-        samples_per_peak=estimate.samples_per_peak,
-        verdict=np.full(unknown.shape, VERDICTS.index("not_assessed"), dtype=np.int8),
-        histogram=np.zeros((*unknown.shape, 0, 2)),
-    )
+    """One pass of an event with proven bounds in place of a count: damage and largest ranges are never larger."""
+    unknown = np.full_like(bound.damage, np.nan)
+    damage_raw_end = bound.damage.copy()
+    damage_raw_end[raw_ends.rows] = np.nan
+    return EventBlock(estimate, bound.as_count(), unknown, unknown, damage_raw_end, _not_assessed(unknown))
 
 
-@contextmanager
-def no_overflow(event: str, welds: str) -> Iterator[None]:
-    """Turn an overflow while an event is counted at some welds into an error that names both.
+def _not_assessed(like: NDArray[np.float64]) -> NDArray[np.int8]:
+    return np.full(like.shape, VERDICTS.index("not_assessed"), dtype=np.int8)
 
-    Raises
-    ------
-    NumericalError : stress or damage exceeds double precision
+
+def _counted(
+    stress: ModalStress, load: EventLoad, one_ratio: NDArray[np.float64]
+) -> tuple[BlockCount, NDArray[np.float64]]:
+    """The count of a block, and its damage (n, 2) with raw ends in place of treated ones, NaN where they do not matter.
+
+    The raw ends that matter are counted beside the block.
     """
-    try:
-        with np.errstate(over="raise"):
-            yield
-    except FloatingPointError:
-        raise NumericalError(
-            Problem(
-                "overflow",
-                f"event '{event}', {welds}",
-                "stresses or damage exceed what double precision can hold",
-                "Check the units of forces and modal coordinates, and look for a value that is far too large",
-            )
-        ) from None
-
-
-def _counted(shapes: Shapes, load: EventLoad, one_ratio: NDArray[np.float64]) -> tuple[BlockCount, NDArray[np.float64]]:
-    """Count a block, and beside it the ends that matter as they are without treatment: their damage is that of (n, 2).
-
-    It is NaN at ends that do not matter without treatment, and that of the block where there is none.
-    """
-    n, ends, f = len(shapes), shapes.raw_ends, load.stress_factor
-    rows = ends.rows[ends.matters]
-    stress = BlockStress(f * shapes.membrane, f * shapes.bending, shapes.size, one_ratio)
+    n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
+    rows = ends.rows[matters]
+    block = BlockStress(f * stress.membrane, f * stress.bending, stress.size, one_ratio)
     if rows.size:
-        membrane, bending = f * ends.membrane[ends.matters], f * ends.bending[ends.matters]
-        stress = stress.beside(BlockStress(membrane, bending, shapes.size[rows], one_ratio[rows]))
-    everything = count(stress, load.record, shapes.rule)
+        membrane, bending = f * ends.stress.membrane[matters], f * ends.stress.bending[matters]
+        block = block.beside(BlockStress(membrane, bending, stress.size[rows], one_ratio[rows]))
+    everything = count(block, load.record, stress.rule)
     counted = everything.at(slice(n))
-    raw_end = counted.damage.copy()
-    raw_end[ends.rows] = np.nan
-    raw_end[rows] = everything.damage[n:]
-    return counted, raw_end
+    damage_raw_end = counted.damage.copy()
+    damage_raw_end[ends.rows] = np.nan
+    damage_raw_end[rows] = everything.damage[n:]
+    return counted, damage_raw_end
 
 
-def _variances(shapes: Shapes, load: EventLoad) -> tuple[NDArray[np.float64], ...]:
+def _variances(stress: ModalStress, load: EventLoad) -> tuple[NDArray[np.float64], ...]:
     """Variances of stress and shear and their covariance, (n, 2), and the one bending ratio of the shear, (n, 1)."""
     f = load.stress_factor
-    S_m, S_b = f * shapes.membrane, f * shapes.bending
-    S_s, S_t = f * shapes.in_plane_shear, f * shapes.twist_shear
+    S_m, S_b = f * stress.membrane, f * stress.bending
+    S_s, S_t = f * stress.in_plane_shear, f * stress.twist_shear
     C_m, C_b, C_s, C_t = (S @ load.covariance for S in (S_m, S_b, S_s, S_t))
-    stress, shear = faces(S_m, S_b), faces(S_s, S_t)
-    stress_C, shear_C = faces(C_m, C_b), faces(C_s, C_t)
+    normal, shear = faces(S_m, S_b), faces(S_s, S_t)
+    normal_C, shear_C = faces(C_m, C_b), faces(C_s, C_t)
     std_s, std_t = (np.sqrt(np.maximum(_along_modes(a, b), 0.0)) for a, b in ((C_s, S_s), (C_t, S_t)))
     return (
-        np.maximum(_along_modes(stress_C, stress), 0.0),
+        np.maximum(_along_modes(normal_C, normal), 0.0),
         np.maximum(_along_modes(shear_C, shear), 0.0),
-        _along_modes(stress_C, shear),
+        _along_modes(normal_C, shear),
         np.nan_to_num(quotient(std_t, std_s + std_t))[:, None],
     )
 

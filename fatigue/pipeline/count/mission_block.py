@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.counting.block import BlockCount
 from fatigue.life.curves import DamageLaw
-from fatigue.life.mission import Plan, life_km, load_factor, mission_sum, range_at_2e6, straight_load_factor
+from fatigue.life.mission import Pass, Plan, life_km, load_factor, mission_sum, range_at_2e6, straight_load_factor
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.quotient import quotient
 
@@ -16,9 +17,9 @@ from fatigue.quotient import quotient
 class MissionBlock:
     """Results of the whole mission at a block of stations; every array is (n, 2): top and bottom face.
 
-    ``life_km_raw_end`` is the life without the end treatment, NaN where that was not counted. ``governing`` is the
-    index of the event with the largest share of the damage, -1 where nothing damages; ``verdict`` that of the event
-    with the largest share of the damage among those that have a spectrum.
+    ``life_km_raw_end`` is the life without the end treatment, NaN where it was not counted. ``governing`` is the index
+    of the event with the largest share of the damage, -1 where nothing damages. ``verdict`` is the verdict of the
+    event with the largest share of the damage among the events that have a spectrum.
     """
 
     damage_per_km: NDArray[np.float64]
@@ -42,79 +43,80 @@ class MissionBlock:
     verdict: NDArray[np.int8]
 
 
-def mission_block(parts: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> MissionBlock:
-    """Weight the passes of every event with the mission: damage per km, life, load factor and what goes with them.
+def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> MissionBlock:
+    """Damage per km, life, load factor and what goes with them: the passes of every event weighted with the mission.
 
-    Where bounds stand for counting (``cycles`` is NaN), damage, life and load factor are on the safe side, and nothing
-    is said of what depends on the event that governs.
+    Where bounds stand for counting (the number of cycles is NaN), damage, life and load factor are on the safe side,
+    and nothing is said of what depends on the event that governs.
     """
-    k = float(law.slopes[0])
-    counted = not np.isnan(parts[0].cycles).any()
-    damage = mission_sum(np.stack([p.damage for p in parts]), plan.passes)
-    utilisation = damage * plan.target_km / plan.damage_limit
-
+    counts, estimates = [event.count for event in events], [event.estimate for event in events]
     weights = np.array([p.passes_per_km for p in plan.passes])[:, None, None]
-    share = weights * np.stack([p.damage for p in parts])
-    governing = np.where(counted & (damage > 0.0), share.argmax(axis=0), -1)
-    largest = np.stack([p.max_range for p in parts]).argmax(axis=0)
+    counted = not np.isnan(counts[0].cycles).any()
 
-    in_spectrum = [i for i, p in enumerate(parts) if not np.isnan(p.damage_dirlik).all()]
-    dirlik = _sum_over("damage_dirlik", parts, plan, in_spectrum)
-    tb = _sum_over("damage_tb", parts, plan, in_spectrum)
-    same_ratio = _sum_over("damage_same_ratio", parts, plan, in_spectrum)
+    damages = np.stack([c.damage for c in counts])
+    damage = mission_sum(damages, plan.passes)
+    utilisation = damage * plan.target_km / plan.damage_limit
+    governing = np.where(counted & (damage > 0.0), (weights * damages).argmax(axis=0), -1)
+    largest = np.stack([c.max_range for c in counts]).argmax(axis=0)
+
+    in_spectrum = [i for i, estimate in enumerate(estimates) if not np.isnan(estimate.dirlik).all()]
+    passes = [plan.passes[i] for i in in_spectrum]
+    dirlik = _sum([estimates[i].dirlik for i in in_spectrum], passes, damage)
+    tb = _sum([estimates[i].tb for i in in_spectrum], passes, damage)
+    same_ratio = _sum([counts[i].damage_same_ratio for i in in_spectrum], passes, damage)
+    power_sum = _sum([c.power_sum for c in counts], plan.passes, damage)
     return MissionBlock(
         damage_per_km=damage,
         life_km=life_km(damage, plan.damage_limit),
-        life_km_raw_end=_life(_sum_over("damage_raw_end", parts, plan), plan),
+        life_km_raw_end=_life(_sum([event.damage_raw_end for event in events], plan.passes, damage), plan),
         utilisation=utilisation,
-        load_factor=_load_factor(parts, utilisation, plan, law, counted),
+        load_factor=_load_factor(counts, utilisation, plan, law, counted),
         life_km_dirlik=_life(dirlik, plan),
         life_km_tb=_life(tb, plan),
         life_km_same_ratio=_life(same_ratio, plan),
         dirlik_ratio=quotient(dirlik, same_ratio),
-        max_range=np.stack([p.max_range for p in parts]).max(axis=0),
-        equivalent_range=range_at_2e6(
-            mission_sum(np.stack([p.power_sum for p in parts]), plan.passes), k, plan.target_km
-        ),
-        mean_stress=_of_event("mean", parts, governing),
-        r_largest=_of_event("r_largest", parts, largest),
-        factor_if_mean_stress=quotient(_sum_over("damage_mean_stress", parts, plan), damage),
-        shear_ratio=_of_event("shear_ratio", parts, governing),
-        factor_if_shear=quotient(_sum_over("damage_shear", parts, plan), damage),
+        max_range=np.stack([c.max_range for c in counts]).max(axis=0),
+        equivalent_range=range_at_2e6(power_sum, float(law.slopes[0]), plan.target_km),
+        mean_stress=_of_event([estimate.mean for estimate in estimates], governing),
+        r_largest=_of_event([c.r_largest for c in counts], largest),
+        factor_if_mean_stress=quotient(_sum([c.damage_mean_stress for c in counts], plan.passes, damage), damage),
+        shear_ratio=_of_event([event.shear_ratio for event in events], governing),
+        factor_if_shear=quotient(_sum([event.damage_shear for event in events], plan.passes, damage), damage),
         governing=governing,
-        bending_ratio=_of_event("bending_ratio", parts, governing),
-        verdict=_verdict(parts, weights),
+        bending_ratio=_of_event([estimate.bending_ratio for estimate in estimates], governing),
+        verdict=_verdict(events, weights),
     )
 
 
-def _verdict(parts: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDArray[np.int8]:
-    """Pick the verdict of the event that does most of the damage and was assessed in the frequency domain."""
-    verdicts = np.stack([p.verdict for p in parts])
-    share = np.where(verdicts > 0, weights * np.stack([p.damage_same_ratio for p in parts]), -1.0)
+def _verdict(events: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDArray[np.int8]:
+    """Verdict of the event that does most of the damage, of the events assessed in the frequency domain."""
+    verdicts = np.stack([event.verdict for event in events])
+    same_ratio = np.stack([event.count.damage_same_ratio for event in events])
+    share = np.where(verdicts > 0, weights * same_ratio, -1.0)
     return np.asarray(np.take_along_axis(verdicts, share.argmax(axis=0)[None], axis=0)[0])
 
 
 def _load_factor(
-    parts: Sequence[EventBlock], utilisation: NDArray[np.float64], plan: Plan, law: DamageLaw, counted: bool
+    counts: Sequence[BlockCount], utilisation: NDArray[np.float64], plan: Plan, law: DamageLaw, counted: bool
 ) -> NDArray[np.float64]:
-    """Exact on a straight curve; from the stored spectrum on a curve with a knee, which only counting gives."""
+    """Scale on all stresses that meets the target: exact on a straight curve, from the spectrum on one with a knee.
+
+    Only counting gives a spectrum; without one the factor is NaN.
+    """
     if law.is_straight:
         return straight_load_factor(utilisation, float(law.slopes[0]))
     if not counted:
         return np.full_like(utilisation, np.nan)
-    spectrum = mission_sum(np.stack([p.histogram for p in parts]), plan.passes).reshape(utilisation.size, -1, 2)
+    spectrum = mission_sum(np.stack([c.histogram for c in counts]), plan.passes).reshape(utilisation.size, -1, 2)
     factor = load_factor(spectrum[..., 0], spectrum[..., 1], law, plan.target_km, plan.damage_limit)
     return factor.reshape(utilisation.shape)
 
 
-def _sum_over(
-    name: str, parts: Sequence[EventBlock], plan: Plan, events: Sequence[int] | None = None
+def _sum(
+    per_pass: Sequence[NDArray[np.float64]], passes: Sequence[Pass], like: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Mission sum of a quantity per pass over some events, all by default; NaN over no event."""
-    chosen = range(len(parts)) if events is None else events
-    if not chosen:
-        return np.full_like(parts[0].damage, np.nan)
-    return mission_sum(np.stack([getattr(parts[i], name) for i in chosen]), [plan.passes[i] for i in chosen])
+    """Sum of a quantity of some events over the mission; NaN of the form of ``like`` over no event."""
+    return mission_sum(np.stack(per_pass), passes) if per_pass else np.full_like(like, np.nan)
 
 
 def _life(damage_per_km: NDArray[np.float64], plan: Plan) -> NDArray[np.float64]:
@@ -122,8 +124,7 @@ def _life(damage_per_km: NDArray[np.float64], plan: Plan) -> NDArray[np.float64]
     return np.where(np.isnan(damage_per_km), np.nan, life_km(damage_per_km, plan.damage_limit))
 
 
-def _of_event(name: str, parts: Sequence[EventBlock], event: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Pick a quantity of the given event at every point; NaN for event -1."""
-    stacked = np.stack([getattr(p, name) for p in parts])
-    picked = np.take_along_axis(stacked, np.maximum(event, 0)[None], axis=0)[0]
+def _of_event(per_event: Sequence[NDArray[np.float64]], event: NDArray[np.int64]) -> NDArray[np.float64]:
+    """A quantity of the given event at every point; NaN for event -1."""
+    picked = np.take_along_axis(np.stack(per_event), np.maximum(event, 0)[None], axis=0)[0]
     return np.where(event >= 0, picked, np.nan)

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from fatigue.pipeline.count.group import GroupResult
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.solve.stations import Stations
 
 EQUAL = 1.0 - 1e-12  # what is so close to the worst point is as bad: only the order of sums differs
@@ -21,7 +21,7 @@ class WorstPoint:
 
 
 def worst_points(stations: Stations, result: GroupResult) -> tuple[WorstPoint, ...]:
-    """Find the worst toe point of every weld; the first along the line where several are equal.
+    """The worst toe point of every weld; the first along the line where several are equal.
 
     A point that a bound has settled is never worse than the worst one that was counted.
     """

@@ -12,7 +12,7 @@ from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
 from fatigue.life.records.spool import Samples, Spool, create_spool
 from fatigue.spectrum.moments import MomentMatrices, Spectra
-from fatigue.spectrum.trust import DiagnosisMatrices, diagnosis_matrices
+from fatigue.spectrum.trust import TrustMatrices, trust_matrices
 
 HELD_SINGLE = 256e6  # bytes of one record
 
@@ -30,9 +30,9 @@ class EventLoad:
     duration : duration of one pass [s]
     mean : (m,) time mean of q over the kept samples
     covariance : (m, m) covariance of q over the kept samples
-    moments, diagnosis : moment matrices of q and what the diagnosis needs, None for a record shorter than one segment
+    moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
     is_upsampled : whether mean and covariance are of other samples than those that are counted
-    moment_pairs : those of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
+    moment_pairs : matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
     top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
     """
 
@@ -46,7 +46,7 @@ class EventLoad:
     is_upsampled: bool
     moments: MomentMatrices | None
     moment_pairs: tuple[FormPair, ...]
-    diagnosis: DiagnosisMatrices | None
+    trust: TrustMatrices | None
     top_mode_hz: float | None
 
     @property
@@ -71,15 +71,15 @@ def prepare_event(
     single: bool = False,
     scratch: Path | None = None,
 ) -> EventLoad:
-    """Compute once per event what all stations share, from its kept record.
+    """What all stations share of an event, from its kept record.
 
     ``single``: for the fast kernel; ``scratch``: folder for whatever is as large as the record, None: in memory.
     """
-    diagnosis = None if spectra is None else diagnosis_matrices(history, spectra)
-    if diagnosis is None:
+    trust = None if spectra is None else trust_matrices(history, spectra)
+    if trust is None:
         moments, (mean, covariance) = None, mean_and_covariance(history.q)
     else:
-        moments, mean, covariance = diagnosis.moments, diagnosis.record.mean, diagnosis.record.covariance
+        moments, mean, covariance = trust.moments, trust.record.mean, trust.record.covariance
     counted = upsampled(history, upsample, residue, scratch and scratch / "upsampled")
     return EventLoad(
         counted=counted,
@@ -92,7 +92,7 @@ def prepare_event(
         is_upsampled=counted is not history,
         moments=moments,
         moment_pairs=() if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])),
-        diagnosis=diagnosis,
+        trust=trust,
         top_mode_hz=top_mode_hz,
     )
 
@@ -100,7 +100,7 @@ def prepare_event(
 def fast_record(
     q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
 ) -> SingleRecord:
-    """Prepare modal coordinates for the kernel in single precision.
+    """Modal coordinates prepared for the kernel in single precision.
 
     Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
     goes to the folder ``scratch``. ``known`` are their mean and covariance, None: to be computed.

@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.pipeline.count.group import GroupResult, arrays_of
+from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.results import JOURNAL
-from fatigue.results.folder import STAGING, STATE, complete, refuse_foreign
+from fatigue.results.folder import STATE, refuse_foreign
+from fatigue.results.publish import STAGING, complete
 
 
 def state_key(record: Mapping[str, Any]) -> str:
@@ -28,10 +29,10 @@ def state_key(record: Mapping[str, Any]) -> str:
 
 
 class Checkpoint:
-    """Finished parts of one run, each a group of welds under all events, in a hidden folder of the result folder.
+    """Finished groups of welds of one run, in a hidden folder of the result folder.
 
-    A part is written beside its final name, forced to disk and renamed, so that a part is either whole or not there; a
-    part that a power cut damaged all the same fails its checksum when it is read and is computed again.
+    A group is written beside its final name, forced to disk and renamed, so that it is either whole or not there; one
+    that a power cut damaged all the same fails its checksum when it is read and is computed again.
     """
 
     def __init__(self, result_folder: Path, key: str) -> None:
@@ -54,25 +55,25 @@ class Checkpoint:
         if kind is None or not is_of_use:
             shutil.rmtree(self._root, ignore_errors=True)
 
-    def load(self, part: str) -> GroupResult | None:
-        """Read what an earlier run finished, its checksums tested; None where there is none or it is damaged."""
+    def load(self, group: str) -> GroupResult | None:
+        """What an earlier run finished, its checksums tested; None where there is none or it is damaged."""
         try:
-            with self._path(part).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            with self._path(group).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
                 return GroupResult(**arrays)
         except (OSError, ValueError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
             return None
 
-    def save(self, part: str, result: GroupResult) -> None:
-        """Write a finished part so that it survives a kill or a power cut at any moment."""
-        with replacing(self._path(part)) as unfinished, unfinished.open("wb") as file:
+    def save(self, group: str, result: GroupResult) -> None:
+        """Write a finished group so that it survives a kill or a power cut at any moment."""
+        with replacing(self._path(group)) as unfinished, unfinished.open("wb") as file:
             _write_arrays(file, arrays_of(result))
 
-    def _path(self, part: str) -> Path:
-        return self.folder / f"{part}.npz"
+    def _path(self, group: str) -> Path:
+        return self.folder / f"{group}.npz"
 
 
 def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Write contiguous arrays as `np.savez` does, which copies them first, all at a time."""
+    """Write contiguous arrays as ``np.savez`` does, which copies them first, all at a time."""
     with zipfile.ZipFile(file, "w") as archive:
         for name, array in arrays.items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
@@ -82,7 +83,7 @@ def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
 
 @contextmanager
 def replacing(final: Path) -> Iterator[Path]:
-    """Give a temporary path to write to; on success force it to disk and rename it to ``final`` in one step.
+    """A temporary path to write to; on success it is forced to disk and renamed to ``final`` in one step.
 
     Raises
     ------
@@ -135,7 +136,7 @@ def locked(result_folder: Path) -> Iterator[None]:
 
 @contextmanager
 def claimed(folder: Path, *, force: bool, case_file: Path, inputs: Collection[Path]) -> Iterator[None]:
-    """Hold a result folder for one assessment that may write there, see `folder.refuse_foreign`.
+    """Hold a result folder for one assessment that may write there, see ``folder.refuse_foreign``.
 
     Raises
     ------

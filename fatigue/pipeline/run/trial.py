@@ -12,7 +12,8 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
-from fatigue.pipeline.count.group import GroupResult, assess_group
+from fatigue.pipeline.count.group import assess_group
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import worst_points
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
@@ -34,9 +35,9 @@ TRIAL_SAMPLES = 1.6e7  # of stress, one face, that are counted for the trial: be
 LONGEST_TRIAL, SHORTEST_TRIAL = 16_384, 2048  # samples of the record
 ROUNDS = 3  # of which the best counts
 
-# Processor time [s] of what is not timed, measured by `python -m benchmarks.estimate`
+# Processor time [s] of what is not timed, measured by ``python -m benchmarks.estimate``
 START = 2.0  # imports and the known values
-SETTLED_LATE = 1.5  # bounds of several events settle fewer points than those of one
+SETTLED_LATE = 1.5  # bounds of several events settle fewer points than bounds of one
 CELL, CYCLE = 0.12e-6, 0.5e-6  # written in a table; counted and written
 DETAIL, PAGE = 0.19, 0.6  # a weld shown in detail, the rest of the page
 MOST_DETAILED = 40
@@ -82,11 +83,11 @@ class _Trial:
     plan: Plan
 
     def counted(self, chunk: EventLoad) -> GroupResult:
-        """Count every point."""
+        """The result with every point counted."""
         return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), None)
 
     def screened(self, chunk: EventLoad, scratch: Path) -> GroupResult:
-        """Let bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
+        """The result where bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
         screening = screening_of(SHARE, True, [chunk], scratch, threads=1)
         return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), screening)
 
@@ -98,7 +99,7 @@ class _Trial:
 
 
 def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
-    """Estimate the processor time of ``fatigue assess`` with its default options, what is compiled already left out.
+    """Processor time of ``fatigue assess`` with its default options, as estimated; compiling is left out.
 
     Parameters
     ----------
@@ -148,14 +149,14 @@ def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> in
     if factor != "auto":
         return int(factor)
     load = load_of(body, event, record, 1, single=False)
-    samples_per_peak = trial.counted(load).events[0].samples_per_peak
+    samples_per_peak = trial.counted(load).of_events("samples_per_peak")
     fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))
     return int(min(LARGEST_UPSAMPLE, 2 ** max(0, np.ceil(np.log2(SAMPLES_PER_PEAK / fewest)))))
 
 
 def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:
     """Cycles of the worst points of a group that go into the table."""
-    used_up, cycles = result.mission.utilisation, result.events[0].cycles
+    used_up, cycles = result.mission.utilisation, result.of_events("cycles_per_pass")[0]
     worst = [(p.station, p.face) for p in worst_points(stations, result)]
     return sum(float(np.nan_to_num(cycles[at])) for at in worst if used_up[at] >= (SHARE if single else 0.0))
 
@@ -172,7 +173,7 @@ class _Cost:
 
 
 def _of_length(load: EventLoad, short: EventLoad, count: Callable[[EventLoad], Result]) -> tuple[_Cost, Result]:
-    """Time a group under a chunk of a record and a shorter one; also what the longer gives."""
+    """Time of a group, from a chunk of a record and a shorter one; also the result of the longer one."""
     count(short)  # compiles, or loads what was compiled before
     whole_s, result = _timed(lambda: count(load))
     part_s, _ = _timed(lambda: count(short))

@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from fatigue.pipeline.count.group import GroupResult
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order, fulfil
 from fatigue.pipeline.run.work import Work
@@ -28,7 +28,7 @@ class Group:
 
 
 def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[Group]:
-    """Assess the groups on threads, by default one per processor core, and give them in order.
+    """The groups in order, assessed on threads, by default one per processor core.
 
     What has not begun when the iterator is closed is dropped.
     """
@@ -36,11 +36,11 @@ def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[
     executor = ThreadPoolExecutor(number_of_threads, thread_name_prefix="fatigue")
 
     def assessed(number: int) -> Group:
-        before = state.load(_part(number))
+        before = state.load(_name(number))
         if before is not None:
             return Group(solve_group(work.groups, number), before, reused=True)
         model, result = work.group(number)
-        state.save(_part(number), result)
+        state.save(_name(number), result)
         return Group(model, result, reused=False)
 
     def begin(number: int) -> Callable[[], Group]:
@@ -54,14 +54,14 @@ def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[
 
 
 def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -> Generator[Group]:
-    """Have the workers of an executor assess the groups that no earlier run has finished, and give all in order.
+    """The groups in order; the workers of an executor assess those that no earlier run has finished.
 
-    ``order`` is that of any group of the job. A worker that dies costs the executor a second try and nothing else.
+    ``order`` is the order of any group of the job. A worker that dies costs the executor a second try and nothing else.
     """
     under_way: set[Future[dict[str, NDArray[Any]]]] = set()
 
     def begin(number: int) -> Callable[[], Group]:
-        before = state.load(_part(number))
+        before = state.load(_name(number))
         if before is not None:
             return lambda: Group(solve_group(work.groups, number), before, reused=True)
         future = executor.submit(fulfil, replace(order, group=number))
@@ -70,7 +70,7 @@ def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -
         def fetch() -> Group:
             result = GroupResult(**future.result())
             under_way.discard(future)
-            state.save(_part(number), result)
+            state.save(_name(number), result)
             return Group(solve_group(work.groups, number), result, reused=False)
 
         return fetch
@@ -83,7 +83,7 @@ def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -
 
 
 def _in_order(begin: Callable[[int], Callable[[], Group]], groups: int, ahead: int) -> Iterator[Group]:
-    """Begin some groups ahead and finish them one after the other."""
+    """The groups one after the other, some of them begun ahead."""
     waiting: deque[Callable[[], Group]] = deque()
     for number in range(groups):
         waiting.append(begin(number))
@@ -93,6 +93,6 @@ def _in_order(begin: Callable[[int], Callable[[], Group]], groups: int, ahead: i
         yield waiting.popleft()()
 
 
-def _part(number: int) -> str:
+def _name(number: int) -> str:
     """Name under which the result of a group is kept until the run is complete."""
     return f"group-{number:05d}"

@@ -6,12 +6,12 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.pipeline.solve.modal_stress import RawEnds, Shapes
+from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.readers.neutral.body import Weld
 from fatigue.weld.line import LineStack, line_of_node
 from fatigue.weld.line_geometry import arc_length
-from fatigue.weld.structural_stress import LineStress, StructuralStress
+from fatigue.weld.structural_stress import LineStress, RawEnds, StructuralStress
 
 TOES = {"top": (True, False), "bottom": (False, True), "both": (True, True)}  # on the top and on the bottom face
 
@@ -28,8 +28,8 @@ class Stations:
     arc_length [mm], xyz (n, 3) [mm], thickness [mm] : where it is
     toe : (n, 2) faces that carry a weld toe
     at_end, at_corner : flags of the line solution
-    treated : stress shapes, components (n, m) [MPa per unit modal coordinate]
-    raw_rows, raw : (e,) stations whose stress the end treatment has changed, and the shapes without it, (e, m)
+    treated : structural stress with treated ends, components (n, m) [MPa per unit modal coordinate]
+    raw_ends : stations whose stress the end treatment has changed, and their stress before it
     """
 
     welds: tuple[Weld, ...]
@@ -44,8 +44,7 @@ class Stations:
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
     treated: StructuralStress
-    raw_rows: NDArray[np.intp]
-    raw: StructuralStress
+    raw_ends: RawEnds
 
     def __len__(self) -> int:
         """Count the stations."""
@@ -63,12 +62,12 @@ class Stations:
 
 
 def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> Stations:
-    """Lay out the nodes of solved line parts, which follow each other as their welds do."""
+    """The nodes of solved line parts as one table; the parts follow each other as their welds do."""
     place = {weld.name: i for i, weld in enumerate(welds)}
     weld = np.array([place[name] for name in lines.weld])[line_of_node(lines)]
-    names = [part.name for part in fields(StructuralStress)]
-    parts = [(getattr(solved.before, name), getattr(solved.treated, name)[solved.mended]) for name in names]
-    changed = np.flatnonzero(np.logical_or.reduce([(before != after).any(axis=1) for before, after in parts]))
+    raw_ends, names = solved.raw_ends, [component.name for component in fields(StructuralStress)]
+    of_ends = [(getattr(raw_ends.stress, name), getattr(solved.treated, name)[raw_ends.rows]) for name in names]
+    changed = np.logical_or.reduce([(raw != treated).any(axis=1) for raw, treated in of_ends])
     return Stations(
         welds=tuple(welds),
         weld=weld,
@@ -82,23 +81,22 @@ def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> 
         at_end=solved.at_end,
         at_corner=solved.at_corner,
         treated=solved.treated,
-        raw_rows=solved.mended[changed],
-        raw=StructuralStress(*(before[changed] for before, _ in parts)),
+        raw_ends=RawEnds(raw_ends.rows[changed], StructuralStress(*(raw[changed] for raw, _ in of_ends))),
     )
 
 
 def joined(parts: Sequence[Stations]) -> Stations:
-    """Lay stations of several stacks of lines, parts of the same welds, one after the other."""
+    """Stations of several stacks of lines, parts of the same welds, one after the other."""
     if len(parts) == 1:
         return parts[0]
-    begin = np.cumsum([0, *(len(part) for part in parts)])
     arrays = {f.name: [getattr(part, f.name) for part in parts] for f in fields(Stations)}
-    rows = [part.raw_rows + first for part, first in zip(parts, begin[:-1], strict=True)]
-    treated, raw = _joined(arrays.pop("treated")), _joined(arrays.pop("raw"))
-    arrays["raw_rows"] = rows
+    treated, ends = _joined(arrays.pop("treated")), arrays.pop("raw_ends")
+    begin = np.cumsum([0, *(len(part) for part in parts)])
+    rows = np.concatenate([one.rows + first for one, first in zip(ends, begin[:-1], strict=True)])
     del arrays["welds"]
     together = {name: np.concatenate(some) for name, some in arrays.items()}
-    return Stations(welds=parts[0].welds, **together, treated=treated, raw=raw)
+    raw_ends = RawEnds(rows, _joined([one.stress for one in ends]))
+    return Stations(welds=parts[0].welds, **together, treated=treated, raw_ends=raw_ends)
 
 
 def _joined(parts: Sequence[StructuralStress]) -> StructuralStress:
@@ -106,22 +104,18 @@ def _joined(parts: Sequence[StructuralStress]) -> StructuralStress:
     return StructuralStress(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
-def shapes_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) -> Shapes:
-    """Stress shapes of some stations, ascending, with the rule of their curve and the size factor of their plates."""
+def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) -> ModalStress:
+    """Modal stress of some stations, ascending, with the rule of their curve and the size factor of their plates."""
     stress = stations.treated
-    mine, ends = np.isin(stations.raw_rows, rows), np.isin(rows, stations.raw_rows)
-    part = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
-    return Shapes(
-        membrane=stress.membrane[part],
-        bending=stress.bending[part],
-        in_plane_shear=stress.in_plane_shear[part],
-        twist_shear=stress.twist_shear[part],
-        size=rated.size(stations.thickness[part]),
+    some = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
+    raw_ends = stations.raw_ends.at(rows)
+    return ModalStress(
+        membrane=stress.membrane[some],
+        bending=stress.bending[some],
+        in_plane_shear=stress.in_plane_shear[some],
+        twist_shear=stress.twist_shear[some],
+        size=rated.size(stations.thickness[some]),
         rule=rated.rule,
-        raw_ends=RawEnds(
-            rows=np.flatnonzero(ends),
-            membrane=stations.raw.membrane[mine],
-            bending=stations.raw.bending[mine],
-            matters=np.ones(np.count_nonzero(ends), dtype=np.bool_),
-        ),
+        raw_ends=raw_ends,
+        raw_end_matters=np.ones(len(raw_ends.rows), dtype=np.bool_),
     )

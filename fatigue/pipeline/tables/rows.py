@@ -1,15 +1,14 @@
-"""Rows of the result tables for some stations, those of a group of welds."""
+"""Rows of the result tables for the stations of a group of welds."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.count.event_block import EventBlock
-from fatigue.pipeline.count.mission_block import MissionBlock
-from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.block import TIERS
+from fatigue.pipeline.count.result import OF_EVENT, GroupResult
 from fatigue.pipeline.solve.stations import Stations
 from fatigue.results import coded
 from fatigue.spectrum.trust import VERDICTS
@@ -29,8 +28,9 @@ def point_columns(stations: Stations, repeat: int = 1, some: slice = slice(None)
     }
 
 
-def node_rows(stations: Stations, block: MissionBlock, tier: NDArray[np.integer], plan: Plan) -> dict[str, Any]:
-    """Rows of ``nodes.parquet``; ``tier`` (n,) is an index into `TIERS`."""
+def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, Any]:
+    """Rows of ``nodes.parquet``: the whole mission at every point."""
+    block = result.mission
     return {
         **point_columns(stations),
         "toe": stations.toe.ravel(),
@@ -62,48 +62,29 @@ def node_rows(stations: Stations, block: MissionBlock, tier: NDArray[np.integer]
         "life_km_raw_end": block.life_km_raw_end.ravel(),
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
-        "screened": coded(np.repeat(tier, 2), TIERS),
+        "screened": coded(np.repeat(result.tier, 2), TIERS),
     }
 
 
-def damage_rows(stations: Stations, parts: Sequence[EventBlock], plan: Plan, some: slice) -> dict[str, Any]:
+def damage_rows(stations: Stations, result: GroupResult, plan: Plan, some: slice) -> dict[str, Any]:
     """Rows of ``damage.parquet`` of some stations: every event of every point, unweighted."""
+    events = len(plan.passes)
     length = np.array([np.nan if p.length is None else p.length for p in plan.passes])
-
-    def per_pass(name: str) -> NDArray[Any]:
-        return np.stack([getattr(p, name)[some] for p in parts], axis=-1)
-
-    damage, same_ratio = per_pass("damage"), per_pass("damage_same_ratio")
-    dirlik, tb, cycles = per_pass("damage_dirlik"), per_pass("damage_tb"), per_pass("cycles")
+    columns = {name: np.stack([*result.of_events(name)[:, some]], axis=-1) for name in OF_EVENT}
+    per_km = {name.replace("_per_pass", "_per_km"): columns[name] / length for name in columns if "_per_pass" in name}
+    verdict = np.stack([*result.verdicts[:, some]], axis=-1)
     return {
-        **point_columns(stations, repeat=len(parts), some=some),
-        "event": coded(np.tile(np.arange(len(parts)), damage.size // len(parts)), [p.event for p in plan.passes]),
-        "damage_per_km": (damage / length).ravel(),
-        "damage_per_pass": damage.ravel(),
-        "damage_dirlik_per_km": (dirlik / length).ravel(),
-        "damage_tb_per_km": (tb / length).ravel(),
-        "damage_same_ratio_per_km": (same_ratio / length).ravel(),
-        "damage_dirlik_per_pass": dirlik.ravel(),
-        "damage_tb_per_pass": tb.ravel(),
-        "damage_same_ratio_per_pass": same_ratio.ravel(),
-        "cycles_per_km": (cycles / length).ravel(),
-        "cycles_per_pass": cycles.ravel(),
-        "max_range_MPa": per_pass("max_range").ravel(),
-        "max_equivalent_range_dS": per_pass("max_equivalent_range").ravel(),
-        "bending_ratio": per_pass("bending_ratio").ravel(),
-        "mean_stress_MPa": per_pass("mean").ravel(),
-        "kurtosis": per_pass("kurtosis").ravel(),
-        "irregularity": per_pass("irregularity").ravel(),
-        "peaks_per_s": per_pass("peaks_per_s").ravel(),
-        "samples_per_peak": per_pass("samples_per_peak").ravel(),
-        "verdict": coded(per_pass("verdict").ravel(), VERDICTS),
+        **point_columns(stations, repeat=events, some=some),
+        "event": coded(np.tile(np.arange(events), verdict.size // events), [p.event for p in plan.passes]),
+        **{name: values.ravel() for name, values in (columns | per_km).items()},
+        "verdict": coded(verdict.ravel(), VERDICTS),
     }
 
 
 def stress_rows(stations: Stations, modes: NDArray[np.int64], some: slice) -> Mapping[str, Any]:
     """Rows of ``structural_stress.parquet`` of some stations: the five components of every mode."""
-    changed = np.isin(np.arange(len(stations))[some], stations.raw_rows)
-    of_changed = np.isin(stations.raw_rows, np.arange(len(stations))[some])
+    rows, ends = np.arange(len(stations))[some], stations.raw_ends
+    changed, of_changed = np.isin(rows, ends.rows), np.isin(ends.rows, rows)
     columns: dict[str, Any] = {
         "weld": coded(np.repeat(stations.weld[some], len(modes)), stations.names),
         "part": np.repeat(stations.part[some], len(modes)),
@@ -114,6 +95,6 @@ def stress_rows(stations: Stations, modes: NDArray[np.int64], some: slice) -> Ma
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
         treated = getattr(stations.treated, component)[some]
         raw = treated.copy()
-        raw[changed] = getattr(stations.raw, component)[of_changed]
+        raw[changed] = getattr(ends.stress, component)[of_changed]
         columns[f"{component}_MPa"], columns[f"{component}_raw_MPa"] = treated.ravel(), raw.ravel()
     return columns

@@ -9,14 +9,16 @@ import numpy as np
 import pyarrow as pa
 
 from fatigue.errors import CaseError, DataError, Problem
+from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
 from fatigue.readers.convert.audit.shell_rows import elastic_modes, without_drilling
 from fatigue.readers.convert.case_text import case_text
-from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, sha256, write_folder
+from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, write_folder
 from fatigue.readers.convert.inputs import audited, read_run, unknown_checks
 from fatigue.readers.convert.modal_basis import SimulationModes, common_modes, mode_masses, mode_scale
+from fatigue.readers.convert.option_fields import words_of
 from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.convert.record import arguments_of, lines_of_welds
+from fatigue.readers.convert.record import lines_of_welds
 from fatigue.readers.convert.tables import elements_table, forces_table, history_table, nodes_table, weld_tables
 from fatigue.readers.convert.weld_forces import coordinate_units, neutral_forces, to_mid_surface, with_forces_only
 from fatigue.readers.convert.weld_lines import FoundWelds, find_welds, no_welds
@@ -24,7 +26,8 @@ from fatigue.readers.foreign.fe.model import in_mm
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.neutral.body import LOWEST_HZ
 from fatigue.readers.neutral.register.conversion import COMMAND, LINES, command_line
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons, register_text
+from fatigue.readers.neutral.register.register_file import register_text
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
 
@@ -43,6 +46,11 @@ class Conversion:
     force_rows: int
     nodes: int
     files: tuple[str, ...]
+
+    @property
+    def assessed(self) -> int:
+        """Number of weld lines that are assessed."""
+        return sum(row.status == "assess" for row in self.welds)
 
 
 def convert(options: ConvertOptions) -> Conversion:
@@ -116,7 +124,7 @@ def convert(options: ConvertOptions) -> Conversion:
         "audit": [_plain(asdict(row)) for row in judged.rows],
         "remarks": [str(p) for p in doubts],
         LINES: lines_of_welds(found.rows),
-        COMMAND: arguments_of(options),
+        COMMAND: words_of(options),
     }
     write_folder(options.out, files, record, CASE, kept)
     return Conversion(

@@ -1,6 +1,5 @@
 """Write a folder of neutral files whole or not at all, and never over files of somebody else."""
 
-import hashlib
 import json
 import shutil
 import tempfile
@@ -13,6 +12,7 @@ import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.hashes import sha256
 
 RECORD = "convert.json"
 """Lists the files of a conversion with their hashes; what it lists unchanged may be written again."""
@@ -22,12 +22,6 @@ TABLES = (
     *("welds.csv", "weld_nodes.csv", "weld_elements.csv"),
 )
 """What every conversion writes besides histories, register, case and record."""
-
-
-def sha256(path: Path) -> str:
-    """Hash of a file's content."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def read_record(path: Path) -> dict[str, Any]:

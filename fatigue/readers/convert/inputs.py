@@ -26,8 +26,8 @@ from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.convert.unit_loads import with_unit_loads
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.foreign.formats import read_coordinates, read_forces, read_model
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform, with_own_frequencies
+from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
 from fatigue.readers.units.systems import unit_system
 from fatigue.stages import stage
 

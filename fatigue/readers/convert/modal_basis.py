@@ -1,6 +1,5 @@
 """The modes of the forces and those of the simulation: one modal basis, or a refusal that names the difference."""
 
-import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.mode_frequencies import StatedFrequencies
@@ -22,24 +21,6 @@ Floats = NDArray[np.float64]
 SimulationModes: TypeAlias = dict[int, tuple[float, float]]  # frequency [Hz] and modal mass by mode
 
 _NORMALISED: dict[Normalisation, str] = {"mass": "unit generalised mass", "length": "unity"}
-
-
-def mode_list(text: str) -> tuple[int, ...]:
-    """Read a list of modes such as ``1-6,31-52``.
-
-    Raises
-    ------
-    CaseError : anything else
-    """
-    modes: list[int] = []
-    for part in text.split(","):
-        found = re.fullmatch(r"\s*(\d{1,18})(?:-(\d{1,18}))?\s*", part, re.ASCII)
-        first, last = (int(found[1]), int(found[2] or found[1])) if found else (0, -1)
-        if not 0 <= last - first <= 100_000:
-            shown = part if len(part) <= 40 else part[:37] + "..."
-            raise CaseError(Problem("bad_modes", "list of modes", f"{shown!r} is no mode or range", "Write 1-6,31-52"))
-        modes += range(first, last + 1)
-    return tuple(modes)
 
 
 def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:

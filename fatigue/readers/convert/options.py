@@ -1,78 +1,143 @@
-"""What a conversion of foreign files is told: the files, and how they are to be understood."""
+"""What a conversion of foreign files is told: every option of ``fatigue convert``, once, in the order of its help."""
 
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
+from typing import Annotated, Literal, get_args
 
-from fatigue.errors import given_path
-from fatigue.readers.convert.displacement.record import Displacement
-from fatigue.readers.convert.weld_lines import WeldSources
-from fatigue.readers.foreign.histories.foreign_history import Match
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.errors import CaseError, Problem
+from fatigue.readers.convert.option_fields import Option, take_paths
+from fatigue.readers.foreign.formats import COORDINATES, FORCES, MESH, formats_in_help
 from fatigue.readers.units.systems import Normalisation
+
+Direction = Literal["x", "y", "z"]
+
+
+@dataclass(frozen=True, slots=True)
+class WeldSources:
+    """Where weld lines come from; ``detect`` None: the mesh is searched only if nothing is marked."""
+
+    register: Annotated[
+        Path | None,
+        Option("--register", "Edited weld register; its status, names and thicknesses win.", is_recorded=False),
+    ] = None
+    node_lists: Annotated[Path | None, Option("--node-lists", "CSV weld,order,node with weld lines of your own.")] = (
+        None
+    )
+    sets: Annotated[tuple[int, ...], Option("--set", "Id of a node set whose mesh edges are welds; repeatable.")] = ()
+    markers: Annotated[
+        tuple[str, ...], Option("--marker", "Card that lies on welds: PLOTEL, CBAR, CBEAM; repeatable.")
+    ] = ()
+    detect: Annotated[
+        bool | None,
+        Option("--detect/--no-detect", "Search the mesh for weld lines; default: if nothing is marked."),
+    ] = None
+    candidates: Annotated[bool, Option("--candidates", "Assess flat changes of property and folds as well.")] = False
+
+    def __post_init__(self) -> None:
+        """Take text for a path."""
+        take_paths(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """File of an elastic displacement over time, the FE node that moves, and the direction in the basic frame."""
+
+    file: Path
+    node: int
+    direction: Direction
+
+    def __post_init__(self) -> None:
+        """Take text for a path.
+
+        Raises
+        ------
+        CaseError : another direction
+        """
+        object.__setattr__(self, "file", Path(self.file))
+        if self.direction not in get_args(Direction):
+            raise CaseError(Problem("direction", "displacement", f"{self.direction!r} is none", "Give x, y or z"))
 
 
 @dataclass(frozen=True, slots=True)
 class ConvertOptions:
-    """What to convert, and how the foreign files are to be understood.
+    """What to convert, and how the foreign files are to be understood: every field is what the help of its option says.
 
-    Attributes
-    ----------
-    forces, mesh : grid point forces and geometry; an MSC .h5 holds both
-    out : folder to write
-    unit_loads : grid point forces of static subcases in files of their own; each is an interface mode
-    coordinates : modal coordinates, one file for each event
-    convention : sign of the forces; None: as the audit proves it
-    subcase : which one, where the force file has several
-    force_units, coordinate_units : unit systems of the FE files and of the coordinates
-    normalisation : whether modes have unit generalised mass or unit displacement (for the conversion of units)
-    interface_modes : modes that are residual, constraint or attachment modes; static subcases among them are read, too
-    ignore_modes : modes to leave out on either side
-    match : how columns find their modes
-    columns : table of the columns ``column, mode``
-    time_column, resample_s : name of the time column; step to interpolate onto
-    simulation_modes : table ``mode, frequency_hz, modal_mass`` of the simulation's modes, to compare and scale
-    welds : where weld lines come from
-    displacements : elastic displacements of the simulation, to be compared with shapes times coordinates
-    accept : audit checks whose red light is accepted
-    curve, title, speed_km_h, target_km : for the first case.toml
-    force : overwrite foreign and changed files
-    keep_case : leave a case.toml in the folder as it is
+    Static subcases named among ``interface_modes`` are read besides the modes; ``ignore_modes`` may be modes of either
+    side; ``convention`` None is the one that the audit proves.
     """
 
-    forces: Path
-    mesh: Path
-    out: Path
-    unit_loads: tuple[Path, ...] = ()
-    coordinates: tuple[Path, ...] = ()
-    convention: Convention | None = None
-    subcase: int | None = None
-    force_units: str = "mm-t-s"
-    coordinate_units: str = "mm-t-s"
-    normalisation: Normalisation = "mass"
-    interface_modes: tuple[int, ...] = ()
-    ignore_modes: tuple[int, ...] = ()
-    match: Match = "id"
-    columns: Path | None = None
-    time_column: str | None = None
-    resample_s: float | None = None
-    simulation_modes: Path | None = None
+    forces: Annotated[Path, Option("--forces", f"Grid point forces: {formats_in_help(FORCES, ', or ')}.")]
+    mesh: Annotated[Path, Option("--mesh", f"Geometry: {formats_in_help(MESH, ', or ')}.")]
+    unit_loads: Annotated[
+        tuple[Path, ...],
+        Option("--unit-loads", "Forces of static unit loads in a file of their own: interface modes; repeatable."),
+    ] = field(default=(), kw_only=True)
+    coordinates: Annotated[
+        tuple[Path, ...],
+        Option("--coordinates", f"Modal coordinates: {formats_in_help(COORDINATES)}; one file per event."),
+    ] = field(default=(), kw_only=True)
+    out: Annotated[
+        Path, Option("--output", "Folder to write.", short="-o", metavar="DIR", is_folder=True, is_recorded=False)
+    ]
+    _: KW_ONLY
+    convention: Annotated[
+        Literal["on_element", "on_node"] | None,
+        Option("--convention", "Sign of the forces; default: as the audit proves it."),
+    ] = None
+    subcase: Annotated[int | None, Option("--subcase", "Subcase, where the force file has several.")] = None
+    force_units: Annotated[str, Option("--units", "Unit system of the FE files: mm-t-s, m-kg-s ...")] = "mm-t-s"
+    coordinate_units: Annotated[str, Option("--coordinate-units", "Unit system of the coordinates.")] = "mm-t-s"
+    normalisation: Annotated[
+        Normalisation, Option("--normalisation", "Modes of unit generalised mass or unit displacement.")
+    ] = "mass"
+    match: Annotated[
+        Literal["id", "frequency", "order"], Option("--match", "How columns of coordinates find their modes.")
+    ] = "id"
+    columns: Annotated[Path | None, Option("--columns", "CSV column,mode: which column belongs to which mode.")] = None
+    time_column: Annotated[str | None, Option("--time-column", "Name of the time column, or its position from 1.")] = (
+        None
+    )
+    resample_s: Annotated[
+        float | None,
+        Option("--resample", "Interpolate records with uneven steps onto this step [s].", metavar="STEP_S"),
+    ] = None
+    simulation_modes: Annotated[
+        Path | None, Option("--simulation-modes", "CSV mode,frequency_hz,modal_mass of the simulation's modes.")
+    ] = None
+    interface_modes: Annotated[
+        tuple[int, ...],
+        Option(
+            "--interface-modes",
+            "Residual, constraint or attachment modes, and static subcases that are such, as 31-52.",
+            is_list=True,
+        ),
+    ] = ()
+    ignore_modes: Annotated[
+        tuple[int, ...], Option("--ignore-modes", "Modes to leave out on either side, as 1-6.", is_list=True)
+    ] = ()
+    displacements: Annotated[
+        tuple[Displacement, ...],
+        Option(
+            "--displacement",
+            "Elastic displacement of an FE node in the simulation (CSV time_s,displacement_mm): compared with the sum "
+            "of mode shapes times coordinates; repeatable.",
+            metavar="FILE NODE x|y|z",
+        ),
+    ] = ()
+    accept: Annotated[
+        tuple[str, ...],
+        Option("--accept", "Go on although this check of the audit is red; repeatable.", metavar="CHECK"),
+    ] = ()
+    curve: Annotated[str, Option("--curve", "S-N curve of the first case.toml.")] = "master-aluminium"
+    title: Annotated[str, Option("--title", "Title of the first case.toml.")] = ""
+    speed_km_h: Annotated[float, Option("--speed", "Speed of the first case.toml [km/h].")] = 100.0
+    target_km: Annotated[float, Option("--target-km", "Target of the first case.toml [km].")] = 1.0e6
+    force: Annotated[bool, Option("--force", "Overwrite foreign and changed files in DIR.", is_recorded=False)] = False
+    keep_case: Annotated[
+        bool, Option("--keep-case", "Keep the case.toml in DIR as it is, edited or not.", is_recorded=False)
+    ] = False
     welds: WeldSources = field(default_factory=WeldSources)
-    displacements: tuple[Displacement, ...] = ()
-    accept: tuple[str, ...] = ()
-    curve: str = "master-aluminium"
-    title: str = ""
-    speed_km_h: float = 100.0
-    target_km: float = 1.0e6
-    force: bool = False
-    keep_case: bool = False
 
     def __post_init__(self) -> None:
         """Take text for a path, and one file for a tuple of one."""
-        for name in ("forces", "mesh", "out", "columns", "simulation_modes"):
-            given = getattr(self, name)
-            if given is not None or name in ("forces", "mesh", "out"):
-                object.__setattr__(self, name, given_path(given, name))
-        for name in ("coordinates", "unit_loads"):
-            given = getattr(self, name)
-            files = given if isinstance(given, tuple | list) else (given,)
-            object.__setattr__(self, name, tuple(given_path(file, name) for file in files))
+        take_paths(self)

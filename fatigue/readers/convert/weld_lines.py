@@ -9,49 +9,16 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.readers.convert.joined_cuts import joined_cuts
+from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
-from fatigue.readers.foreign.formats import read_model
-from fatigue.readers.neutral.register.weld_register import (
-    RegisterRow,
-    kind_of,
-    merged,
-    open_register,
-    proposed,
-    register_text,
-)
+from fatigue.readers.foreign.read import read_model
+from fatigue.readers.neutral.register.register_file import open_register, register_text
+from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of, merged, proposed
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace
-from fatigue.weld.detection import WELDS, Key, Topology, classify, stacked_elements, topology
+from fatigue.weld.detection import CANDIDATES, WELDS, Key, Topology, classify, stacked_elements, topology
 from fatigue.weld.line_check import check_line
-
-
-@dataclass(frozen=True, slots=True)
-class WeldSources:
-    """Where weld lines come from.
-
-    Attributes
-    ----------
-    node_lists : table of the columns ``weld, order, node``
-    sets : ids of node sets whose mesh edges are welds
-    markers : names of one-dimensional cards that lie on welds: PLOTEL, CBAR, CBEAM
-    detect : search the mesh; None: only if nothing is marked
-    candidates : assess flat changes of property and folds as well
-    register : an edited register that wins
-    """
-
-    node_lists: Path | None = None
-    sets: tuple[int, ...] = ()
-    markers: tuple[str, ...] = ()
-    detect: bool | None = None
-    candidates: bool = False
-    register: Path | None = None
-
-    def __post_init__(self) -> None:
-        """Take text for a path."""
-        for name in ("node_lists", "register"):
-            if (given := getattr(self, name)) is not None:
-                object.__setattr__(self, name, given_path(given, name))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,7 +66,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     doubts = _element_doubts(model)
     rows, failed = [], {}
     for cut in cuts:
-        is_weld = cut.kind not in ("flat", "fold") or sources.candidates
+        is_weld = cut.kind not in CANDIDATES or sources.candidates
         rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
         failed[cut.name] = _doubt(cut, doubts)
     edited = open_register(sources.register, strict=False) if sources.register else None

@@ -1,133 +1,192 @@
-"""Which reader a foreign file needs, recognised by its first bytes and not by its name."""
+"""The foreign formats that are read, one entry each: recognition, reading, refusals and help are made of them.
 
-from collections.abc import Collection
-from pathlib import Path
-from typing import Literal
+A new format is one entry at the end of ``FORMATS``; its line in ``files.known_formats``, which refuses it, goes.
+``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",), extra=Extra("nptdms", "NI TDMS
+input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` would be a binary one; a text, as
+an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
+"""
 
-from fatigue.errors import DataError, Problem, refuse
-from fatigue.known_formats import known_format, own_format, unknown_binary
-from fatigue.naming import missing_foreign_file
-from fatigue.readers.foreign.fe.model import FeModel
-from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
-from fatigue.readers.foreign.histories.mcf import is_mcf, read_mcf
-from fatigue.readers.foreign.histories.text import read_parquet_history, read_text_history
-from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
-from fatigue.readers.foreign.nastran.results.h5 import read_h5, read_h5_model
-from fatigue.readers.foreign.nastran.results.op2 import read_op2
-from fatigue.readers.foreign.nastran.results.punch import read_punch
-from fatigue.readers.text.encoding import marked_encoding
-
-Format = Literal["op2", "h5", "parquet", "punch", "mcf", "bdf", "text"]
-
-_IS: dict[Format, tuple[str, str]] = {  # what each is called, and the option it belongs to
-    "op2": ("a NASTRAN OP2 file", "--forces"),
-    "h5": ("an HDF5 file", "--forces or --mesh"),
-    "parquet": ("a Parquet table", "--coordinates, or, if it is a table of a case, to case.toml"),
-    "punch": ("a NASTRAN punch file", "--forces"),
-    "mcf": ("an ANSYS file of modal coordinates", "--coordinates"),
-    "bdf": ("a NASTRAN deck", "--mesh"),
-    "text": ("a text table", "--coordinates if it holds them"),
-}
-
-_HEAD = 200_000
-_READABLE = "Give .op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table"
-_BINARY: dict[Format, tuple[bytes, ...]] = {
-    "h5": (b"\x89HDF\r\n\x1a\n",),
-    "parquet": (b"PAR1",),
-    "op2": (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
-}
-_PUNCH_STARTS = ("$TITLE", "$SUBTITLE", "$LABEL", "$SUBCASE ID", "$GRID POINT")
-_BULK_STARTS = (
-    *("GRID", "GRDSET", "BEGIN BULK", "BEGIN,BULK", "CEND", "CQUAD", "CTRIA", "CORD1", "CORD2", "PSHELL", "SOL "),
-    *(f"INCLUDE{sign}" for sign in " '\"=,"),
-)
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
 
 
-def recognise(path: Path) -> Format:
-    """Tell the format of a file by its content.
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What files may hold: its name in messages, the option it is given to, and the code of a file without it."""
 
-    Raises
-    ------
-    DataError : missing, unreadable or empty file, an unknown binary format
+    name: str
+    option: str
+    code: str
+
+
+FORCES = Content("grid point forces", "--forces", "no_forces")
+MESH = Content("mesh", "--mesh", "no_mesh")
+COORDINATES = Content("modal coordinates", "--coordinates", "no_coordinates")
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """The function that reads one content of a format, imported when it is first needed.
+
+    Attributes
+    ----------
+    function : where it is, below ``fatigue.readers.foreign``
+    called : the format in messages, as one that may be given instead
+    in_help : the format in the help of the option; empty where it is not named there
     """
-    try:
-        with path.open("rb") as file:
-            head = file.read(_HEAD)
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-        raise DataError(missing_foreign_file(path)) from None
-    except OSError as error:
-        raise DataError(
-            Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
-        ) from error
-    if not head:
-        raise DataError(Problem("empty", str(path), "the file is empty", "Give the file that the solver wrote"))
-    for form, starts in _BINARY.items():
-        if head.startswith(starts):
-            return form
-    if (known := known_format(path)) is not None:
-        raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))
-    refuse(DataError, filter(None, [unknown_binary(path, str(path), _READABLE)]))
-    return _text_format(head.decode(marked_encoding(head), errors="replace"))
+
+    function: str
+    called: str
+    in_help: str = ""
+
+    def load(self) -> Callable[..., Any]:
+        """Import the function."""
+        return _imported(self.function)
 
 
-def _text_format(text: str) -> Format:
-    """Tell the format of a text file by its first lines."""
-    lines = text.splitlines()
-    if is_mcf(text):
-        return "mcf"
-    if any(line.startswith(_PUNCH_STARTS) for line in lines[:50]):
-        return "punch"
-    if any(line.lstrip().upper().startswith(_BULK_STARTS) for line in lines):
-        return "bdf"
-    return "text"
+@dataclass(frozen=True, slots=True)
+class Extra:
+    """A package that only one format needs, and what needs it."""
+
+    package: str
+    needed_for: str
 
 
-def read_forces(path: Path, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
-    """Read grid point forces from any format that holds them, with static subcases named as interface modes."""
-    form = recognise(path)
-    if form == "op2":
-        return read_op2(path, subcase, interface)
-    if form == "h5":
-        return read_h5(path, subcase, interface)
-    if form == "punch":
-        return read_punch(path, subcase, interface)
-    raise DataError(
-        _swapped("no_forces", path, form, "grid point forces", "--forces an .op2, an MSC .h5 or a punch file")
-    )
+@dataclass(frozen=True, slots=True)
+class ForeignFormat:
+    """One foreign format.
+
+    Attributes
+    ----------
+    key : its short name in messages
+    name : what a file of the format is called
+    ending : its name in the list of all formats
+    place : its place in that list, lowest first
+    reads : readers by what they read
+    starts : first bytes of a binary format
+    looks_like : function that tells the format of a text by its beginning, below ``fatigue.readers.foreign``
+    extra : package that has to be installed
+    belongs : to what a file is given besides the options of its contents, or when
+    """
+
+    key: str
+    name: str
+    ending: str
+    place: int
+    reads: Mapping[Content, Reader]
+    starts: tuple[bytes, ...] = ()
+    looks_like: str = ""
+    extra: Extra | None = None
+    belongs: str = ""
+
+    @property
+    def is_plain_text(self) -> bool:
+        """Whether nothing tells the format but that it is a text, and none of the others."""
+        return not self.starts and not self.looks_like
+
+    @property
+    def home(self) -> str:
+        """Where a file of the format belongs."""
+        return " or ".join(content.option for content in self.reads) + self.belongs
+
+    def fits_bytes(self, head: bytes) -> bool:
+        """Whether a binary file begins like this format."""
+        return bool(self.starts) and head.startswith(self.starts)
+
+    def fits_text(self, head: str) -> bool:
+        """Whether a text begins like this format."""
+        return self.is_plain_text or (self.looks_like != "" and bool(_imported(self.looks_like)(head)))
 
 
-def read_model(path: Path) -> FeModel:
-    """Read geometry from any format that holds it."""
-    form = recognise(path)
-    if form == "bdf":
-        return read_bdf(path)
-    if form == "h5":
-        return read_h5_model(path)
-    raise DataError(_swapped("no_mesh", path, form, "mesh", "--mesh the deck (.bdf, .dat) or the MSC .h5"))
+FORMATS = (
+    ForeignFormat(
+        "text",
+        "a text table",
+        ending="a text table",
+        place=7,
+        reads={COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text")},
+        belongs=" if it holds them",
+    ),
+    ForeignFormat(
+        "bdf",
+        "a NASTRAN deck",
+        ending=".bdf",
+        place=4,
+        reads={MESH: Reader("nastran.deck.bdf.read_bdf", "the deck (.bdf, .dat)", "BDF")},
+        looks_like="nastran.deck.lines.is_deck",
+    ),
+    ForeignFormat(
+        "op2",
+        "a NASTRAN OP2 file",
+        ending=".op2",
+        place=1,
+        reads={FORCES: Reader("nastran.results.op2.read_op2", "an .op2", "OP2")},
+        starts=(b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
+    ),
+    ForeignFormat(
+        "h5",
+        "an HDF5 file",
+        ending="MSC .h5",
+        place=2,
+        reads={
+            FORCES: Reader("nastran.results.h5.read_h5", "an MSC .h5", "MSC .h5"),
+            MESH: Reader("nastran.results.h5.read_h5_model", "the MSC .h5", "the same MSC .h5"),
+        },
+        starts=(b"\x89HDF\r\n\x1a\n",),
+        extra=Extra("h5py", "MSC HDF5 input"),
+    ),
+    ForeignFormat(
+        "punch",
+        "a NASTRAN punch file",
+        ending=".pch",
+        place=3,
+        reads={FORCES: Reader("nastran.results.punch.read_punch", "a punch file", "punch")},
+        looks_like="nastran.results.punch.is_punch",
+    ),
+    ForeignFormat(
+        "parquet",
+        "a Parquet table",
+        ending=".parquet",
+        place=6,
+        reads={COORDINATES: Reader("histories.text.read_parquet_history", ".parquet")},
+        starts=(b"PAR1",),
+        belongs=", or, if it is a table of a case, to case.toml",
+    ),
+    ForeignFormat(
+        "mcf",
+        "an ANSYS file of modal coordinates",
+        ending=".mcf",
+        place=5,
+        reads={COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf")},
+        looks_like="histories.mcf.is_mcf",
+    ),
+)
+"""From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""
 
 
-def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
-    """Read modal coordinates from any format that holds them."""
-    form = recognise(path)
-    if form == "mcf":
-        if columns is not None or time_column is not None:
-            what = "an .mcf file has no names of columns, for --columns or --time-column"
-            raise DataError(Problem("no_column", str(path), what, "Leave the options out, or export a table"))
-        return read_mcf(path)
-    if form == "parquet":
-        return read_parquet_history(path, columns, time_column)
-    if form == "text" and ((own := own_format(path)) is None or "--coordinates" in own.remedy):
-        return read_text_history(path, columns, time_column)
-    raise DataError(
-        _swapped("no_coordinates", path, form, "modal coordinates", "--coordinates a text table, .parquet or .mcf")
-    )
+def formats_called(content: Content) -> str:
+    """List the formats that hold a content, as messages call them."""
+    return one_of([form.reads[content].called for form in FORMATS if content in form.reads])
 
 
-def _swapped(code: str, path: Path, form: Format, lacks: str, wanted: str) -> Problem:
-    """Refusal of a file that is sound and in the wrong place: what it is, and where it belongs."""
-    name, option = _IS[form]
-    if form == "text" and (own := own_format(path)) is not None:
-        return Problem(code, str(path), f"this is {own.name}, which holds no {lacks}", f"{own.remedy}, and to {wanted}")
-    what = f"this is {name} (format {form}), which holds no {lacks}"
-    return Problem(code, str(path), what, f"Give it to {option}, and to {wanted}")
+def formats_in_help(content: Content, last: str = " or ") -> str:
+    """List the formats that hold a content, as the help of its option calls them."""
+    return one_of([reader.in_help for form in FORMATS if (reader := form.reads.get(content)) and reader.in_help], last)
+
+
+def all_formats() -> str:
+    """List all formats that are read."""
+    return one_of([form.ending for form in sorted(FORMATS, key=lambda form: form.place)])
+
+
+def one_of(words: list[str], last: str = " or ") -> str:
+    """Join words to a choice: ``a, b or c``."""
+    return last.join(filter(None, [", ".join(words[:-1]), words[-1]]))
+
+
+def _imported(function: str) -> Callable[..., Any]:
+    module, _, name = function.rpartition(".")
+    found: Callable[..., Any] = getattr(import_module(f"fatigue.readers.foreign.{module}"), name)
+    return found

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.weld.line import LineStack, WeldLine
-from fatigue.weld.line_check import check_line, doubtful_lines, line_warnings, unfit_lines
+from fatigue.weld.line_check import check_line, line_warnings, unfit_lines, warned_lines
 
 Surface: TypeAlias = Literal["top", "bottom", "both"]
 KINDS = ("normal", "interface", "rigid")
@@ -149,17 +149,6 @@ def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> t
     return welds, table.warnings
 
 
-def read_weld_nodes(path: Path, welds: Sequence[Weld], *, strict: bool) -> tuple[LineStack, list[Problem]]:
-    """Read the line of every weld, in the order of ``welds`` and sorted by ``order``, and check its geometry.
-
-    Raises
-    ------
-    DataError : as ``read_lines`` and ``checked_lines``
-    """
-    lines, warnings = read_lines(path, welds, {weld.name for weld in welds}, strict=strict)
-    return lines, warnings + checked_lines(lines, path.name)
-
-
 def read_lines(
     path: Path, welds: Sequence[Weld], needed: Collection[str], *, strict: bool
 ) -> tuple[LineStack, list[Problem]]:
@@ -226,7 +215,7 @@ def _vectors(table: Table, names: Sequence[str]) -> NDArray[np.float64]:
 
 
 def checked_lines(lines: LineStack, file: str) -> list[Problem]:
-    """Refuse the unfit lines of all welds together; return the doubts about the others."""
+    """Refuse the unfit lines of all welds together; return the warnings about the others."""
     problems: list[Problem] = []
     warnings: list[Problem] = []
     for first in range(0, len(lines), CHECKED_TOGETHER):
@@ -237,7 +226,7 @@ def checked_lines(lines: LineStack, file: str) -> list[Problem]:
             except DataError as error:
                 problems += error.problems
         if not problems:
-            for i in doubtful_lines(some):
+            for i in warned_lines(some):
                 warnings += line_warnings(some[i], _place(file, some[i]))
     refuse(DataError, problems)
     return warnings

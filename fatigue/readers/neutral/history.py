@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Samples, create_spool
-from fatigue.readers.neutral.table_units import stated_unit_doubt
+from fatigue.readers.neutral.table_units import stated_unit_problem
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.readers.units.channel_names import channel
 
@@ -88,7 +88,7 @@ def _open(
 def _check_statements(table: Table) -> None:
     """Note what the names and the metadata of columns state against the neutral format: time in s, q in N, mm, t, s."""
     for name, unit in zip(table.columns.names, table.columns.units or (), strict=False):
-        problem = stated_unit_doubt(table.where(name.strip()), name, unit) if unit else None
+        problem = stated_unit_problem(table.where(name.strip()), name, unit) if unit else None
         if problem is not None and problem.code == "unit":
             table.problems.append(problem)
     for name in table.position:

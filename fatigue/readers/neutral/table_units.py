@@ -16,7 +16,7 @@ def column_unit(name: str) -> str:
     return suffix if suffix.lower() in _SUFFIXES and "_" in name else ""
 
 
-def units_row_doubts(name: str, layout: TableLayout) -> tuple[Problem, ...]:
+def units_row_warnings(name: str, layout: TableLayout) -> tuple[Problem, ...]:
     """Compare a row of units below the names with the names.
 
     Returns
@@ -27,18 +27,21 @@ def units_row_doubts(name: str, layout: TableLayout) -> tuple[Problem, ...]:
     ------
     DataError : a unit contradicts the name of its column
     """
-    problems: list[Problem] = []
-    doubts: list[Problem] = []
+    contradictions: list[Problem] = []
+    warnings: list[Problem] = []
     for column, unit in zip(layout.names, layout.units, strict=False):
-        doubt = stated_unit_doubt(f"{name}: column {column.strip()}, row of units", column, unit)
-        if doubt is not None:
-            (problems if doubt.code == "unit" else doubts).append(doubt)
-    refuse(DataError, problems)
-    return tuple(doubts)
+        problem = stated_unit_problem(f"{name}: column {column.strip()}, row of units", column, unit)
+        if problem is not None:
+            (contradictions if problem.code == "unit" else warnings).append(problem)
+    refuse(DataError, contradictions)
+    return tuple(warnings)
 
 
-def stated_unit_doubt(where: str, column: str, unit: str) -> Problem | None:
-    """Compare a unit stated for a neutral column with its name: ``unit`` contradicts it, ``unit_unused`` is a doubt."""
+def stated_unit_problem(where: str, column: str, unit: str) -> Problem | None:
+    """Compare a unit stated for a neutral column with its name: ``unit`` is a contradiction, ``unit_unused`` a warning.
+
+    None where they agree.
+    """
     stated = re.sub(r"[\s.·]", "", unit.strip("[]()<> ")).lower()
     stated = _SPELLINGS.get(stated, stated)
     own = column_unit(column)

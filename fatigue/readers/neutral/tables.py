@@ -6,7 +6,7 @@ are counted from 1, the header not included.
 """
 
 import difflib
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,8 +17,19 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.naming import composed
-from fatigue.readers.neutral.files import Columns, open_columns, other_format
+from fatigue.readers.neutral.column_names import missing_columns, nameless_columns, positions_of, unknown_columns
+from fatigue.readers.neutral.column_values import (
+    distinct_texts,
+    floats_of,
+    holds_names,
+    is_number,
+    is_text,
+    numbers_of_texts,
+    seconds_of,
+)
+from fatigue.readers.neutral.columns import Columns
+from fatigue.readers.neutral.files import open_columns, other_format
+from fatigue.readers.text.flags import WORDS_OF_PROGRAMS, flag_of
 
 LARGEST = 2**63 - 1  # id
 MOST_GUESSES = 20  # at what an unknown text was meant to be: each compares it with all that are known
@@ -34,7 +45,7 @@ class Table:
     columns : its columns
     position : where each column stands, by its trimmed name
     problems : mistakes found so far
-    warnings : unknown columns and other doubts
+    warnings : unknown columns and others
     spoilt : columns with a mistake in their values, from which nothing more is concluded
     """
 
@@ -51,19 +62,15 @@ class Table:
         return self.columns.rows
 
     def expect(self, required: Collection[str], optional: Collection[str], *, strict: bool) -> None:
-        """Refuse a table without a required column; an unknown column is a doubt, or a mistake where strict."""
-        if missing := list(self._missing_columns(required)):
+        """Refuse a table without a required column; an unknown column is a warning, or a mistake where strict."""
+        file = self.path.name
+        if missing := list(missing_columns(file, self.position, required)):
             if (other := other_format(self.path)) is not None and len(missing) == len(required):
                 raise DataError(other)
             raise DataError(*self.problems, *missing)
-        found_wrong = self.problems if strict else self.warnings
-        found_wrong += self._nameless_columns()
-        known = (*required, *optional)
-        for name in (name for name in self.position if name not in known):
-            near = difflib.get_close_matches(name, set(known) - self.position.keys(), n=1)
-            remedy = f"Rename it to {near[0]!r}" if near else "Remove it"
-            found = Problem("unknown_column", self.where(name), "the column is unknown and not read", remedy)
-            found_wrong.append(found)
+        found = self.problems if strict else self.warnings
+        found += nameless_columns(file, self.columns)
+        found += unknown_columns(file, self.position, (*required, *optional))
 
     def where(self, column: str, row: int | None = None) -> str:
         """Name a place in the file; ``row`` is an index from 0."""
@@ -127,7 +134,7 @@ class Table:
         may have rounded: beyond 2^53 two neighbouring ids become one there.
         """
         if name in self.position:
-            column = _numbers_of_texts(self._column(name))
+            column = numbers_of_texts(self._column(name))
             if pt.is_integer(column.type) or pt.is_decimal(column.type):
                 return self._exact(name, column, default)
         values = self.numbers(name, default=default)
@@ -163,9 +170,9 @@ class Table:
         column = self._column(name) if name in self.position else pa.chunked_array([pa.nulls(self.rows)])
         if pt.is_boolean(column.type):
             return np.array(column.fill_null(default).to_numpy(), dtype=np.bool_)
-        if _is_text(column.type):
-            words = [text.lower() for text in self.texts(name, default=str(default))]
-            values = np.array([{"true": 1, "false": 0}.get(word, np.nan) for word in words])
+        if is_text(column.type):
+            said = [flag_of(text, WORDS_OF_PROGRAMS) for text in self.texts(name, default=str(default))]
+            values = np.array([np.nan if flag is None else flag for flag in said])
         else:
             values = self.numbers(name, default=default)
         wrong = ~np.isin(values, [0, 1])
@@ -183,24 +190,13 @@ class Table:
         if name not in self.position:
             return (default or "",), np.zeros(self.rows, dtype=np.int32)
         column = self._column(name)
-        kind = column.type.value_type if pt.is_dictionary(column.type) else column.type
-        if not (_is_text(kind) or pt.is_integer(kind) or pt.is_null(kind)):
+        if not holds_names(column):
             self._mistyped(name, column, "text")
             return ("",), np.zeros(self.rows, dtype=np.int32)
-        if not pt.is_dictionary(column.type):
-            column = column.cast(pa.string()).dictionary_encode()
-        chunks = column.unify_dictionaries().chunks
-        stored = [composed(text or "") for text in chunks[0].dictionary.cast(pa.string()).to_pylist()]
-        stored.append("")  # position -1 stands for an empty cell
-        names, merged = np.unique(np.array([text or default or "" for text in stored], object), return_inverse=True)
-        places = [codes_of(chunk, len(stored) - 1) for chunk in chunks]
-        place = places[0] if len(places) == 1 else np.concatenate(places)
-        used = np.zeros(names.size, dtype=np.bool_)
-        used[merged[np.bincount(place, minlength=len(stored)) > 0]] = True
-        code = (np.cumsum(used, dtype=np.int32) - 1)[merged][place]
-        if names[0] == "" and used[0] and default is None:
+        names, code = distinct_texts(column, default or "")
+        if names and names[0] == "" and default is None:
             self.report(code == 0, "missing_value", name, "the text is missing", "Give a text")
-        return tuple(names[used]), code
+        return names, code
 
     def choices(self, name: str, values: Sequence[str], allowed: Sequence[str]) -> None:
         """Note a text that is none of the allowed ones."""
@@ -252,39 +248,16 @@ class Table:
             )
         )
 
-    def _nameless_columns(self) -> Iterator[Problem]:
-        """Tell columns without a name that hold something; spreadsheets write empty ones, which are nothing."""
-        for position, name in enumerate(self.columns.names):
-            if composed(name) or not self.rows:
-                continue
-            column = self.columns.read(position)
-            filled = [value for value in column.to_pylist() if value is not None and str(value).strip()]
-            if filled:
-                where = f"{self.path.name}: column {position + 1}"
-                what = f"the column has no name and is not read, it holds {str(filled[0])[:30]!r}"
-                yield Problem("unknown_column", where, what, "Give it a name, or remove it")
-
-    def _missing_columns(self, required: Collection[str]) -> Iterator[Problem]:
-        present = ", ".join(name for name in self.position if name)
-        for name in required:
-            if name not in self.position:
-                yield Problem(
-                    "missing_column", self.where(name), "the column is missing", f"Add it; the columns are {present}"
-                )
-
     def _column(self, name: str) -> pa.ChunkedArray:
         return self.columns.read(self.position[name])
 
     def _floats(self, name: str) -> NDArray[Any]:
         """Values of a column as floating-point numbers, empty cells and an absent column as NaN."""
-        column = self._column(name) if name in self.position else None
-        if column is None or pt.is_null(column.type):
+        if name not in self.position:
             return np.full(self.rows, np.nan)
-        if pt.is_decimal(column.type) or pt.is_integer(column.type):
-            return np.asarray(column.cast(pa.float64(), safe=False).to_numpy())  # beyond 2^53 rounded
-        if pt.is_floating(column.type):
-            values = np.asarray(column.to_numpy())
-            return values.astype(np.float64) if values.dtype == np.float16 else values
+        column = self._column(name)
+        if (values := floats_of(column)) is not None:
+            return values
         if pt.is_temporal(column.type) and name.endswith("_s"):
             return self._seconds(name, column)
         self._mistyped(name, column, "a number")
@@ -303,7 +276,7 @@ class Table:
     def _mistyped(self, name: str, column: pa.ChunkedArray, wanted: str) -> None:
         """Note the first value of the wrong kind; in a column of texts the first that could not be a number."""
         values = column.to_pylist()
-        wrong = (row for row, value in enumerate(values) if value is not None and not _is_number(value))
+        wrong = (row for row, value in enumerate(values) if value is not None and not is_number(value))
         row = next(wrong, 0)
         self.problems.append(
             Problem("bad_type", self.where(name, row), f"{values[row]!r} is not {wanted}", f"Give {wanted}")
@@ -318,51 +291,7 @@ def open_table(path: Path, *, texts: Collection[str] = ()) -> Table:
 
 def named(path: Path, columns: Columns) -> Table:
     """Make a table of columns that are open; two of one name are refused."""
-    position: dict[str, int] = {}
-    problems = [
-        Problem("duplicate_column", f"{path.name}: column {name}", "the column appears twice", "Remove one of them")
-        for i, stored in enumerate(columns.names)
-        if (name := composed(stored)) and position.setdefault(name, i) != i
-    ]
-    refuse(DataError, problems)
-    return Table(path, columns, position, warnings=list(columns.doubts))
-
-
-def seconds_of(durations: pa.ChunkedArray) -> NDArray[np.float64]:
-    """Durations in seconds (r,), NaN where one is missing."""
-    ticks = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}[durations.type.unit]
-    return np.asarray(durations.cast(pa.int64()).to_numpy()).astype(np.float64) / ticks
-
-
-def codes_of(texts: pa.DictionaryArray, missing: int) -> NDArray[np.integer]:
-    """Codes of a coded column (r,), those of empty cells ``missing``."""
-    codes = texts.indices if texts.null_count == 0 else texts.indices.fill_null(missing)
-    return np.asarray(codes.to_numpy())
-
-
-def _numbers_of_texts(column: pa.ChunkedArray) -> pa.ChunkedArray:
-    """Whole numbers of a column whose texts are all such, as ids are that a program keeps as texts; else the column."""
-    if pt.is_dictionary(column.type):
-        column = column.cast(column.type.value_type)
-    if not _is_text(column.type):
-        return column
-    try:
-        return column.cast(pa.int64())
-    except pa.ArrowException:
-        return column
-
-
-def _is_text(kind: pa.DataType) -> bool:
-    return bool(pt.is_string(kind) or pt.is_large_string(kind) or pt.is_string_view(kind))
-
-
-def _is_number(value: object) -> bool:
-    """Whether a value is a text that Arrow reads as a number."""
-    try:
-        pa.scalar(value, pa.string()).cast(pa.float64())
-    except (pa.ArrowException, TypeError):
-        return False
-    return True
+    return Table(path, columns, positions_of(path.name, columns), warnings=list(columns.warnings))
 
 
 def _first(values: NDArray[Any], bad: NDArray[np.bool_]) -> float:

@@ -83,8 +83,8 @@ def read_text(path: Path) -> tuple[str, Encoding]:
     return decoded(path, data)
 
 
-def not_utf8_remark(path: Path, data: bytes) -> Problem:
-    """Doubt about a file that is read as Windows-1252: its first byte beyond UTF-8, and the letter it is taken for."""
+def not_utf8_warning(path: Path, data: bytes) -> Problem:
+    """Warning of a file that is read as Windows-1252: its first byte beyond UTF-8, and the letter it is taken for."""
     at = _first_stray(data)
     letter = bytes([data[at]]).decode("cp1252")
     what = f"byte {data[at]:#04x} is not UTF-8; the file is read as Windows-1252, where it is {letter!r}"

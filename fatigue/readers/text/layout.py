@@ -12,23 +12,21 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.text.encoding import HEAD_BYTES, Encoding, encoding_of, marked_encoding, nul_problem
+from fatigue.readers.text.lines import text_lines, whole_cells
 from fatigue.readers.text.numbers import Decimal, is_number, split_fields
+from fatigue.readers.text.separator import SEPARATORS, cell_count, declared_separator, separator_of
 
-SEPARATORS = (",", ";", "\t", "|")
 COMMENTS = ("#", "%", "!", "//")
 SAMPLE_LINES = 200
 _KEYS = ("weld", "mode", "node", "element", "column", "time_s")  # of the tables of the neutral format
 HEADER_LINES = 100  # within which names are broken over several lines
-MOST_BREAKS = 20  # lines of one cell
 
-_SEP_LINE = re.compile(r'\s*"?sep=(.)"?\s*\Z', re.IGNORECASE)
 _UNIT = re.compile(
     r"(?:[\[(<].*[\])>]|-|s|sec|sek|ms|msec|us|µs|min|h|k?Hz|rad/s|mm|cm|m|in|inch|ft"
     r"|k?N(?:[.* ]?m?m)?|lbf?|[MG]?Pa|psi|k?g|t)\Z",
     re.IGNORECASE,
 )
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+")
-_LINE_END = re.compile(r"\r\n|\n|\r")
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,31 +79,6 @@ def table_layout(path: Path, texts: Collection[str]) -> TableLayout:
     return layout_of(path, text_lines(text, whole=whole), encoding, lambda name: name not in texts)
 
 
-def declared_separator(line: str) -> str | None:
-    """Separator that a line such as ``sep=;`` declares; None of any other line."""
-    found = _SEP_LINE.match(line)
-    return None if found is None else found[1]
-
-
-def text_lines(text: str, *, whole: bool = True) -> list[str]:
-    """Lines of a text; the last one of a part of a file is left out."""
-    lines = _LINE_END.split(text)
-    return lines if whole or len(lines) == 1 else lines[:-1]
-
-
-def whole_cells(lines: Sequence[str]) -> list[str]:
-    """Join the lines of a cell in quotation marks, as spreadsheets break them, on its last line; blank ones remain."""
-    result = list(lines)
-    for k in range(len(lines)):
-        joined, end = result[k], k
-        while joined.count('"') % 2 and end < min(k + MOST_BREAKS, len(lines) - 1):
-            end += 1
-            joined = f"{joined} {lines[end]}"
-        if end > k and joined.count('"') % 2 == 0:
-            result[k : end + 1] = [""] * (end - k) + [joined]
-    return result
-
-
 def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: Callable[[str], bool]) -> TableLayout:
     """Find the layout of the lines of a file, or of its first ones; as ``table_layout``.
 
@@ -130,7 +103,7 @@ def layout_of(path: Path, lines: Sequence[str], encoding: Encoding, is_numeric: 
         rows, header, names_line, first = [lines[at], *rows], comment, named, at
     else:
         names_line, first = lines[at], at + 1
-    separator = _separator(path, header, names_line, rows, declared)
+    separator = separator_of(path, header, names_line, rows, declared)
     names = _as_wide_as(_names(names_line, separator), rows, separator)
     units: tuple[str, ...] = ()
     if rows and (found_units := _unit_row(rows[0], separator, len(names))):
@@ -167,31 +140,11 @@ def _commented(comment: str, row: str, declared: str | None) -> str | None:
     return None
 
 
-def _separator(path: Path, header: int, line: str, rows: Sequence[str], declared: str | None) -> str | None:
-    """Separator that divides the names, and most rows alike."""
-    counts = {s: len(split_fields(line, s)) for s in SEPARATORS}
-    if declared is not None:
-        other = [s for s in SEPARATORS if s != declared and counts[s] > 1]
-        if len(split_fields(line, declared)) == 1 and other:
-            what = f"the file declares sep={declared}, and its columns are separated by {other[0]!r}"
-            raise DataError(Problem("csv_separator", f"{path.name}: line {header + 1}", what, "Correct one of them"))
-        return declared
-    candidates = [s for s in SEPARATORS if counts[s] > 1]
-    if not candidates:
-        words = len(line.split())
-        blanks = words > 1 and rows and all(len(split_fields(row, None)) == words for row in rows[:20])
-        return None if blanks else ","
-    if len(candidates) == 1:
-        return candidates[0]
-    alike = {s: sum(len(split_fields(row, s)) == counts[s] for row in rows[:20]) for s in candidates}
-    return max(candidates, key=lambda s: (alike[s], counts[s]))
-
-
 def _names(line: str, separator: str | None) -> list[str]:
     fields = split_fields(line, separator)
     if separator is None or len(fields) == line.count(separator) + 1:
         return fields
-    return fields + [""] * max(0, _cells(line, separator) - len(fields))
+    return fields + [""] * max(0, cell_count(line, separator) - len(fields))
 
 
 def _as_wide_as(names: Sequence[str], rows: Sequence[str], separator: str | None) -> tuple[str, ...]:
@@ -199,17 +152,11 @@ def _as_wide_as(names: Sequence[str], rows: Sequence[str], separator: str | None
     if separator is None or not rows:
         return tuple(names)
     filled = max((k + 1 for k, name in enumerate(names) if name.strip()), default=0)
-    width = {_cells(row, separator) for row in rows}
+    width = {cell_count(row, separator) for row in rows}
     wanted = width.pop() if len(width) == 1 else len(names)
     if wanted > len(names) and any(len(split_fields(row, separator)) > len(names) for row in rows):
         return tuple(names)  # cells without a name hold something, which is told
     return (*names[: max(filled, wanted)], *[""] * (wanted - len(names)))
-
-
-def _cells(line: str, separator: str) -> int:
-    """Count the cells of a line, empty ones at its end too."""
-    quoted = re.sub(r'"[^"]*"', "", line)
-    return quoted.count(separator) + 1
 
 
 def _unit_row(row: str, separator: str | None, width: int) -> tuple[str, ...]:

@@ -7,10 +7,11 @@ from io import StringIO
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.known_formats import misplaced
-from fatigue.naming import composed
+from fatigue.files.misplaced import misplaced
+from fatigue.files.naming import composed
 from fatigue.readers.text.encoding import read_text
-from fatigue.readers.text.layout import TableLayout, layout_of, text_lines
+from fatigue.readers.text.layout import TableLayout, layout_of
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.numbers import plain_number
 
 

@@ -76,9 +76,9 @@ def compared(
 
     Returns
     -------
-    contradictions, one for each unit, and doubts
+    contradictions, one for each unit, and warnings
     """
-    problems, doubts = [], []
+    problems, warnings = [], []
     for unit in dict.fromkeys(u for u in units if u):
         having = [name for name, u in zip(names, units, strict=True) if u == unit]
         more = f" and {len(having) - 1} more columns" if len(having) > 1 else ""
@@ -88,8 +88,8 @@ def compared(
             problems.append(problem)
         elif (parse_unit(unit) or CoordinateUnit(None, None)).mass is None and normalisation == "mass":
             what = f"the file states {unit}, a length; --normalisation mass takes it as {_expected(system, 'mass')}"
-            doubts.append(Problem("coordinate_unit", where, what, "State --normalisation length if it is one"))
-    return problems, doubts
+            warnings.append(Problem("coordinate_unit", where, what, "State --normalisation length if it is one"))
+    return problems, warnings
 
 
 def _contradiction(where: str, unit: str, system: str, normalisation: Normalisation) -> Problem | None:

@@ -9,14 +9,14 @@ from fatigue.report.figures.domains import drawn_points, ratio_histogram, time_a
 from fatigue.report.figures.lines import along_weld
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
 from fatigue.report.figures.records import stress_history, stress_spectrum
-from fatigue.report.figures.scene import Body, body_outline, line_rows, projections, scene, worst_faces
+from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
 from fatigue.report.figures.why import bands_of_welds, damage_by_band, damage_on_track
 
 __all__ = [
     "CONFIG",
     "TEMPLATE",
-    "Body",
+    "BodyOutline",
     "along_weld",
     "bands_of_welds",
     "body_outline",

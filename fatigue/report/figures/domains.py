@@ -5,7 +5,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from fatigue.report.figures.given import Table, frame_of
+from fatigue.report.figures.given import ResultTable, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     INK,
@@ -21,31 +21,22 @@ from fatigue.report.figures.style import (
     upright,
 )
 from fatigue.report.wording import in_figure
+from fatigue.spectrum import trust
 
 MOST_POINTS = 20_000  # beyond, only a part of the points that agree is drawn
-VERDICTS = (
-    "valid",
-    "not_assessed",
-    "sampling",
-    "quasi_static",
-    "single_event",
-    "non_stationary",
-    "harmonic",
-    "non_gaussian",
-    "bandwidth",
-)
+VERDICTS = ("valid", *(verdict for verdict in trust.VERDICTS if verdict != "valid"))  # in the order of the legend
 TRUSTED = VERDICTS[:2]
 SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star")
 _ESTIMATES = ("life_km_same_ratio", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict")
 FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 
 
-def time_against_frequency(nodes: Table) -> go.Figure:
+def time_against_frequency(nodes: ResultTable) -> go.Figure:
     """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
 
     ``nodes`` has the columns of the table of nodes and ``kurtosis``, that of the stress in the governing event, which
     colours the points: 3 for a Gaussian record. Points without an estimate are left out; of very many points a part is
-    drawn, see `drawn_points`.
+    drawn, see ``drawn_points``.
     """
     nodes = frame_of(nodes, "nodes", (*_ESTIMATES, "kurtosis", "weld", "node", "surface"), empty=True)
     shown = nodes[drawn_points(nodes)]
@@ -79,7 +70,7 @@ def time_against_frequency(nodes: Table) -> go.Figure:
     )
 
 
-def drawn_points(nodes: Table, most: int = MOST_POINTS) -> NDArray[np.bool_]:
+def drawn_points(nodes: ResultTable, most: int = MOST_POINTS) -> NDArray[np.bool_]:
     """Mark the points with an estimate that are drawn: all, or ``most`` beginning with those that disagree (n,)."""
     nodes = frame_of(nodes, "nodes", _ESTIMATES, empty=True)
     lives = nodes[["life_km_same_ratio", "life_km_dirlik"]].to_numpy(dtype=np.float64)
@@ -88,10 +79,10 @@ def drawn_points(nodes: Table, most: int = MOST_POINTS) -> NDArray[np.bool_]:
     if found <= most:
         return drawn
     off = np.abs(np.log(np.nan_to_num(nodes["dirlik_ratio"].to_numpy(dtype=np.float64), nan=1.0)))
-    doubtful = ~nodes["dirlik_verdict"].isin(TRUSTED).to_numpy() | (off > np.log(2.0))
+    untrusted = ~nodes["dirlik_verdict"].isin(TRUSTED).to_numpy() | (off > np.log(2.0))
     rank = np.arange(len(nodes)) % (found // most + 1)  # every so manyth of those that agree
-    candidates = np.flatnonzero(drawn & (doubtful | (rank == 0)))
-    first = candidates[np.argsort(-(doubtful[candidates] * (1.0 + off[candidates])), kind="stable")[:most]]
+    candidates = np.flatnonzero(drawn & (untrusted | (rank == 0)))
+    first = candidates[np.argsort(-(untrusted[candidates] * (1.0 + off[candidates])), kind="stable")[:most]]
     return np.isin(np.arange(len(nodes)), first)
 
 
@@ -122,7 +113,7 @@ def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
     }
 
 
-def ratio_histogram(nodes: Table) -> go.Figure:
+def ratio_histogram(nodes: ResultTable) -> go.Figure:
     """How the damage ratio Dirlik / rainflow is spread over the points, on a logarithmic axis."""
     nodes = frame_of(nodes, "nodes", ("dirlik_ratio",), empty=True)
     ratio = nodes["dirlik_ratio"].to_numpy(dtype=np.float64)

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from fatigue.errors import DataError, Problem, refuse
 
-Table: TypeAlias = pd.DataFrame | pa.Table
+ResultTable: TypeAlias = pd.DataFrame | pa.Table
 """A table of a result as ``pandas.read_parquet`` or ``fatigue.read_table`` reads it."""
 
 
-def frame_of(table: Table, name: str, columns: Sequence[str], *, empty: bool = False) -> pd.DataFrame:
+def frame_of(table: ResultTable, name: str, columns: Sequence[str], *, empty: bool = False) -> pd.DataFrame:
     """Return a table as a data frame.
 
     Parameters

@@ -8,7 +8,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
-from fatigue.report.figures.given import Table, check_one_each, check_one_weld, check_target, frame_of
+from fatigue.report.figures.given import ResultTable, check_one_each, check_one_weld, check_target, frame_of
 from fatigue.report.figures.style import (
     DASHES,
     FACE,
@@ -38,7 +38,7 @@ _PANELS = {"y": [0.57, 1.0], "y2": [0.30, 0.53], "y3": [0.0, 0.26]}
 
 
 def along_weld(
-    points: Table, target_km: float, stress: Mapping[str, ArrayLike] | None = None, event: str = ""
+    points: ResultTable, target_km: float, stress: Mapping[str, ArrayLike] | None = None, event: str = ""
 ) -> go.Figure:
     """Life, load factor and stress of one weld over its arc length, both faces, zoomed together.
 

@@ -7,7 +7,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from fatigue.report.figures.given import Table, check_known, check_one_each, check_target, frame_of
+from fatigue.report.figures.given import ResultTable, check_known, check_one_each, check_target, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     GRID,
@@ -31,7 +31,7 @@ STRIP_CELLS = 120
 _OF_WELDS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "fulfilled")
 
 
-def weld_lives(welds: Table, target_km: float, most: int = 30) -> go.Figure:
+def weld_lives(welds: ResultTable, target_km: float, most: int = 30) -> go.Figure:
     """Life of the worst point of every weld against the target, worst on top.
 
     ``welds`` has the columns of the weld register; of those assessed at most ``most`` are drawn.
@@ -94,7 +94,7 @@ def weld_lives(welds: Table, target_km: float, most: int = 30) -> go.Figure:
     )
 
 
-def weld_strips(nodes: Table, target_km: float, most: int = 60) -> go.Figure:
+def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> go.Figure:
     """Every weld line as a strip coloured by the shorter life of its toe faces, worst weld on top.
 
     ``nodes`` has the columns of the table of nodes; parts of a weld split at its kinks follow each other. A strip has
@@ -131,7 +131,7 @@ def weld_strips(nodes: Table, target_km: float, most: int = 60) -> go.Figure:
     )
 
 
-def damage_by_event(points: Sequence[str], shares: Table, weights: Mapping[str, str], most: int = 6) -> go.Figure:
+def damage_by_event(points: Sequence[str], shares: ResultTable, weights: Mapping[str, str], most: int = 6) -> go.Figure:
     """Stacked bars: share of each event in the damage of each point.
 
     Parameters

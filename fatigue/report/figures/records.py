@@ -20,7 +20,7 @@ from fatigue.report.figures.style import (
     single,
     upright,
 )
-from fatigue.report.signals import Envelope, Excerpt, Spectrum
+from fatigue.report.signals import Envelope, Excerpt, StressSpectrum
 from fatigue.report.wording import in_figure, number, share
 
 PSD_POINTS = 400
@@ -94,7 +94,10 @@ def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, *, named: bool
 
 
 def stress_spectrum(
-    spectra: Sequence[Spectrum], colours: Mapping[str, str], modes: Mapping[str, tuple[float, float]], governing: str
+    spectra: Sequence[StressSpectrum],
+    colours: Mapping[str, str],
+    modes: Mapping[str, tuple[float, float]],
+    governing: str,
 ) -> go.Figure:
     """Stress spectra of some events with the natural frequencies that matter; the cumulative variance below.
 

@@ -8,7 +8,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
-from fatigue.report.figures.given import Table, check_target, frame_of
+from fatigue.report.figures.given import ResultTable, check_target, frame_of
 from fatigue.report.figures.style import BODY, PAPER, Trace, axis, drawn_life, figure, life_scale, single
 from fatigue.report.wording import in_figure, number
 
@@ -21,7 +21,7 @@ FEATURE_ANGLE = 30.0  # [deg] between neighbouring elements that makes their com
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class BodyOutline:
     """What is drawn of the body: corner coordinates (k, 3) [mm], triangles (t, 3) and outline edges (e, 2)."""
 
     xyz: NDArray[np.float64]
@@ -29,7 +29,7 @@ class Body:
     edge: NDArray[np.int64]
 
 
-def body_outline(node: NDArray[np.int64], xyz: NDArray[np.float64], corners: NDArray[np.int64]) -> Body:
+def body_outline(node: NDArray[np.int64], xyz: NDArray[np.float64], corners: NDArray[np.int64]) -> BodyOutline:
     """Turn shell elements into triangles and the edges that are free, shared by three, or sharper than 30 degrees.
 
     ``corners`` (e, 4) are node ids around each element, 0 in the last column of triangles; ``node`` (k,) ascends.
@@ -51,10 +51,10 @@ def body_outline(node: NDArray[np.int64], xyz: NDArray[np.float64], corners: NDA
 
     triangles = np.concatenate([quad[:, [0, 1, 2]], quad[corners[:, 3] > 0][:, [0, 2, 3]]])
     used, compact = np.unique(np.concatenate([triangles.ravel(), outline.ravel()]), return_inverse=True)
-    return Body(xyz[used], compact[: triangles.size].reshape(-1, 3), compact[triangles.size :].reshape(-1, 2))
+    return BodyOutline(xyz[used], compact[: triangles.size].reshape(-1, 3), compact[triangles.size :].reshape(-1, 2))
 
 
-def worst_faces(nodes: Table) -> pd.DataFrame:
+def worst_faces(nodes: ResultTable) -> pd.DataFrame:
     """Keep one row per station: the toe face with the larger utilisation (where no face has a toe, the larger)."""
     nodes = frame_of(nodes, "nodes", ("weld", "part", "order", "toe", "utilisation"), empty=True)
     rank = nodes["utilisation"].to_numpy() + np.where(nodes["toe"], 1e30, 0.0)
@@ -62,7 +62,7 @@ def worst_faces(nodes: Table) -> pd.DataFrame:
     return nodes.loc[best].reset_index(drop=True)
 
 
-def line_rows(stations: Table, closed: frozenset[str]) -> NDArray[np.int64]:
+def line_rows(stations: ResultTable, closed: frozenset[str]) -> NDArray[np.int64]:
     """Rows of the stations in drawing order: -1 between the lines, the first repeated at the end of a closed line."""
     stations = frame_of(stations, "stations", ("weld", "part"))
     pieces: list[ArrayLike] = []
@@ -71,13 +71,15 @@ def line_rows(stations: Table, closed: frozenset[str]) -> NDArray[np.int64]:
     return np.concatenate(pieces).astype(np.int64)
 
 
-def scene(stations: Table, rows: NDArray[np.int64], target_km: float, body: Body | None = None) -> go.Figure:
+def scene(
+    stations: ResultTable, rows: NDArray[np.int64], target_km: float, body: BodyOutline | None = None
+) -> go.Figure:
     """Draw all weld lines in 3-D, coloured by log10 of their life, over the body in grey.
 
     Parameters
     ----------
-    stations : one row per station with the columns of the table of nodes, see `worst_faces`
-    rows : drawing order, see `line_rows`
+    stations : one row per station with the columns of the table of nodes, see ``worst_faces``
+    rows : drawing order, see ``line_rows``
     target_km : fixes the colour scale [km]
     body : the body to draw, None for none
     """
@@ -105,7 +107,9 @@ def scene(stations: Table, rows: NDArray[np.int64], target_km: float, body: Body
     )
 
 
-def projections(stations: Table, rows: NDArray[np.int64], target_km: float, body: Body | None = None) -> go.Figure:
+def projections(
+    stations: ResultTable, rows: NDArray[np.int64], target_km: float, body: BodyOutline | None = None
+) -> go.Figure:
     """Draw the same in side view and plan for paper, true to scale; of very many stations every so manyth."""
     stations = frame_of(stations, "stations", (*_PLACE, "life_km"))
     check_target(target_km)
@@ -176,7 +180,7 @@ def _labels(stations: pd.DataFrame, rows: NDArray[np.int64]) -> list[str]:
     return [texts[row] if row >= 0 else "" for row in rows]
 
 
-def _body(body: Body) -> list[Trace]:
+def _body(body: BodyOutline) -> list[Trace]:
     traces: list[Trace] = []
     if len(body.triangle) <= 2 * SHADED_ELEMENTS:
         traces.append(

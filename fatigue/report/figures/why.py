@@ -7,7 +7,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from fatigue.report.figures.given import Table, check_one_each, frame_of
+from fatigue.report.figures.given import ResultTable, check_one_each, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     QUIET,
@@ -23,7 +23,7 @@ from fatigue.report.figures.style import (
 from fatigue.report.wording import in_figure, share
 
 
-def damage_by_band(bands: Table, modes: Sequence[float] = ()) -> go.Figure:
+def damage_by_band(bands: ResultTable, modes: Sequence[float] = ()) -> go.Figure:
     """Share of each frequency band in the damage of one point.
 
     Parameters
@@ -57,7 +57,7 @@ def damage_by_band(bands: Table, modes: Sequence[float] = ()) -> go.Figure:
     )
 
 
-def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: Table) -> go.Figure:
+def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: ResultTable) -> go.Figure:
     """Map of the damage: worst points of the welds, worst on top, over frequency bands.
 
     ``shares`` is (weld, band); ``bands`` gives ``low_hz`` and ``high_hz`` (NaN: no upper end) of each, ascending.
@@ -94,7 +94,7 @@ def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: Tab
     )
 
 
-def damage_on_track(track: Table) -> go.Figure:
+def damage_on_track(track: ResultTable) -> go.Figure:
     """Where on the record of one event the damage is made: intensity 1 is its average.
 
     ``track`` has the columns ``start_km, end_km, start_s, end_s, share, intensity`` of one point and event; time is

@@ -1,1 +1,1 @@
-"""What a result is taken away as: ParaView's lines, a print of the page, a workbook and CSV."""
+"""What a result is taken away as: ``vtp`` for ParaView, ``pdf`` a print of the page, ``export`` a workbook and CSV."""

@@ -19,8 +19,8 @@ _WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Applicatio
 TIME_LIMIT_S = 300.0
 
 
-def print_pdf(html: Path | str, pdf: Path | str, remark: str = "") -> None:
-    """Print a report to PDF: all figures and details, paginated for A4; ``remark``: a comment for its last line.
+def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
+    """Print a report to PDF: all figures and details, paginated for A4; ``comment`` goes into its last line.
 
     The page draws all its figures before it has finished loading when its address ends in ``#print``.
 
@@ -61,9 +61,9 @@ def print_pdf(html: Path | str, pdf: Path | str, remark: str = "") -> None:
                 )
             )
         shutil.copyfile(printed, pdf)
-        if remark:  # a comment behind the end marker is allowed (ISO 32000-1, 7.2.4 and 7.5.5)
+        if comment:  # a comment behind the end marker is allowed (ISO 32000-1, 7.2.4 and 7.5.5)
             with pdf.open("ab") as file:
-                file.write(f"% {remark}\n".encode("ascii"))
+                file.write(f"% {comment}\n".encode("ascii"))
 
 
 def find_browser() -> Path:

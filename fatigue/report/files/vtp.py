@@ -53,13 +53,15 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
     mark = marked(read_provenance(folder).get("result", ""))
     data = _point_data(folder, rows, register)
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, _pieces(folder, rows["top"], register), data, mark))
+        file.writelines(_poly_lines(xyz, _line_points(folder, rows["top"], register), data, mark))
     if into is None:
         enlist(folder, path)
     return path
 
 
-def _pieces(folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequence[Any]]) -> list[NDArray[np.integer]]:
+def _line_points(
+    folder: Path, rows: NDArray[np.int64], register: Mapping[str, Sequence[Any]]
+) -> list[NDArray[np.integer]]:
     """Find the points of every line part, the first repeated at the end of a ring."""
     weld, names = read_codes(folder, "nodes", "weld")
     part = read_table(folder, "nodes", ["part"])["part"].to_numpy()
@@ -118,7 +120,7 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
         raise DataError(Problem("foreign_file", str(path), "is there already", "Use --force to overwrite it"))
     number = np.repeat(np.arange(1, len(lines) + 1), [len(line.node) for line in lines])
     first = np.cumsum([0, *(len(line.node) for line in lines)])
-    pieces = [
+    points = [
         np.append(rows, rows[0]) if line.closed else rows
         for line, rows in zip(lines, (np.arange(i, j) for i, j in pairwise(first)), strict=True)
     ]
@@ -132,20 +134,20 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
     ]
     xyz = np.concatenate([line.xyz for line in lines])
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, pieces, data))
+        file.writelines(_poly_lines(xyz, points, data))
 
 
 def _poly_lines(
-    xyz: NDArray[np.float64], pieces: Sequence[NDArray[np.integer]], point_data: Iterable[str], remark: str = ""
+    xyz: NDArray[np.float64], lines: Sequence[NDArray[np.integer]], point_data: Iterable[str], comment: str = ""
 ) -> Iterator[str]:
     """Lay out points, poly-lines and the arrays of the points, behind a comment."""
     yield '<?xml version="1.0"?>\n'
-    yield f"<!-- {remark} -->\n" if remark else ""
+    yield f"<!-- {comment} -->\n" if comment else ""
     yield '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(pieces)}">\n'
+    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(lines)}">\n'
     yield f"<Points>\n{_data('Points', 'f8', xyz, components=3)}</Points>\n<Lines>\n"
-    yield _data("connectivity", "i8", np.concatenate(pieces))
-    yield _data("offsets", "i8", np.cumsum([len(piece) for piece in pieces]))
+    yield _data("connectivity", "i8", np.concatenate(lines))
+    yield _data("offsets", "i8", np.cumsum([len(line) for line in lines]))
     yield "</Lines>\n<PointData>\n"
     yield from point_data
     yield "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n"

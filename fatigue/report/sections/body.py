@@ -9,7 +9,7 @@ from markupsafe import Markup
 from numpy.typing import NDArray
 
 from fatigue.report import figures, wording
-from fatigue.report.figures.scene import Body
+from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.result import Result
 from fatigue.report.sections.embed import Figures, Shown, embedded, packed
 from fatigue.report.sections.why import Why, band_shares
@@ -21,11 +21,11 @@ PROBED = ("arc_length_mm", "life_km", "load_factor", "dirlik_ratio", "max_range_
 def lives(result: Result, figs: Figures) -> Shown:
     """Draw the lives of the welds against the target."""
     fig = figures.weld_lives(result.assessed, result.target_km, WELDS_DRAWN)
-    caption = "Life of the worst point of each weld against the target" + _part(result, WELDS_DRAWN)
+    caption = "Life of the worst point of each weld against the target" + _those_drawn(result, WELDS_DRAWN)
     return figs.add("lives", fig, caption)
 
 
-def where(result: Result, body: Body | None, links: Mapping[str, str], figs: Figures) -> dict[str, Any]:
+def where(result: Result, body: BodyOutline | None, links: Mapping[str, str], figs: Figures) -> dict[str, Any]:
     """Draw the weld lines in space, on paper and unrolled; with the data behind a click in space."""
     stations = figures.worst_faces(result.nodes)
     welds = result.assessed
@@ -34,8 +34,8 @@ def where(result: Result, body: Body | None, links: Mapping[str, str], figs: Fig
     scene = figures.scene(stations, rows, result.target_km, body)
     views = figures.projections(stations, rows, result.target_km, body)
     strips = figures.weld_strips(result.nodes, result.target_km, STRIPS_DRAWN)
-    unrolled = "Every weld line unrolled, coloured by life" + _part(result, STRIPS_DRAWN)
-    worst = _part(result, len(result.drawn))
+    unrolled = "Every weld line unrolled, coloured by life" + _those_drawn(result, STRIPS_DRAWN)
+    worst = _those_drawn(result, len(result.drawn))
     in_space = "Weld lines" if worst else "All weld lines"
     return {
         "scene": figs.add("scene", scene, f"{in_space}, coloured by the shorter life of the toe faces{worst}"),
@@ -132,6 +132,7 @@ def domains(result: Result, figs: Figures) -> dict[str, Any]:
     }
 
 
-def _part(result: Result, drawn: int) -> str:
+def _those_drawn(result: Result, drawn: int) -> str:
+    """Words for a caption where only the worst welds are drawn."""
     total = len(result.assessed)
     return f", the {drawn} worst of {total} welds" if total > drawn else ""

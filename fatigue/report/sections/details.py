@@ -8,9 +8,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.report import signals
-from fatigue.report.inputs import Inputs
+from fatigue.report.inputs import FoundInputs
 from fatigue.report.result import Result
-from fatigue.report.signals import Envelope, Excerpt, Record, Spectrum
+from fatigue.report.signals import Envelope, EventRecord, Excerpt, StressSpectrum
 
 COMPONENTS = {
     "membrane": "membrane_MPa",
@@ -29,7 +29,7 @@ class Detail:
     the modes in the worst point's stress, both in the governing event.
     """
 
-    spectra: list[Spectrum] = field(default_factory=list)
+    spectra: list[StressSpectrum] = field(default_factory=list)
     envelope: Envelope | None = None
     excerpts: list[Excerpt] = field(default_factory=list)
     deviation: dict[str, NDArray[np.float64]] = field(default_factory=dict)
@@ -37,7 +37,7 @@ class Detail:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Weld:
+class _DetailedWeld:
     """A weld while its details are gathered.
 
     ``worst`` (m,) is the stress of its worst point per unit modal coordinate, ``stations`` (n, m) are the components at
@@ -51,7 +51,7 @@ class _Weld:
     largest: tuple[float, float] | None
 
 
-def weld_details(result: Result, inputs: Inputs) -> tuple[dict[str, Detail], dict[str, float]]:
+def weld_details(result: Result, inputs: FoundInputs) -> tuple[dict[str, Detail], dict[str, float]]:
     """Recover the details of the welds shown in detail, one event in memory at a time.
 
     Returns the details of each weld and the time step of each record [s].
@@ -76,7 +76,7 @@ def weld_details(result: Result, inputs: Inputs) -> tuple[dict[str, Detail], dic
     return details, steps
 
 
-def upper_hz(result: Result, inputs: Inputs, step: float) -> float:
+def upper_hz(result: Result, inputs: FoundInputs, step: float) -> float:
     """Upper frequency of the spectra [Hz], by the rule of the assessment."""
     if inputs.case.spectrum.upper_hz is not None:
         return inputs.case.spectrum.upper_hz
@@ -85,9 +85,9 @@ def upper_hz(result: Result, inputs: Inputs, step: float) -> float:
     return float(min(0.4 / step, 1.5 * max(normal, default=np.inf)))
 
 
-def _add_records(detail: Detail, record: Record, weld: _Weld) -> None:
+def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> None:
     """Add what is shown of the governing event: stresses along the line, the share of the modes, the history."""
-    detail.deviation = {name: signals.deviations(record, shape) for name, shape in weld.stations.items()}
+    detail.deviation = {name: signals.deviations(record, modal_stress) for name, modal_stress in weld.stations.items()}
     detail.variance_share = signals.variance_shares(record, weld.worst)
     detail.envelope = signals.envelope(record, weld.worst)
     dominant = np.argsort(-np.abs(detail.variance_share), kind="stable")[: signals.DOMINANT_MODES]
@@ -95,15 +95,15 @@ def _add_records(detail: Detail, record: Record, weld: _Weld) -> None:
         detail.excerpts = signals.excerpts(record, weld.worst, *weld.largest, dominant.tolist())
 
 
-def _welds(result: Result) -> dict[str, _Weld]:
+def _welds(result: Result) -> dict[str, _DetailedWeld]:
     governing = result.assessed.set_index("weld")["governing_event"]
     welds = {}
-    for name, (stations, shapes) in result.stress_shapes(list(COMPONENTS.values())).items():
-        components = dict(zip(COMPONENTS, shapes, strict=True))
+    for name, (stations, modal_stress) in result.modal_stress(list(COMPONENTS.values())).items():
+        components = dict(zip(COMPONENTS, modal_stress, strict=True))
         point = result.worst(name)
         at = int(((stations["part"] == point["part"]) & (stations["order"] == point["order"])).argmax())
         sign = 1.0 if point["surface"] == "top" else -1.0
-        welds[name] = _Weld(
+        welds[name] = _DetailedWeld(
             worst=components["membrane"][at] + sign * components["bending"][at],
             stations=components,
             governing_event=None if pd.isna(governing[name]) else governing[name],

@@ -1,45 +1,12 @@
-"""The tables of the page: what a cell says, and the value it is sorted by."""
+"""The tables of the page about the whole body: its worst welds and points, the register, what was given, the checks."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
-from fatigue.report.wording import NOT_AVAILABLE, number, share, size, whole
-
-_BEYOND = 1e300  # sorts after every number; what is not available sorts last
-
-
-@dataclass(frozen=True, slots=True)
-class Heading:
-    """Head of a column: what it holds, its unit, and whether it holds numbers."""
-
-    text: str
-    unit: str = ""
-    numeric: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """One cell: its text, the number it is sorted by (None: its text), a link within the page, a mark for the style."""
-
-    text: str
-    value: float | None = None
-    link: str = ""
-    mark: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A table of the page; one with a ``label`` gets a filter above it."""
-
-    id: str
-    headings: tuple[Heading, ...]
-    rows: tuple[tuple[Cell, ...], ...]
-    label: str = ""
-
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, linked, num, percent, span, text, verdict
+from fatigue.report.wording import number, size
 
 WELD, FACE, EVENT = (
     Heading("weld", numeric=False),
@@ -50,44 +17,11 @@ LIFE = (Heading("life", "km"), Heading("life", "years"), Heading("utilisation", 
 LIFE_COLUMNS = ("life_km", "life_years", "utilisation", "load_factor")
 
 
-def text(value: Any) -> Cell:
-    """Cell with a name; a dash where there is none."""
-    return Cell(NOT_AVAILABLE if value is None or value != value or value == "" else str(value))  # noqa: PLR0124
-
-
-def num(value: Any) -> Cell:
-    """Cell with a number of four digits."""
-    missing = value is None or value != value  # noqa: PLR0124
-    return Cell(number(value), 2 * _BEYOND if missing else float(np.clip(float(value), -_BEYOND, _BEYOND)))
-
-
-def integer(value: Any, *, grouped: bool = False) -> Cell:
-    """Cell with a count (grouped) or an id; a dash where there is none."""
-    if pd.isna(value):
-        return num(None)
-    return Cell(whole(int(value)) if grouped else str(int(value)), float(value))
-
-
-def percent(value: Any) -> Cell:
-    """Cell with a share."""
-    return Cell(share(value), -_BEYOND if value != value else float(value))  # noqa: PLR0124
-
-
-def verdict(fulfilled: Any) -> Cell:
-    """Cell that says whether a target is met: in words and a sign, not in colour alone."""
-    return Cell("✓ met", 1.0, mark="met") if fulfilled else Cell("✕ missed", 0.0, mark="missed")
-
-
-def lives(row: Mapping[str, Any] | pd.Series) -> list[Cell]:
-    """Cells of life in km and years, utilisation and load factor."""
-    return [num(row[name]) for name in LIFE_COLUMNS]
-
-
-def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) -> Table:
+def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) -> PageTable:
     """Worst welds with their worst points."""
     rows = tuple(
         (
-            _linked(row.weld, links),
+            linked(row.weld, links),
             verdict(row.fulfilled),
             *(num(getattr(row, name)) for name in LIFE_COLUMNS),
             integer(row.worst_node),
@@ -106,10 +40,10 @@ def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) ->
         Heading("arc length", "mm"),
         EVENT,
     )
-    return Table("worst-welds", headings, rows)
+    return PageTable("worst-welds", headings, rows)
 
 
-def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: str, label: str = "") -> Table:
+def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: str, label: str = "") -> PageTable:
     """Worst toe points of all welds, those that a bound has settled left out."""
     worst = (
         nodes[nodes["toe"] & (nodes["screened"] == "")]
@@ -119,7 +53,7 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
     rows = tuple(
         (
             integer(rank),
-            _linked(row.weld, links),
+            linked(row.weld, links),
             integer(row.node),
             text(row.surface),
             num(row.arc_length_mm),
@@ -147,10 +81,10 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
         EVENT,
         Heading("place", numeric=False),
     )
-    return Table(id_, headings, rows, label)
+    return PageTable(id_, headings, rows, label)
 
 
-def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
+def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
     """Every weld of the case: assessed, or not and why."""
     rows = tuple(_register_row(row, links) for row in welds.itertuples())
     headings = (
@@ -169,7 +103,7 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> Table:
         Heading("end length", "mm"),
         *LIFE,
     )
-    return Table("weld-register", headings, rows, "Find a weld")
+    return PageTable("weld-register", headings, rows, "Find a weld")
 
 
 def _status(row: Any) -> str:
@@ -188,7 +122,7 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
     """Cells of a weld; one that is not assessed has a name, a reason and perhaps a length, and dashes."""
     is_assessed = row.status == "assessed"
     return (
-        _linked(row.weld, links),
+        linked(row.weld, links),
         text(row.description),
         text(_status(row)),
         verdict(row.fulfilled) if is_assessed else text(None),
@@ -196,7 +130,7 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
         integer(row.nodes, grouped=True),
         integer(row.parts),
         text(None if pd.isna(row.closed) else "closed" if row.closed else "open"),
-        Cell(_span(row.thickness_min_mm, row.thickness_max_mm), num(row.thickness_min_mm).value),
+        span(row.thickness_min_mm, row.thickness_max_mm),
         text(row.surface),
         text(row.curve),
         text(row.survival),
@@ -205,7 +139,9 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
     )
 
 
-def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str], steps: Mapping[str, float]) -> Table:
+def event_table(
+    events: Sequence[Mapping[str, Any]], residues: Mapping[str, str], steps: Mapping[str, float]
+) -> PageTable:
     """Load definition: the events of the mission; ``steps`` [s] where the records were found."""
     rows = []
     for event in events:
@@ -239,29 +175,31 @@ def event_table(events: Sequence[Mapping[str, Any]], residues: Mapping[str, str]
         Heading("stress factor", "-"),
         Heading("residue", numeric=False),
     )
-    return Table("events", headings, tuple(rows))
+    return PageTable("events", headings, tuple(rows))
 
 
-def mode_table(modes: Mapping[str, Any]) -> Table:
+def mode_table(modes: Mapping[str, Any]) -> PageTable:
     """List the modes used."""
     rows = tuple(
         (integer(mode), num(frequency), text(kind))
         for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True)
     )
-    return Table(
+    return PageTable(
         "modes", (Heading("mode"), Heading("frequency", "Hz"), Heading("kind", numeric=False)), rows, "Find a mode"
     )
 
 
-def input_table(inputs: Sequence[Mapping[str, Any]]) -> Table:
+def input_table(inputs: Sequence[Mapping[str, Any]]) -> PageTable:
     """List the input files with their hashes."""
     rows = tuple(
         (Cell(i["file"]), Cell(size(i["bytes"]), float(i["bytes"])), Cell(i["sha256"], mark="hash")) for i in inputs
     )
-    return Table("inputs", (Heading("file", numeric=False), Heading("size"), Heading("SHA-256", numeric=False)), rows)
+    return PageTable(
+        "inputs", (Heading("file", numeric=False), Heading("size"), Heading("SHA-256", numeric=False)), rows
+    )
 
 
-def audit_table(conversion: Mapping[str, Any] | None) -> Table | None:
+def audit_table(conversion: Mapping[str, Any] | None) -> PageTable | None:
     """List what the conversion of foreign files found of signs, balance and completeness; None without a conversion."""
     if conversion is None:
         return None
@@ -270,10 +208,10 @@ def audit_table(conversion: Mapping[str, Any] | None) -> Table | None:
         for row in conversion["audit"]
     )
     words = tuple(Heading(name, numeric=name == "value") for name in ("check", "light", "value", "finding", "remedy"))
-    return Table("audit", words, rows)
+    return PageTable("audit", words, rows)
 
 
-def verification_table(checks: Sequence[Mapping[str, Any]]) -> Table | None:
+def verification_table(checks: Sequence[Mapping[str, Any]]) -> PageTable | None:
     """List the checks of the installed program against known answers; None where none was made."""
     if not checks:
         return None
@@ -302,12 +240,4 @@ def verification_table(checks: Sequence[Mapping[str, Any]]) -> Table | None:
         Heading("passed", numeric=False),
         Heading("source", numeric=False),
     )
-    return Table("verification", headings, rows, "Find a check")
-
-
-def _linked(weld: str, links: Mapping[str, str]) -> Cell:
-    return Cell(weld, link=links.get(weld, ""))
-
-
-def _span(low: float, high: float) -> str:
-    return number(low) if low == high or pd.isna(low) else f"{number(low)} to {number(high)}"
+    return PageTable("verification", headings, rows, "Find a check")

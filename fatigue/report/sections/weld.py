@@ -11,9 +11,9 @@ from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
 from fatigue.report.result import Result
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
-from fatigue.report.sections.tables import Table
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
 
@@ -33,10 +33,10 @@ class WeldPage:
     facts: list[tuple[str, str]]
     along: Shown
     point: list[Shown]
-    variants: Table
-    events: Table
+    variants: PageTable
+    events: PageTable
     events_left_out: int
-    levers: Table | None
+    levers: PageTable | None
     reasons: list[tuple[str, str, str]]
     exponents: Mapping[str, float]
     bounded: int

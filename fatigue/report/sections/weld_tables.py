@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from fatigue.report.sections.tables import Cell, Heading, Table, integer, num, percent
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent
 from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
 
 
@@ -43,8 +43,8 @@ def _raw_life(life_km: float) -> str:
     return "not counted, proven to be long enough" if np.isnan(life_km) else km(life_km)
 
 
-def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year: float) -> Table:
-    """Life with one assumption changed at a time; ``variants`` as `fatigue.report.variants.variants` makes them."""
+def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year: float) -> PageTable:
+    """Life with one assumption changed at a time; ``variants`` as ``fatigue.report.variants.variants`` makes them."""
     rows = []
     for assumption, choice, used, factor in variants.itertuples(index=False):
         life = np.inf if factor == 0.0 else life_km / factor
@@ -57,10 +57,10 @@ def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year:
         Heading("life", "years"),
         Heading("damage factor", "-"),
     )
-    return Table(id_, headings, tuple(rows))
+    return PageTable(id_, headings, tuple(rows))
 
 
-def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, float], most: int) -> Table:
+def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, float], most: int) -> PageTable:
     """List the events at one point, of many those that damage most; ``damage`` are rows of the table of damage."""
     weighted = damage["damage_per_pass"] * damage["event"].map(passes_per_km)
     total = weighted.sum()
@@ -97,10 +97,10 @@ def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, floa
         Heading("peaks", "1/s"),
         Heading("samples per peak", "-"),
     )
-    return Table(id_, headings, rows)
+    return PageTable(id_, headings, rows)
 
 
-def lever_table(id_: str, levers: pd.DataFrame) -> Table:
+def lever_table(id_: str, levers: pd.DataFrame) -> PageTable:
     """Say which mode, if 10 % smaller, buys most kilometres; ``levers`` has the columns of that table."""
     rows = tuple(
         (
@@ -125,4 +125,4 @@ def lever_table(id_: str, levers: pd.DataFrame) -> Table:
         Heading("life, counted again", "km"),
         Heading("gain", "km"),
     )
-    return Table(id_, headings, rows)
+    return PageTable(id_, headings, rows)

@@ -85,18 +85,18 @@ def choose(
     return Choice(np.union1d(_of_welds(body, must, welds), drawn), welds, what)
 
 
-def batches(body: Layout, welds: Sequence[int], modes: int, most: int) -> list[list[int]]:
-    """Divide welds into batches of so many forces, stations times modes; one at least."""
+def groups_of_welds(body: Layout, welds: Sequence[int], modes: int, most: int) -> list[list[int]]:
+    """Neighbouring welds in groups that have at most so many forces, stations times modes, or are one weld."""
     stations = np.diff(body.first)
-    found: list[list[int]] = [[]]
+    groups: list[list[int]] = [[]]
     held = 0
     for weld in welds:
-        if found[-1] and held + stations[weld] * modes > most:
-            found.append([])
+        if groups[-1] and held + stations[weld] * modes > most:
+            groups.append([])
             held = 0
-        found[-1].append(weld)
+        groups[-1].append(weld)
         held += int(stations[weld]) * modes
-    return found
+    return groups
 
 
 def _of_welds(body: Layout, points: NDArray[np.int64], welds: NDArray[np.int64]) -> NDArray[np.int64]:

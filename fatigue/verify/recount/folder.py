@@ -16,13 +16,29 @@ from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
-from fatigue.verify.recount.anew.point import Event, MeanStress, OnePass, Values, one_pass, point_of, point_values
+from fatigue.verify.recount.anew.point import (
+    MeanStress,
+    OnePass,
+    RecountEvent,
+    Values,
+    one_pass,
+    point_of,
+    point_values,
+)
 from fatigue.verify.recount.anew.record import read_record, spectrum_rules
-from fatigue.verify.recount.choice import MOST_SAMPLES, batches, choose, worst_points
-from fatigue.verify.recount.inputs.case import Inputs, Modes, open_inputs, read_modes
+from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
+from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, open_inputs, read_modes
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.stored.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
-from fatigue.verify.recount.stored.rows import Station, Weld, cycle_row, damage_row, node_row, stress_rows, weld_row
+from fatigue.verify.recount.stored.rows import (
+    RecountWeld,
+    Station,
+    cycle_row,
+    damage_row,
+    node_row,
+    stress_rows,
+    weld_row,
+)
 from fatigue.verify.recount.stored.sums import check_sums
 from fatigue.verify.recount.stored.tables import (
     Stored,
@@ -112,12 +128,12 @@ def recount(
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
     found: list[ColumnCheck] = []
-    mission: list[Event] = []
+    mission: list[RecountEvent] = []
     weld_of_point = body.weld[choice.points // 2]
-    for some in batches(body, np.unique(weld_of_point).tolist(), len(modes.mode), FORCES_AT_ONCE):
-        welds = _welds(inputs, modes, record, [body.welds[weld] for weld in some])
-        stations = _stations(body, welds, some)
-        points = choice.points[np.isin(weld_of_point, some)]
+    for group in groups_of_welds(body, np.unique(weld_of_point).tolist(), len(modes.mode), FORCES_AT_ONCE):
+        welds = _welds(inputs, modes, record, [body.welds[weld] for weld in group])
+        stations = _stations(body, welds, group)
+        points = choice.points[np.isin(weld_of_point, group)]
         values: dict[Key, Values] = {}
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
@@ -130,7 +146,7 @@ def recount(
             modes, {number: stations[number] for number in np.unique(points // 2).tolist()}, stored
         )
         found += _compared_welds(
-            {body.welds[weld]: welds[body.welds[weld]] for weld in some if weld in choice.welds},
+            {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds},
             stored,
             values,
             all_counted=all_counted,
@@ -148,14 +164,16 @@ def _senseless(sample: object, seed: object) -> Iterator[Problem]:
             yield Problem("argument", name, f"{given!r} is no whole number from 0 on", "Give one")
 
 
-def _samples(inputs: Inputs, record: Mapping[str, Any]) -> int:
+def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
     """Add up the samples on which a point is counted, as far as they are known before the records are read."""
     upsample = inputs.case.get("counting", {}).get("upsample", 1)
     factor = upsample if isinstance(upsample, int) else 1
     return factor * sum(int(event["samples"]) for event in record["mission"]["events"])
 
 
-def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any], names: Sequence[str]) -> dict[str, Weld]:
+def _welds(
+    inputs: RecountInputs, modes: RecountModes, record: Mapping[str, Any], names: Sequence[str]
+) -> dict[str, RecountWeld]:
     """Read and solve some welds."""
     parts: dict[str, list[Any]] = {name: [] for name in names}
     for solved in solved_lines(inputs, modes, names):
@@ -164,7 +182,7 @@ def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any], names: Seque
     for name in names:
         entry = inputs.register.welds[name]
         surface, curve = entry.surface or "both", entry.curve or inputs.case["curve"]["name"]
-        welds[name] = Weld(
+        welds[name] = RecountWeld(
             given={"closed": name in closed, "surface": surface},
             parts=tuple(parts[name]),
             curve_name=curve,
@@ -174,10 +192,10 @@ def _welds(inputs: Inputs, modes: Modes, record: Mapping[str, Any], names: Seque
     return welds
 
 
-def _stations(body: Layout, welds: Mapping[str, Weld], some: Sequence[int]) -> dict[int, Station]:
-    """Find the stations of some welds by their numbers in the layout."""
+def _stations(body: Layout, welds: Mapping[str, RecountWeld], group: Sequence[int]) -> dict[int, Station]:
+    """Stations of a group of welds by their numbers in the layout."""
     stations: dict[int, Station] = {}
-    for index in some:
+    for index in group:
         weld = welds[body.welds[index]]
         places = (Station(weld, solved, at) for solved in weld.parts for at in range(len(solved.line.order)))
         stations |= dict(enumerate(places, start=int(body.first[index])))
@@ -185,13 +203,13 @@ def _stations(body: Layout, welds: Mapping[str, Weld], some: Sequence[int]) -> d
 
 
 def _count(
-    inputs: Inputs,
-    modes: Modes,
+    inputs: RecountInputs,
+    modes: RecountModes,
     stations: Mapping[int, Station],
     fastest: Sequence[float],
     stored: Stored,
     cycles_of: frozenset[int],
-) -> tuple[dict[int, Passes], list[Event]]:
+) -> tuple[dict[int, Passes], list[RecountEvent]]:
     """Count every event at every point, one record in memory at a time; cycles are compared at once."""
     asked = inputs.case["curve"]
     mean_stress = MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
@@ -200,7 +218,7 @@ def _count(
     for number, given in enumerate(inputs.case["mission"]["event"]):
         record = read_record(inputs, given, modes, fastest[number])
         rules = spectrum_rules(inputs.case, modes, record.step)
-        events.append(Event(record.name, record.length_km, record.passes_per_km))
+        events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
         for point, station in stations.items():
             solved, at, curve, key = station.solved, station.at, station.weld.curve, stored.body.key(point)
@@ -217,7 +235,7 @@ def _count(
 
 
 def _values(
-    inputs: Inputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[Event]
+    inputs: RecountInputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[RecountEvent]
 ) -> dict[int, Values]:
     """Weight the events with the mission, point by point."""
     mission = inputs.case["mission"]
@@ -232,7 +250,7 @@ def _compared(
     stored: Stored,
     values: Mapping[int, Values],
     passes: Mapping[int, Passes],
-    events: Sequence[Event],
+    events: Sequence[RecountEvent],
     raw_life_enough: float,
 ) -> list[ColumnCheck]:
     """Set the recounted rows of some points beside the stored ones."""
@@ -255,7 +273,7 @@ def _compared(
     ]
 
 
-def _compared_stress(modes: Modes, stations: Mapping[int, Station], stored: Stored) -> list[ColumnCheck]:
+def _compared_stress(modes: RecountModes, stations: Mapping[int, Station], stored: Stored) -> list[ColumnCheck]:
     """Set the solved stress of some stations beside the stored one, few of them at a time."""
     numbers, m = np.array(list(stations)), len(modes.mode)
     checks: list[ColumnCheck] = []
@@ -273,7 +291,7 @@ def _compared_stress(modes: Modes, stations: Mapping[int, Station], stored: Stor
 
 
 def _compared_welds(
-    welds: Mapping[str, Weld], stored: Stored, values: Mapping[Key, Values], *, all_counted: bool
+    welds: Mapping[str, RecountWeld], stored: Stored, values: Mapping[Key, Values], *, all_counted: bool
 ) -> list[ColumnCheck]:
     """Set the rows of some welds beside the stored ones."""
     rows = [
@@ -288,6 +306,6 @@ def _compared_welds(
     return compare("welds", rows, _bins(list(welds.values())))
 
 
-def _bins(welds: Sequence[Weld]) -> dict[str, float]:
+def _bins(welds: Sequence[RecountWeld]) -> dict[str, float]:
     """Tolerances of columns that are read from a histogram where a curve bends."""
     return {} if all(weld.curve.is_straight for weld in welds) else {"load_factor": HISTOGRAM_BIN}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fatigue.case import load_case
-from fatigue.pipeline.count.group import GroupResult, arrays_of
+from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.pipeline.mission.events import mission_plan
 from fatigue.pipeline.run.work import Counted, open_work
 from fatigue.pipeline.solve.body import read_body
@@ -40,7 +40,7 @@ def test_stations_of_several_curves_come_back_in_their_places(results):
     for weld in range(4):
         rows = model.stations.weld == weld
         alone = plain[weld % 2][1]
-        assert np.array_equal(mixed.of_events[:, :, rows], alone.of_events[:, :, rows], equal_nan=True)
+        assert np.array_equal(mixed.event_columns[:, :, rows], alone.event_columns[:, :, rows], equal_nan=True)
         assert np.array_equal(mixed.of_mission[:, rows], alone.of_mission[:, rows], equal_nan=True)
         for name in ("governing", "verdict", "tier"):
             assert np.array_equal(getattr(mixed, name)[rows], getattr(alone, name)[rows])
@@ -51,17 +51,19 @@ def test_stations_of_several_curves_come_back_in_their_places(results):
 def test_events_and_mission_are_the_arrays_by_name(results):
     """What belongs together in one pass, and in the mission, does so in the views."""
     _, result = results[0]
-    assert len(result.events) == 3
-    for event in result.events:
-        assert (event.damage > 0.0).any()
-        assert (event.damage_same_ratio[event.damage > 0.0] > 0.0).all()
-        assert (event.max_equivalent_range[event.damage == 0.0] == 0.0).all()
-        assert event.histogram.size == 0
+    damage, same_ratio, largest, largest_dS = (
+        result.of_events(name)
+        for name in ("damage_per_pass", "damage_same_ratio_per_pass", "max_range_MPa", "max_equivalent_range_dS")
+    )
+    assert len(damage) == 3
+    assert (damage > 0.0).any(axis=(1, 2)).all()
+    assert (same_ratio[damage > 0.0] > 0.0).all()
+    assert (largest_dS[damage == 0.0] == 0.0).all()
     mission = result.mission
     damages = mission.damage_per_km > 0.0
     assert mission.life_km[damages] == pytest.approx(1.0 / mission.damage_per_km[damages], rel=1e-15)
     assert mission.utilisation == pytest.approx(1e6 * mission.damage_per_km, rel=1e-15)
-    assert np.array_equal(mission.max_range, np.max([event.max_range for event in result.events], axis=0))
+    assert np.array_equal(mission.max_range, largest.max(axis=0))
 
 
 def test_a_result_is_its_arrays(results):

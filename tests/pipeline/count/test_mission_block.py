@@ -5,8 +5,10 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
+from fatigue.life.counting.block import BlockCount
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.mission import Pass, Plan
+from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.pipeline.count.mission_block import mission_block
 
@@ -15,12 +17,23 @@ PLAN = Plan((Pass("a", 100, 2.0, 0.5, None), Pass("b", 100, 4.0, 0.5, None)), 1e
 
 
 def event(**values):
-    """An event block of one station, 0 unless said; values are (top, bottom)."""
-    arrays = {f.name: np.zeros((1, 2)) for f in fields(EventBlock)} | {
-        "histogram": np.zeros((1, 2, 0, 2)),
-        "verdict": np.zeros((1, 2), dtype=np.int8),
-    }
-    return EventBlock(**(arrays | {k: np.array([v], dtype=float) for k, v in values.items()}))
+    """An event of one station, 0 unless said; values are (top, bottom), their names those of its parts as well."""
+    numbers = {name: np.array([value], dtype=float) for name, value in values.items()}
+
+    def part(kind, **others):
+        names = {f.name for f in fields(kind)} - set(others)
+        return kind(**{name: numbers.pop(name, np.zeros((1, 2))) for name in names}, **others)
+
+    block = EventBlock(
+        estimate=part(Estimate, moments=np.zeros((4, 1, 2))),
+        count=part(BlockCount, histogram=np.zeros((1, 2, 0, 2)), mean=np.zeros((1, 2))),
+        damage_shear=numbers.pop("damage_shear", np.zeros((1, 2))),
+        shear_ratio=numbers.pop("shear_ratio", np.zeros((1, 2))),
+        damage_raw_end=numbers.pop("damage_raw_end", np.zeros((1, 2))),
+        verdict=np.zeros((1, 2), dtype=np.int8),
+    )
+    assert not numbers
+    return block
 
 
 def test_mission_of_two_events():
@@ -46,8 +59,9 @@ def test_quantities_of_the_governing_event_and_of_the_largest_cycle():
 
 def test_events_without_spectrum_stay_out_of_the_comparison():
     """Both sides of the ratio are summed over the same events; with none there is no estimate."""
-    a = event(damage=(4.0, 4.0), damage_same_ratio=(4.0, 4.0), damage_dirlik=(6.0, 6.0), damage_tb=(5.0, 5.0))
-    b = replace(a, damage_dirlik=np.full((1, 2), np.nan), damage_tb=np.full((1, 2), np.nan))
+    a = event(damage=(4.0, 4.0), damage_same_ratio=(4.0, 4.0), dirlik=(6.0, 6.0), tb=(5.0, 5.0))
+    nothing = np.full((1, 2), np.nan)
+    b = replace(a, estimate=replace(a.estimate, dirlik=nothing, tb=nothing))
     found = mission_block([a, b], PLAN, LAW)
     assert found.dirlik_ratio[0, 0] == pytest.approx(1.5)
     assert found.life_km_dirlik[0, 0] == pytest.approx(0.5 / (6.0 * 0.25))
@@ -74,6 +88,6 @@ def test_load_factor_with_a_knee_comes_from_the_histogram():
     bin_of = int(64 * (np.log10(x) + 3))
     histogram[..., bin_of, 0] = 1e3
     histogram[..., bin_of, 1] = 1e3 * x ** law.slopes[0]
-    found = mission_block([replace(event(), histogram=histogram)] * 2, PLAN, law)
+    found = mission_block([replace(event(), count=replace(event().count, histogram=histogram))] * 2, PLAN, law)
     assert found.utilisation[0, 0] == 0.0  # all cycles lie below the cut-off
     assert found.load_factor[0, 0] == pytest.approx(2.0, rel=0.04)

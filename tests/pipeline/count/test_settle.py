@@ -159,7 +159,7 @@ def test_large_jobs_are_screened_unasked_and_keep_the_cycles_that_matter(results
 
 def test_welds_may_be_bounded_in_parts(results, tmp_path, monkeypatch):
     """One weld at a time: other histories, bounds as safe, and nothing that is counted changes."""
-    monkeypatch.setattr("fatigue.pipeline.count.settle.WELD_BOUNDS_AT_ONCE", 1)
+    monkeypatch.setattr("fatigue.pipeline.count.weld_bound.WELD_BOUNDS_AT_ONCE", 1)
     assess(load_case(results / "case" / "case.toml"), tmp_path, share=SHARE, report=False)
     exact, together, parted = (
         pd.read_parquet(f / "nodes.parquet") for f in (results / "exact", results / "screened", tmp_path)

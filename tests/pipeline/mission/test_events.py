@@ -14,13 +14,12 @@ from fatigue.life.records import spool
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Spool
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.pipeline.mission import events
 from fatigue.pipeline.mission.events import event_load, event_loads, mission_plan, top_mode_hz, upper_hz
 from fatigue.pipeline.solve.body import read_body
-from fatigue.pipeline.solve.modal_stress import Shapes
+from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.weld_groups import weld_groups
-from tests.one_event import assess_event_block
+from tests.one_event import NO_RAW_ENDS, assess_event_block, numbers_of
 from tests.small_case import small_case
 
 
@@ -148,7 +147,7 @@ def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
 
 @pytest.mark.parametrize("upsample", [1, 2, "auto"])
 def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypatch, upsample):
-    """Statistics, spectra and diagnosis to 1e-12, for the fast kernel too; the counted samples exactly."""
+    """Statistics, spectra and trust to 1e-12, for the fast kernel too; the counted samples exactly."""
     case = small_case()
     case.counting["upsample"] = upsample
     body = body_of(case, tmp_path / "case")
@@ -172,10 +171,9 @@ def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypat
         pairs = [(a.mean, b.mean), (a.covariance, b.covariance)]
         if a.moments is not None:
             pairs += [(a.moments.matrix, b.moments.matrix)]
-            pairs += [(getattr(a.diagnosis.record, x), getattr(b.diagnosis.record, x)) for x in ("slow", "lines")]
+            pairs += [(getattr(a.trust.record, x), getattr(b.trust.record, x)) for x in ("slow", "lines")]
             pairs += [
-                (x.forms[: x.periods + 1], y.forms[: y.periods + 1])
-                for x, y in [(a.diagnosis.periods, b.diagnosis.periods)]
+                (x.forms[: x.periods + 1], y.forms[: y.periods + 1]) for x, y in [(a.trust.periods, b.trust.periods)]
             ]
         for mine, theirs in pairs:
             close = 1e-6 if mine.dtype == np.float32 else 1e-12
@@ -224,12 +222,12 @@ def test_a_block_of_stations_has_the_same_damage_from_disk_and_from_memory(tmp_p
     event = body.case.mission.event[number]
     law = damage_law(catalogue()["master-steel"], "mean-2sigma", extension, 1e7)
     S = np.random.default_rng(2).normal(size=(4, 5, 3))
-    shapes = Shapes(*S, size=np.full(5, 1.5), rule=CycleRule(law, True, 40.0, mean_stress=True))
-    held = assess_event_block(shapes, event_load(body, event, 2))
+    rule = CycleRule(law, uses_bending_ratio=True, yield_MPa=40.0, mean_stress=True)
+    stress = ModalStress(*S, size=np.full(5, 1.5), rule=rule, **NO_RAW_ENDS)
+    held = numbers_of(assess_event_block(stress, event_load(body, event, 2)))
     monkeypatch.setattr(spool, "CHUNK", 512)
     spooled = event_load(body, event, 2, scratch=tmp_path / "histories")
     assert isinstance(spooled.counted.q, Spool)
-    found = assess_event_block(shapes, spooled)
-    for name in EventBlock.__slots__:
-        close = 1e-9 if name == "kurtosis" else 1e-12
-        np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=close, atol=1e-13, err_msg=name)
+    for name, found in numbers_of(assess_event_block(stress, spooled)).items():
+        close = 1e-9 if name == "count.kurtosis" else 1e-12
+        np.testing.assert_allclose(found, held[name], rtol=close, atol=1e-13, err_msg=name)

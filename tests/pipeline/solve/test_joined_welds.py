@@ -13,8 +13,7 @@ from fatigue.check import check_case
 from fatigue.errors import DataError
 from fatigue.pipeline.solve.model import read_model
 from fatigue.readers.convert.convert import convert
-from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.convert.weld_lines import WeldSources
+from fatigue.readers.convert.options import ConvertOptions, WeldSources
 from fatigue.verify.recount import recount
 from tests.readers.box_model import HIGH, LOW, box, corner_nodes
 from tests.readers.op2_writer import modal_op2

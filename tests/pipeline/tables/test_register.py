@@ -6,7 +6,8 @@ import pandas as pd
 
 from fatigue.assess import assess
 from fatigue.case import load_case
-from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, register_text
+from fatigue.readers.neutral.register.register_file import register_text
+from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.results.summary import result_summary
 from tests.small_case import small_case
 

@@ -1,7 +1,5 @@
 """Rows of the result tables: order of points, events and modes, and what is missing."""
 
-from dataclasses import fields
-
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
@@ -9,9 +7,8 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.life.mission import Pass, Plan
-from fatigue.pipeline.count.event_block import EventBlock
-from fatigue.pipeline.count.mission_block import MissionBlock
-from fatigue.pipeline.count.piece import TIERS
+from fatigue.pipeline.count.block import TIERS
+from fatigue.pipeline.count.result import OF_EVENT, GroupResult
 from fatigue.pipeline.solve.model import read_model
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
 from fatigue.results import table_writer
@@ -27,10 +24,13 @@ def model(tmp_path_factory):
     return read_model(load_case(small_case().write(tmp_path_factory.mktemp("case"))), strict=False)
 
 
-def numbered(kind, stations, first, **codes):
-    """Give every quantity of a block numbers of its own, counted up over stations and faces."""
-    numbers = np.arange(2.0 * stations).reshape(stations, 2)
-    return kind(**{f.name: numbers + first + 100.0 * i for i, f in enumerate(fields(kind))} | codes)
+def numbered(stations, events):
+    """A result in which every quantity has numbers of its own, counted up over stations and faces."""
+    result = GroupResult.empty(events, stations)
+    for array in (result.event_columns, result.of_mission):
+        array[...] = 0.25 + np.arange(array.size).reshape(array.shape)
+    result.verdicts[...], result.verdict[...], result.governing[...], result.tier[...] = 0, 0, 1, 0
+    return result
 
 
 def written(folder, table, rows):
@@ -44,15 +44,13 @@ def written(folder, table, rows):
 def test_points_come_station_by_station_top_before_bottom(model, tmp_path):
     """Texts by their codes; event -1 and NaN are null, tier 0 is empty."""
     n = len(model.stations)
-    governing, verdict = np.ones((n, 2), dtype=np.int64), np.zeros((n, 2), dtype=np.int8)
-    governing[3, 1], verdict[3, 1] = -1, 4
-    block = numbered(MissionBlock, n, 0.5, governing=governing, verdict=verdict)
-    block.shear_ratio[2, 0] = np.nan
-    tier = np.zeros(n, dtype=np.int8)
-    tier[5] = 2
-    nodes = written(tmp_path, "nodes", node_rows(model.stations, block, tier, PLAN))
+    result = numbered(n, len(PLAN.passes))
+    block = result.mission
+    block.governing[3, 1], block.verdict[3, 1], block.shear_ratio[2, 0], result.tier[5] = -1, 4, np.nan, 2
+    nodes = written(tmp_path, "nodes", node_rows(model.stations, result, PLAN))
 
     assert list(nodes["weld"]) == ["A"] * 14 + ["B"] * 14
+    assert nodes["toe"].tolist() == model.stations.toe.ravel().tolist()
     assert list(nodes["surface"]) == ["top", "bottom"] * n
     assert list(nodes["node"]) == list(np.repeat(model.stations.node, 2))
     assert list(nodes["life_km"]) == list(block.life_km.ravel())
@@ -67,20 +65,20 @@ def test_points_come_station_by_station_top_before_bottom(model, tmp_path):
 def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path):
     """Per km where a pass has a length, null where it has none."""
     n = len(model.stations)
-    verdict = {"verdict": np.zeros((n, 2), dtype=np.int8)}
-    events = [numbered(EventBlock, n, first, **verdict) for first in (0.25, 5000.25)]
-    damage = written(tmp_path, "damage", damage_rows(model.stations, events, PLAN, slice(None)))
+    result = numbered(n, len(PLAN.passes))
+    damage = written(tmp_path, "damage", damage_rows(model.stations, result, PLAN, slice(None)))
 
     assert list(damage["event"]) == ["run", "lift"] * (2 * n)
     assert list(damage["surface"][:4]) == ["top", "top", "bottom", "bottom"]
     run, lift = damage[::2], damage[1::2]
-    for name, per_pass in (("damage", "damage_per_pass"), ("kurtosis", "kurtosis"), ("mean", "mean_stress_MPa")):
-        assert list(run[per_pass]) == list(getattr(events[0], name).ravel())
-        assert list(lift[per_pass]) == list(getattr(events[1], name).ravel())
-    assert list(run["cycles_per_km"]) == list(events[0].cycles.ravel() / 2.0)
+    for name in OF_EVENT:
+        of_run, of_lift = result.of_events(name)
+        assert list(run[name]) == list(of_run.ravel())
+        assert list(lift[name]) == list(of_lift.ravel())
+    assert list(run["cycles_per_km"]) == list(result.of_events("cycles_per_pass")[0].ravel() / 2.0)
     assert lift["cycles_per_km"].isna().all()
 
-    part = written(tmp_path / "part", "damage", damage_rows(model.stations, events, PLAN, slice(5, 9)))
+    part = written(tmp_path / "part", "damage", damage_rows(model.stations, result, PLAN, slice(5, 9)))
     pd.testing.assert_frame_equal(part, damage[4 * 5 : 4 * 9].reset_index(drop=True))
 
 
@@ -92,7 +90,7 @@ def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
         assert list(rows[f"{component}_MPa"]) == list(getattr(model.stations.treated, component).ravel())
         raw = getattr(model.stations.treated, component).copy()
-        raw[model.stations.raw_rows] = getattr(model.stations.raw, component)
+        raw[model.stations.raw_ends.rows] = getattr(model.stations.raw_ends.stress, component)
         assert list(rows[f"{component}_raw_MPa"]) == list(raw.ravel())
     part = written(tmp_path / "part", "structural_stress", stress_rows(model.stations, model.modes.mode, slice(5, 9)))
     pd.testing.assert_frame_equal(part, rows[15:27].reset_index(drop=True))

@@ -12,13 +12,13 @@ from fatigue.errors import CaseError, DataError
 from fatigue.readers.convert.case_text import register_named
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.folder import TABLES
-from fatigue.readers.convert.modal_basis import mode_list
-from fatigue.readers.convert.options import ConvertOptions
-from fatigue.readers.convert.weld_lines import WeldSources, list_welds
-from fatigue.readers.neutral.body import read_mesh, read_modes, read_weld_nodes, read_welds
-from fatigue.readers.neutral.forces.tables import read_element_forces, read_weld_elements
+from fatigue.readers.convert.options import ConvertOptions, WeldSources
+from fatigue.readers.convert.weld_lines import list_welds
+from fatigue.readers.neutral.body import read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.history import read_history
 from fatigue.weld.element_forces import balance, side_forces
+from tests.readers.neutral_tables import read_weld_nodes
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
 
@@ -585,13 +585,6 @@ def test_wing_box_from_inches(tmp_path):
             sums[node] = sums.get(node, 0.0) + f
     assert len(sums) == 8 * 31
     assert np.abs(list(sums.values())).max() < 1e-6 * largest
-
-
-def test_mode_lists():
-    """Lists and ranges of modes; anything else is refused."""
-    assert mode_list("1-3, 7") == (1, 2, 3, 7)
-    with pytest.raises(CaseError, match="no mode or range"):
-        mode_list("1-x")
 
 
 def test_a_check_to_accept_that_there_is_not(files):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.convert.weld_lines import WeldSources, find_welds
+from fatigue.readers.convert.options import WeldSources
+from fatigue.readers.convert.weld_lines import find_welds
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
 from tests.readers.box_model import box, corner_nodes
 

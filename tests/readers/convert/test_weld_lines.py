@@ -5,10 +5,11 @@ from itertools import pairwise
 import pytest
 
 from fatigue.errors import CaseError, DataError
-from fatigue.readers.convert.weld_lines import WeldSources, find_welds, list_welds
+from fatigue.readers.convert.options import WeldSources
+from fatigue.readers.convert.weld_lines import find_welds, list_welds
 from fatigue.readers.foreign.fe.model import in_mm
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
-from fatigue.readers.neutral.register.weld_register import open_register, register_text
+from fatigue.readers.neutral.register.register_file import open_register, register_text
 from tests.readers.tee_model import bulk, tee
 
 

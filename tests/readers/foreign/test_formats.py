@@ -1,35 +1,42 @@
-"""Foreign formats are told by their content."""
+"""Each foreign format is one entry, of which all that is said about it is made."""
+
+import inspect
 
 import pytest
 
-from fatigue.errors import DataError
-from fatigue.readers.foreign.formats import recognise
+from fatigue.extras import REQUIREMENTS
+from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, all_formats, formats_called
+
+PARAMETERS = {
+    FORCES: ["path", "subcase", "interface"],
+    MESH: ["path"],
+    COORDINATES: ["path", "columns", "time_column"],
+}
 
 
-@pytest.mark.parametrize(
-    "data",
-    [
-        b"GRID,1\n",
-        b"  include 'a.inc'\n",
-        b'INCLUDE"a.inc"\n',
-        b"$ only\nCORD2R,1\n",
-        b"begin,bulk\n",
-        b"PSHELL  1\n",
-        b"GRID,1\n\x1a",
-        b"GRID,1\n\x1a\0\0",
-        "GRID,1\n".encode("utf-16"),
-    ],
-)
-def test_bulk_data(tmp_path, data):
-    """Decks of all kinds, with the end marks of old systems, in two bytes for each letter."""
-    path = tmp_path / "a.bdf"
-    path.write_bytes(data)
-    assert recognise(path) == "bdf"
+def test_no_two_formats_are_told_alike():
+    """Keys, names, endings and places in the list differ; one format alone is what no signature tells."""
+    for told in ("key", "name", "ending", "place"):
+        assert len({getattr(form, told) for form in FORMATS}) == len(FORMATS), told
+    assert [form.key for form in FORMATS if form.is_plain_text] == ["text"]
+    assert not [form.key for form in FORMATS if form.starts and form.looks_like]
 
 
-def test_binary_files_are_no_text(tmp_path):
-    """A file with zeros within is none."""
-    path = tmp_path / "a.bdf"
-    path.write_bytes(b"GRID,1\0GRID,2\n")
-    with pytest.raises(DataError, match="unknown binary format"):
-        recognise(path)
+@pytest.mark.parametrize("form", FORMATS, ids=lambda form: form.key)
+def test_an_entry_leads_to_its_readers(form):
+    """Every function is there and takes what it is called with; a package that it needs has a version to install."""
+    assert form.reads
+    if form.extra is not None:
+        pytest.importorskip(form.extra.package)
+    for content, reader in form.reads.items():
+        assert list(inspect.signature(reader.load()).parameters) == PARAMETERS[content]
+    assert not form.looks_like or form.fits_text("nothing at all") is False
+    assert form.extra is None or form.extra.package in REQUIREMENTS
+
+
+def test_what_messages_say_of_the_formats():
+    """The usual one first, all of them in one list."""
+    assert formats_called(FORCES) == "an .op2, an MSC .h5 or a punch file"
+    assert formats_called(MESH) == "the deck (.bdf, .dat) or the MSC .h5"
+    assert formats_called(COORDINATES) == "a text table, .parquet or .mcf"
+    assert all_formats() == ".op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table"

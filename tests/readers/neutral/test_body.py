@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.body import Weld, read_mesh, read_modes, read_weld_nodes, read_welds
-from tests.readers.neutral_tables import MODES, WELD_NODES, WELDS, changed, picked, without, write
+from fatigue.readers.neutral.body import Weld, read_mesh, read_modes, read_welds
+from tests.readers.neutral_tables import MODES, WELD_NODES, WELDS, changed, picked, read_weld_nodes, without, write
 
 NODES = {"node": [3, 1, 2, 4], "x_mm": [1.0, 0.0, 1.0, 0.0], "y_mm": [1.0, 0.0, 0.0, 1.0], "z_mm": [0.0] * 4}
 ELEMENTS = {"element": [9, 8], "n1": [1, 1], "n2": [2, 2], "n3": [3, 3], "n4": [4, None], "pid": [5, None]}

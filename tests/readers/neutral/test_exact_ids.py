@@ -8,8 +8,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import CaseError
-from fatigue.readers.convert.modal_basis import mode_list
-from fatigue.readers.neutral.body import read_mesh, read_modes, read_weld_nodes, read_welds
+from fatigue.readers.convert.mode_list import mode_list
+from fatigue.readers.neutral.body import read_mesh, read_modes, read_welds
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.verify.recount.inputs.tables import read_frame, read_rows_where
 from tests.readers import neutral_tables as neutral
@@ -114,7 +114,7 @@ def test_large_ids_in_every_table(tmp_path, suffix):
     assert read_modes(modes, (), strict=False)[0].mode.tolist() == [BIG, BIG + 1]
     welds = read_welds(neutral.write(tmp_path / f"w{suffix}", neutral.WELDS), {"master-steel"}, strict=False)[0]
     columns = neutral.WELD_NODES | {name: [v + BIG for v in neutral.WELD_NODES[name]] for name in ("node", "order")}
-    lines, _ = read_weld_nodes(neutral.write(tmp_path / f"n{suffix}", columns), welds, strict=False)
+    lines, _ = neutral.read_weld_nodes(neutral.write(tmp_path / f"n{suffix}", columns), welds, strict=False)
     assert lines.node.tolist() == columns["node"]
     assert lines.order.tolist() == columns["order"]
     nodes = {"node": [BIG + k for k in range(4)], **{f"{a}_mm": [0.0, 1.0, 1.0, 0.0] for a in "xyz"}}

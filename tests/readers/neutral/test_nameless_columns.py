@@ -3,7 +3,8 @@
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.forces.order import parted, weld_codes
+from fatigue.readers.neutral.forces.sorted_copy import sorted_copy
+from fatigue.readers.neutral.forces.weld_codes import weld_codes
 from fatigue.readers.neutral.tables import Table, open_table
 from tests.readers import neutral_tables as neutral
 
@@ -60,10 +61,10 @@ def test_rows_of_empty_cells_are_no_rows(tmp_path, text):
     assert table.row_name(1) == ("row 2" if text.startswith("a,b") else "row 3")
 
 
-def test_rows_of_empty_cells_in_forces_that_are_parted(tmp_path):
+def test_rows_of_empty_cells_in_forces_that_are_sorted(tmp_path):
     """A table that is read in pieces has none either."""
     columns = neutral.nodal_forces()
     path = neutral.write(tmp_path / "f.csv", columns)
     path.write_text(path.read_text() + "," * (len(columns) - 1) + "\n")
-    source = parted(path, weld_codes([("seam", "ring")]), tmp_path / "scratch")
+    source = sorted_copy(path, weld_codes([("seam", "ring")]), tmp_path / "scratch")
     assert sum(source.rows) == len(columns["weld"])

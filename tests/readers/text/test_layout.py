@@ -7,7 +7,7 @@ import pyarrow as pa
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.files import csv_batches
+from fatigue.readers.neutral.csv_columns import csv_batches
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.text.layout import table_layout
 from fatigue.readers.text.numbers import as_numbers, is_number, plain_number, split_fields

@@ -18,7 +18,7 @@ from fatigue.readers.convert.audit.sign_proof import prove_sign
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import REQUEST, SHELL_KINDS, FeResults
 from fatigue.readers.neutral.body import LOWEST_HZ
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.weld.element_forces import BALANCE_RED, ElementForces, balance
 
 Light = Literal["green", "amber", "red"]

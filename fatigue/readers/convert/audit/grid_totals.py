@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 TOLERANCE = 1e-3
 """Of the largest row of the grid, or a thousandth of the mode's largest."""

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.neutral.body import LOWEST_HZ
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 WORK_TOLERANCE = 2e-3
 _CLEAR = 1e-4

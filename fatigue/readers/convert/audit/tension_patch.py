@@ -4,7 +4,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.forces.tables import Convention
+from fatigue.readers.neutral.forces.convention import Convention
 
 LOAD_N = 100.0
 _LOADED = (2, 3)

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from fatigue.errors import CaseError, DataError, Problem
 from fatigue.readers.convert.audit.audit import AuditRow
 from fatigue.readers.convert.displacement.nodes import with_other_node
-from fatigue.readers.convert.displacement.record import Displacement, DisplacementRecord
+from fatigue.readers.convert.displacement.record import DisplacementRecord
 from fatigue.readers.convert.displacement.side_by_side import causes_of, compared
 from fatigue.readers.convert.displacement.verdict import CHECK, judged
+from fatigue.readers.convert.options import Displacement
 from fatigue.readers.convert.weld_forces import coordinate_units
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import FeResults

@@ -3,42 +3,20 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import CaseError, DataError, Problem
+from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.results import is_sound
-from fatigue.readers.foreign.formats import read_coordinates
+from fatigue.readers.foreign.read import read_coordinates
 from fatigue.readers.units.coordinate_units import states_no_unit
 
 Floats = NDArray[np.float64]
-Direction = Literal["x", "y", "z"]
 
 _IN_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4, "µm": 1e-3, "um": 1e-3}
 _UNIT = re.compile(r"(?:\A|[_\s,/]|[\[(]\s*)(mm|cm|m|in|inch|[µμu]m)\s*[\])]?\s*\Z", re.IGNORECASE)
 _OTHER_UNIT = re.compile(r"\[([^\]]*[^\W\d_][^\]]*)\]\s*\Z")
-
-
-@dataclass(frozen=True, slots=True)
-class Displacement:
-    """File of an elastic displacement over time, the FE node that moves, and the direction in the basic frame."""
-
-    file: Path
-    node: int
-    direction: Direction
-
-    def __post_init__(self) -> None:
-        """Take text for a path.
-
-        Raises
-        ------
-        CaseError : another direction
-        """
-        object.__setattr__(self, "file", Path(self.file))
-        if self.direction not in get_args(Direction):
-            raise CaseError(Problem("direction", "displacement", f"{self.direction!r} is none", "Give x, y or z"))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

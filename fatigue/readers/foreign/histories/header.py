@@ -12,8 +12,9 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.histories.rows import Rows, is_rule
-from fatigue.readers.text.layout import COMMENTS, SEPARATORS, declared_separator
+from fatigue.readers.text.layout import COMMENTS
 from fatigue.readers.text.numbers import Decimal, is_number, plain_number, split_fields
+from fatigue.readers.text.separator import SEPARATORS, declared_separator
 from fatigue.readers.units.channel_names import (
     TIME_UNITS,
     Channel,

@@ -1,6 +1,7 @@
 """Modal coordinates of an ANSYS ``.mcf`` file: text, long rows wrapped or not."""
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -26,13 +27,17 @@ def is_mcf(head: str) -> bool:
     return _COUNT.search(head) is not None and (_TABLE.search(head) or _TITLE.search(head)) is not None
 
 
-def read_mcf(path: Path) -> ForeignHistory:
+def read_mcf(path: Path, columns: Mapping[str, int] | None = None, time_column: str | None = None) -> ForeignHistory:
     """Read times and modal coordinates of a transient run, mode numbers and frequencies.
 
     Raises
     ------
-    DataError : unreadable, no such file, harmonic coordinates, a table that is cut or holds no numbers
+    DataError : columns are asked for by names, which there are none of; unreadable, no such file, harmonic coordinates,
+        a table that is cut or holds no numbers
     """
+    if columns is not None or time_column is not None:
+        what = "an .mcf file has no names of columns, for --columns or --time-column"
+        raise DataError(Problem("no_column", str(path), what, "Leave the options out, or export a table"))
     text, _ = read_text(path)
     count, table = _COUNT.search(text), _TABLE.search(text)
     if count is None or table is None:

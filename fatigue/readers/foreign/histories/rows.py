@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.text.encoding import Encoding, read_text
-from fatigue.readers.text.layout import COMMENTS, text_lines
+from fatigue.readers.text.layout import COMMENTS
+from fatigue.readers.text.lines import text_lines
 from fatigue.readers.text.no_rows import THOUSANDS, no_rows_problem
 from fatigue.readers.text.numbers import Decimal, is_gap, is_number, split_fields, written_apart
 from fatigue.readers.units.channel_names import time_unit_in

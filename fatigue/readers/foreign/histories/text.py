@@ -16,7 +16,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.naming import composed
+from fatigue.files.naming import composed
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, check_values
 from fatigue.readers.foreign.histories.header import Header, header_frequencies, read_header
 from fatigue.readers.foreign.histories.rows import find_rows, read_values
@@ -26,10 +26,10 @@ from fatigue.readers.foreign.histories.statements import (
     stated_time_unit,
     statement_problems,
 )
+from fatigue.readers.neutral.column_values import seconds_of
 from fatigue.readers.neutral.files import open_columns
-from fatigue.readers.neutral.tables import seconds_of
 from fatigue.readers.text.encoding import read_head
-from fatigue.readers.text.layout import text_lines, whole_cells
+from fatigue.readers.text.lines import text_lines, whole_cells
 from fatigue.readers.units.channel_names import Channel, channel, seconds_per, unit_of_time, without_unit_one
 
 _COUNT_NAME = re.compile(

@@ -62,7 +62,7 @@ def registered_lines(
 def unconfirmed_thickness(lines: LineStack, register: Registered) -> list[Problem]:
     """Tell the thicknesses written into the register that nobody has confirmed and the tables do not have."""
     place = {name: at for at, name in enumerate(lines.weld)}
-    doubts = []
+    warnings = []
     for name, where, wanted in register.unconfirmed:
         there = lines[place[name]].thickness
         thinnest, thickest = float(there.min()), float(there.max())
@@ -70,8 +70,8 @@ def unconfirmed_thickness(lines: LineStack, register: Registered) -> list[Proble
             own = f"{thinnest:g} mm" if thinnest == thickest else f"{thinnest:g} to {thickest:g} mm"
             what = f"{wanted:g} mm is not confirmed, and the weld is assessed with the {own} of the tables"
             remedy = "Write true under confirmed to have it, or empty the cell"
-            doubts.append(Problem("unconfirmed_thickness", where, what, remedy))
-    return doubts
+            warnings.append(Problem("unconfirmed_thickness", where, what, remedy))
+    return warnings
 
 
 def registered_sides(

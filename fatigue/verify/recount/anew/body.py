@@ -9,8 +9,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.joined import put_together, side_of, with_thickness
-from fatigue.verify.recount.anew.line import CORNER_DEG, Line, LineStress, edges, kinks, line_stress
-from fatigue.verify.recount.inputs.case import Inputs, Modes, column, flags
+from fatigue.verify.recount.anew.line import CORNER_DEG, Line, RecountLineStress, edges, kinks, line_stress
+from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, column, flags
 from fatigue.verify.recount.inputs.register import WeldEntry
 from fatigue.verify.recount.inputs.tables import FORCE_COLUMNS, read_pieces, read_rows_where
 from fatigue.verify.recount.layout import Layout
@@ -22,7 +22,7 @@ Corners = dict[tuple[int, int], Floats]
 _WELDS_AT_ONCE = 1000  # whose geometry is in memory
 
 
-def layout(inputs: Inputs) -> Layout:
+def layout(inputs: RecountInputs) -> Layout:
     """Find where the points are: the keys of all stations, without the forces and without keeping the geometry."""
     welds = tuple(inputs.register.welds)
     if "nodal_forces" in inputs.case["body"]:
@@ -30,27 +30,27 @@ def layout(inputs: Inputs) -> Layout:
     weld, part, order = [], [], []
     for first in range(0, len(welds), _WELDS_AT_ONCE):
         for line in _lines(inputs, welds[first : first + _WELDS_AT_ONCE]):
-            for piece in split(line):
-                weld.append(np.full(len(piece.order), welds.index(line.weld, first), dtype=np.int32))
-                part.append(np.full(len(piece.order), piece.part, dtype=np.int64))
-                order.append(piece.order)
+            for of_part in split(line):
+                weld.append(np.full(len(of_part.order), welds.index(line.weld, first), dtype=np.int32))
+                part.append(np.full(len(of_part.order), of_part.part, dtype=np.int64))
+                order.append(of_part.order)
     return Layout(welds, np.concatenate(weld), np.concatenate(part), np.concatenate(order))
 
 
-def _unsplit(inputs: Inputs, welds: tuple[str, ...]) -> Layout:
+def _unsplit(inputs: RecountInputs, welds: tuple[str, ...]) -> Layout:
     """Lay out lines whose forces are summed already; a kink is then no reason to split."""
     place = {inputs.register.welds[name].sources[0]: i for i, name in enumerate(welds)}
     welds_of, orders = [], []
     for whole in read_pieces(inputs.path("weld_nodes"), ("weld", "order")):
-        piece = whole[whole["weld"].isin(place)]
-        welds_of.append(piece["weld"].map(place).to_numpy(dtype=np.int32))
-        orders.append(piece["order"].to_numpy(copy=True))  # of a piece, which need not stay for it
+        rows = whole[whole["weld"].isin(place)]
+        welds_of.append(rows["weld"].map(place).to_numpy(dtype=np.int32))
+        orders.append(rows["order"].to_numpy(copy=True))  # the other columns need not stay for it
     weld, order = np.concatenate(welds_of), np.concatenate(orders)
     ascending = np.lexsort((order, weld))
     return Layout(welds, weld[ascending], np.ones(len(weld), dtype=np.int64), order[ascending])
 
 
-def solved_lines(inputs: Inputs, modes: Modes, welds: Sequence[str]) -> list[LineStress]:
+def solved_lines(inputs: RecountInputs, modes: RecountModes, welds: Sequence[str]) -> list[RecountLineStress]:
     """Read and solve every line part of some welds, in their order."""
     lines = _lines(inputs, welds)
     if "nodal_forces" in inputs.case["body"]:
@@ -58,7 +58,7 @@ def solved_lines(inputs: Inputs, modes: Modes, welds: Sequence[str]) -> list[Lin
     return list(_with_element_forces(lines, inputs, modes))
 
 
-def closed_welds(inputs: Inputs, welds: Sequence[str]) -> set[str]:
+def closed_welds(inputs: RecountInputs, welds: Sequence[str]) -> set[str]:
     """Find which of some welds close: as the tables say, or, of several lines, as these meet."""
     entries = [inputs.register.welds[weld] for weld in welds]
     several = [entry.name for entry in entries if len(entry.sources) > 1]
@@ -66,16 +66,16 @@ def closed_welds(inputs: Inputs, welds: Sequence[str]) -> set[str]:
     return closed | {entry.name for entry in entries if entry.closed and len(entry.sources) == 1}
 
 
-def _lines(inputs: Inputs, welds: Sequence[str]) -> list[Line]:
+def _lines(inputs: RecountInputs, welds: Sequence[str]) -> list[Line]:
     """Read the lines of some welds."""
     entries = [inputs.register.welds[weld] for weld in welds]
     sources = [source for entry in entries for source in entry.sources]
     by_weld = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", sources).groupby("weld")))
-    pieces = [_pieces(entry, by_weld) for entry in entries]
-    return [some[0] if len(some) == 1 else put_together(some)[0] for some in pieces]
+    lines_of_weld = [_source_lines(entry, by_weld) for entry in entries]
+    return [lines[0] if len(lines) == 1 else put_together(lines)[0] for lines in lines_of_weld]
 
 
-def _pieces(entry: WeldEntry, by_weld: Mapping[str, pd.DataFrame]) -> list[Line]:
+def _source_lines(entry: WeldEntry, by_weld: Mapping[str, pd.DataFrame]) -> list[Line]:
     """Lines in the tables that make a weld, under its name."""
     end_length = None if np.isnan(entry.end_length) else entry.end_length
     lines = [_line(by_weld[s], entry.name, closed=entry.closed, end_length=end_length) for s in entry.sources]
@@ -103,7 +103,7 @@ def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | No
     )
 
 
-def _with_nodal_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Iterator[LineStress]:
+def _with_nodal_forces(lines: list[Line], inputs: RecountInputs, modes: RecountModes) -> Iterator[RecountLineStress]:
     """Solve lines whose forces are summed already; a kink is then no reason to split."""
     source = {line.weld: inputs.register.welds[line.weld].sources[0] for line in lines}
     frame = read_rows_where(inputs.path("nodal_forces"), "weld", list(source.values()))
@@ -116,7 +116,7 @@ def _with_nodal_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Itera
         yield line_stress(line, forces * modes.force_factor[:, None])
 
 
-def _with_element_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Iterator[LineStress]:
+def _with_element_forces(lines: list[Line], inputs: RecountInputs, modes: RecountModes) -> Iterator[RecountLineStress]:
     """Split every line at its kinks and sum the forces of the assessed side's elements per part."""
     entries = {line.weld: inputs.register.welds[line.weld] for line in lines}
     sources = [source for entry in entries.values() for source in entry.sources]
@@ -130,8 +130,8 @@ def _with_element_forces(lines: list[Line], inputs: Inputs, modes: Modes) -> Ite
         rows = frame[frame["element"].isin(set().union(*own))]
         if len(own) > 1:
             nodes = {element: set(some) for element, some in rows.groupby("element")["node"]}
-            pieces = _pieces(entry, of_lines)
-            rows = rows[rows["element"].isin(side_of(own, pieces, put_together(pieces)[1], nodes))]
+            to_join = _source_lines(entry, of_lines)
+            rows = rows[rows["element"].isin(side_of(own, to_join, put_together(to_join)[1], nodes))]
         corners: Corners = {
             key: group[FORCE_COLUMNS].to_numpy(dtype=float) * modes.force_factor[:, None]
             for key, group in rows.groupby(["element", "node"])

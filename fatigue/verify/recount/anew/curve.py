@@ -32,7 +32,7 @@ class Given:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Curve:
+class RecountCurve:
     """A curve in log-log axes: slope of each segment and one point (ln cycles, ln range) on it, ranges at the knees.
 
     Ranges below ``cutoff`` do no damage. ``on_equivalent`` tells curves in dS from those in structural stress, whose
@@ -89,7 +89,7 @@ class Curve:
         return float((thickness / self.thickness_reference) ** self.thickness_exponent)
 
 
-def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> Curve:
+def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> RecountCurve:
     """Make a curve as the case asks for it.
 
     Master curves are those of this module, curves of the case those of its text; what else the catalogue holds is taken
@@ -111,7 +111,7 @@ def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -
         knees_cycles = (asked.get("knee_cycles", 1e7),)
         slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
     points, knees = _through(given.ranges[level], given.reference_cycles, slopes, knees_cycles)
-    return Curve(
+    return RecountCurve(
         slopes=slopes,
         points=points,
         knees=knees[: len(slopes) - 1],

@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cycles:
+class RecountCycles:
     """Sample indices of the two reversals of each cycle, and its count, 1 or 0.5."""
 
     start: NDArray[np.int64]
@@ -18,7 +18,7 @@ class Cycles:
     count: Floats
 
 
-def count_cycles(stress: Floats, *, recurs: bool) -> Cycles:
+def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
     """Count a single pass with half cycles (ASTM E1049-85 5.4.4), or a block that recurs with whole ones (5.4.5).
 
     A block that recurs is turned to begin at its largest sample and closed there; what the package then leaves as two
@@ -34,7 +34,7 @@ def count_cycles(stress: Floats, *, recurs: bool) -> Cycles:
         found = _halves_joined(found, path)
     table = np.array(found, dtype=float).reshape(-1, 3)
     start, end = ((table[:, k].astype(np.int64) + first) % n for k in (0, 1))
-    return Cycles(start, end, table[:, 2])
+    return RecountCycles(start, end, table[:, 2])
 
 
 def _last_of_maximum(stress: Floats) -> int:

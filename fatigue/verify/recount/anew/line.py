@@ -39,7 +39,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LineStress:
+class RecountLineStress:
     """Stress of a line per unit modal coordinate.
 
     ``raw`` and ``treated`` are (n, m, 5) [MPa]: membrane, bending, in-plane shear, twist shear, transverse shear.
@@ -53,14 +53,14 @@ class LineStress:
     at_corner: NDArray[np.bool_]
 
 
-def line_stress(line: Line, forces: Floats) -> LineStress:
+def line_stress(line: Line, forces: Floats) -> RecountLineStress:
     """Solve a line for all modes; ``forces`` is (n, m, 6) [N, N mm] on the assessed elements, global axes."""
     n = len(line.node)
     load: Floats = np.asarray(np.linalg.solve(mass_matrix(line), forces.reshape(n, -1))).reshape(forces.shape)
     treated, at_end = treat_ends(line, load)
     at_corner = kinks(line) > CORNER_DEG
     at_corner[[0, -1]] |= line.corner_ends
-    return LineStress(line, arc_length(line), _stress(line, load), _stress(line, treated), at_end, at_corner)
+    return RecountLineStress(line, arc_length(line), _stress(line, load), _stress(line, treated), at_end, at_corner)
 
 
 def edges(line: Line) -> list[list[int]]:

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.curve import Curve, ratio_factor
-from fatigue.verify.recount.anew.cycles import Cycles, count_cycles
-from fatigue.verify.recount.anew.record import Record, SpectrumRules, welch_moments
+from fatigue.verify.recount.anew.curve import RecountCurve, ratio_factor
+from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
+from fatigue.verify.recount.anew.record import RecountRecord, SpectrumRules, welch_moments
 from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 
 Floats = NDArray[np.float64]
@@ -17,7 +17,7 @@ Values = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Point:
+class RecountPoint:
     """Stress per unit modal coordinate at one face, (m,) each [MPa], the curve there and the plate thickness [mm].
 
     ``membrane`` and ``bending`` of this face, ``in_plane`` and ``twist`` shear likewise.
@@ -27,7 +27,7 @@ class Point:
     bending: Floats
     in_plane: Floats
     twist: Floats
-    curve: Curve
+    curve: RecountCurve
     thickness: float
 
 
@@ -54,7 +54,7 @@ class OnePass:
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
+class RecountEvent:
     """How long one pass is [km], None for an event counted by number, and how often it happens per km."""
 
     name: str
@@ -62,18 +62,20 @@ class Event:
     passes_per_km: float
 
 
-def point_of(components: Floats, surface: str, curve: Curve, thickness: float) -> Point:
+def point_of(components: Floats, surface: str, curve: RecountCurve, thickness: float) -> RecountPoint:
     """Take one face of a station, whose five stress components are (m, 5)."""
     side = 1.0 if surface == "top" else -1.0
-    return Point(components[:, 0], side * components[:, 1], components[:, 2], side * components[:, 3], curve, thickness)
+    return RecountPoint(
+        components[:, 0], side * components[:, 1], components[:, 2], side * components[:, 3], curve, thickness
+    )
 
 
-def one_pass(point: Point, record: Record, rules: SpectrumRules, mean_stress: MeanStress) -> OnePass:
+def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, mean_stress: MeanStress) -> OnePass:
     """Count one pass of an event at a point and estimate it from its spectrum."""
     curve, size = point.curve, point.curve.size_factor(point.thickness)
-    shapes = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist])
-    m_kept, b_kept, t_m, t_b = shapes @ record.kept
-    m, b = (m_kept, b_kept) if record.counted is record.kept else shapes[:2] @ record.counted
+    modal_stress = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist])
+    m_kept, b_kept, t_m, t_b = modal_stress @ record.kept
+    m, b = (m_kept, b_kept) if record.counted is record.kept else modal_stress[:2] @ record.counted
     kept, s = m_kept + b_kept, m + b
 
     one_ratio = _ratio(float(np.std(m_kept)), float(np.std(b_kept)))
@@ -121,9 +123,9 @@ def one_pass(point: Point, record: Record, rules: SpectrumRules, mean_stress: Me
 def point_values(
     passes: Sequence[OnePass],
     raw_damage: Sequence[float],
-    events: Sequence[Event],
+    events: Sequence[RecountEvent],
     mission: Mapping[str, Any],
-    curve: Curve,
+    curve: RecountCurve,
 ) -> Values:
     """Weight one pass of every event with the mission: the columns of the table of points.
 
@@ -171,7 +173,7 @@ def point_values(
     }
 
 
-def _cycle_rows(cycles: Cycles, m: Floats, b: Floats, record: Record) -> dict[str, Floats]:
+def _cycle_rows(cycles: RecountCycles, m: Floats, b: Floats, record: RecountRecord) -> dict[str, Floats]:
     """Ranges of every cycle between its own two instants."""
     i, j = cycles.start, cycles.end
     s = m + b
@@ -188,7 +190,7 @@ def _cycle_rows(cycles: Cycles, m: Floats, b: Floats, record: Record) -> dict[st
     }
 
 
-def _load_factor(passes: Sequence[OnePass], weights: Floats, curve: Curve, utilisation: float) -> float:
+def _load_factor(passes: Sequence[OnePass], weights: Floats, curve: RecountCurve, utilisation: float) -> float:
     """Scale on all ranges at which all cycles together just meet the target, by bisection where the curve bends."""
     if curve.is_straight:
         return float(utilisation ** (-1 / curve.slopes[0])) if utilisation > 0 else np.inf
@@ -204,7 +206,7 @@ def _load_factor(passes: Sequence[OnePass], weights: Floats, curve: Curve, utili
     return float(np.exp(low))
 
 
-def _shear_factor(kept: Floats, t_m: Floats, t_b: Floats, I_one: float, curve: Curve) -> float:
+def _shear_factor(kept: Floats, t_m: Floats, t_b: Floats, I_one: float, curve: RecountCurve) -> float:
     """Factor of ASME VIII-2 5.5.5.3 on the range: principal variances of the path in the plane (sigma, sqrt(3) tau)."""
     ratio = _ratio(float(np.std(t_m)), float(np.std(t_b)))
     I_t = _factor(np.array([0.0 if np.isnan(ratio) else ratio]), curve)[0]
@@ -227,7 +229,7 @@ def _mean_stress_factor(a: Floats, b: Floats, yield_MPa: float | None) -> Floats
     return factor
 
 
-def _factor(r: Floats, curve: Curve) -> Floats:
+def _factor(r: Floats, curve: RecountCurve) -> Floats:
     return ratio_factor(r) if curve.on_equivalent else np.ones_like(r)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.inputs.case import Inputs, Modes
+from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes
 from fatigue.verify.recount.inputs.tables import read_frame
 
 Floats = NDArray[np.float64]
@@ -16,7 +16,7 @@ SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Record:
+class RecountRecord:
     """One event.
 
     Attributes
@@ -56,14 +56,14 @@ class SpectrumRules:
     upper_hz: float
 
 
-def spectrum_rules(case: Mapping[str, Any], modes: Modes, step: float) -> SpectrumRules:
+def spectrum_rules(case: Mapping[str, Any], modes: RecountModes, step: float) -> SpectrumRules:
     """Rules of the case for a record with this time step [s]."""
     asked = case.get("spectrum", {})
     upper = asked.get("upper_hz", min(0.4 / step, 1.5 * modes.highest_normal_hz))
     return SpectrumRules(asked.get("segment_s", 4.0), upper)
 
 
-def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, fastest: float) -> Record:
+def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float) -> RecountRecord:
     """Read the history of an event and cut its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
     frame = read_frame(inputs.folder / event["history"])
     time = frame["time_s"].to_numpy(dtype=float)
@@ -77,7 +77,7 @@ def read_record(inputs: Inputs, event: Mapping[str, Any], modes: Modes, fastest:
     recurs = event.get("residue", by_default) == "repeat"
     upsample = _upsample(inputs.case.get("counting", {}).get("upsample", 1), step, fastest)
     length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * q.shape[1] * step / 3600)
-    return Record(
+    return RecountRecord(
         name=event["name"],
         kept=q,
         step=step,

@@ -3,12 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.curve import Curve
+from fatigue.verify.recount.anew.curve import RecountCurve
 
 NARROW = 1e-7  # of 1 - alpha2: below, both are the narrow-band formula to rounding
 
 
-def dirlik(moments: NDArray[np.float64], curve: Curve) -> float:
+def dirlik(moments: NDArray[np.float64], curve: RecountCurve) -> float:
     """Damage per second from moments 0, 1, 2, 4 of the stress times its factor to the equivalent range."""
     m0, m1, m2, m4 = moments
     if m0 <= 0 or m2 <= 0 or m4 <= 0:
@@ -33,7 +33,7 @@ def dirlik(moments: NDArray[np.float64], curve: Curve) -> float:
     )
 
 
-def tovo_benasciutti(moments: NDArray[np.float64], curve: Curve) -> float:
+def tovo_benasciutti(moments: NDArray[np.float64], curve: RecountCurve) -> float:
     """Damage per second, arguments as in ``dirlik``."""
     m0, m1, m2, m4 = moments
     if m0 <= 0 or m2 <= 0 or m4 <= 0:

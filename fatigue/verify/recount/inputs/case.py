@@ -1,6 +1,5 @@
 """The inputs of a result: found again, compared with the hashes in its provenance; the case and its modes."""
 
-import hashlib
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -12,13 +11,14 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.hashes import sha256
 from fatigue.results import case_of, new_inputs
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Inputs:
+class RecountInputs:
     """The case text, parsed, the folder its file names are relative to, and the welds to assess."""
 
     case: Mapping[str, Any]
@@ -35,7 +35,7 @@ class Inputs:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Modes:
+class RecountModes:
     """The modes that are used, by ascending id.
 
     Attributes
@@ -50,7 +50,7 @@ class Modes:
     highest_normal_hz: float
 
 
-def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> Inputs:
+def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> RecountInputs:
     """Find the input files of a result and make sure they are the very files it was computed from.
 
     Parameters
@@ -73,7 +73,7 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
     refuse(DataError, new_inputs(record, [beside / "welds_register.csv"] * ("register" not in case["body"])))
     refuse(DataError, new_inputs(record, [beside / "convert.json"]))
     welds = read_frame(folder / case["body"]["welds"])
-    return Inputs(case, folder, weld_entries(case, folder, welds))
+    return RecountInputs(case, folder, weld_entries(case, folder, welds))
 
 
 def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
@@ -84,15 +84,10 @@ def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
             yield Problem(
                 "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"
             )
-        elif _sha256(path) != known["sha256"]:
+        elif sha256(path) != known["sha256"]:
             what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
             case = ", or name the case as it was with --case" if path == case_file else ""
             yield Problem("changed_input", str(path), what, f"Assess again, or put the old file back{case}")
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def column(frame: pd.DataFrame, name: str, default: float = np.nan) -> NDArray[np.float64]:
@@ -116,14 +111,14 @@ def texts(frame: pd.DataFrame, name: str) -> list[str]:
     return [str(text).strip() for text in frame[name].astype(object).where(frame[name].notna(), "")]
 
 
-def read_modes(inputs: Inputs) -> Modes:
+def read_modes(inputs: RecountInputs) -> RecountModes:
     """Read the modes that are not ignored."""
     body = inputs.case["body"]
     frame = inputs.frame("modes").sort_values("mode")
     frame = frame[~frame["mode"].isin(body.get("ignore_modes", []))]
     sign = {"on_element": 1.0, "on_node": -1.0}[body["force_convention"]]
     normal = np.array([kind in ("", "normal") for kind in texts(frame, "kind")])
-    return Modes(
+    return RecountModes(
         mode=frame["mode"].to_numpy(dtype=np.int64),
         force_factor=sign * column(frame, "scale", 1.0),
         highest_normal_hz=float(frame["frequency_hz"].to_numpy(dtype=float)[normal].max(initial=0.0)) or np.inf,

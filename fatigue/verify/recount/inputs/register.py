@@ -127,7 +127,7 @@ def _rows(path: Path) -> list[dict[str, str]]:
 
 
 def _lines(path: Path) -> dict[str, list[str]]:
-    """Lines of every weld that `fatigue convert` wrote; none where the tables are of another hand."""
+    """Lines of every weld that ``fatigue convert`` wrote; none where the tables are of another hand."""
     if not path.is_file():
         return {}
     record = json.loads(path.read_text(encoding="utf-8"))

@@ -27,7 +27,7 @@ def read_frame(path: Path) -> pd.DataFrame:
 
 
 def read_pieces(path: Path, columns: Sequence[str] = ()) -> Iterator[pd.DataFrame]:
-    """Read a table piece by piece, in the order of its rows and typed as by `read_frame`: some columns or all."""
+    """Read a table piece by piece, in the order of its rows and typed as by ``read_frame``: some columns or all."""
     yield from (_typed(piece) for piece in _pieces(path, columns))
 
 

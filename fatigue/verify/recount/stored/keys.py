@@ -21,7 +21,7 @@ Labels = Mapping[str, Sequence[Any]]  # of each further key column: texts, or nu
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rows:
+class RowPlaces:
     """Where the rows of a table are.
 
     ``row_of`` is the row of each key in the order of the layout, -1 where it is missing; None: they are in this order.
@@ -39,7 +39,7 @@ class Rows:
         return column if self.row_of is None else column[self.row_of]
 
 
-def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> Rows:
+def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> RowPlaces:
     """Find the rows of a table that has one for each station of a body and each combination of some labels.
 
     Raises
@@ -90,7 +90,7 @@ def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> Rows:
         found=done,
         expected=expected,
     )
-    return Rows(check, row_of)
+    return RowPlaces(check, row_of)
 
 
 def _as_written(

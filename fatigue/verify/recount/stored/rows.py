@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.curve import Curve
-from fatigue.verify.recount.anew.line import LineStress, edge_length, edges
-from fatigue.verify.recount.anew.point import Event, OnePass, Values
+from fatigue.verify.recount.anew.curve import RecountCurve
+from fatigue.verify.recount.anew.line import RecountLineStress, edge_length, edges
+from fatigue.verify.recount.anew.point import OnePass, RecountEvent, Values
 from fatigue.verify.recount.layout import Key
 from fatigue.verify.recount.stored.compare import TOLERANCE, Row
 
@@ -22,13 +22,13 @@ _OF_STILL_STRESS = ("damage_per_", "damage_same_ratio_", "cycles_", "max_range_"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Weld:
+class RecountWeld:
     """A weld of the case: its row in the weld table, its parts, its curve and the faces that carry a toe."""
 
     given: Mapping[str, Any]
-    parts: tuple[LineStress, ...]
+    parts: tuple[RecountLineStress, ...]
     curve_name: str
-    curve: Curve
+    curve: RecountCurve
     toes: tuple[str, ...]
 
 
@@ -36,8 +36,8 @@ class Weld:
 class Station:
     """One node of a solved part of a weld."""
 
-    weld: Weld
-    solved: LineStress
+    weld: RecountWeld
+    solved: RecountLineStress
     at: int
 
 
@@ -69,7 +69,7 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
     return Row(place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
 
 
-def damage_row(key: Key, event: Event, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
+def damage_row(key: Key, event: RecountEvent, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
     """One row of the table of points and events."""
     values = {name: value for name, value in one.quantities.items() if name not in _NOT_COLUMNS}
     per_km = np.nan if event.length_km is None else 1.0 / event.length_km
@@ -98,7 +98,7 @@ def stress_rows(station: Station, modes: NDArray[np.int64], found: Sequence[Mapp
         yield Row(where, found[j], expected, dict.fromkeys(expected, size))
 
 
-def cycle_row(key: Key, event: Event, one: OnePass, found: pd.DataFrame) -> Row:
+def cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) -> Row:
     """All cycles of one event at one point as one row: in each column, sorted, the value that differs most.
 
     Cycles that only rounding makes are left out on both sides. Where the numbers of cycles differ, all columns do.
@@ -117,7 +117,7 @@ def cycle_row(key: Key, event: Event, one: OnePass, found: pd.DataFrame) -> Row:
     return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale)
 
 
-def weld_row(weld: Weld, recounted: Mapping[Key, Values], found: Mapping[str, Any], *, all_counted: bool) -> Row:
+def weld_row(weld: RecountWeld, recounted: Mapping[Key, Values], found: Mapping[str, Any], *, all_counted: bool) -> Row:
     """Row of a weld: the worst of its recounted toe points decides; proven to be it where all points were counted."""
     parts = [solved.line for solved in weld.parts]
     lives = {key: values for key, values in recounted.items() if key[3] in weld.toes}

@@ -12,7 +12,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_rows
-from fatigue.verify.recount.anew.point import Event
+from fatigue.verify.recount.anew.point import RecountEvent
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
 from fatigue.verify.recount.stored.rows import place
@@ -40,7 +40,7 @@ class Sum(NamedTuple):
     key: NDArray[np.int64]
 
 
-def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> list[ColumnCheck]:
+def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> list[ColumnCheck]:
     """Check every row of the tables of a result against other rows.
 
     Raises
@@ -51,7 +51,7 @@ def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event])
     return merged(checks)
 
 
-def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> Iterator[Sum]:
+def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> Iterator[Sum]:
     points = max(1, _ROWS_AT_ONCE // len(events))
     for first in range(0, stored.body.points, points):
         yield from _of_points(stored, case, events, np.arange(first, min(first + points, stored.body.points)))
@@ -60,7 +60,7 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Event]) -> I
 
 
 def _of_points(
-    stored: Stored, case: Mapping[str, Any], events: Sequence[Event], points: NDArray[np.int64]
+    stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent], points: NDArray[np.int64]
 ) -> Iterator[Sum]:
     """Take columns of points from those of their events, and per km from per pass."""
     e = len(events)
@@ -143,7 +143,7 @@ def _of_welds(stored: Stored) -> Iterator[Sum]:
     yield Sum("welds", "utilisation", welds["utilisation"].to_numpy()[number], utilisation[worst][number], number)
 
 
-def _check(stored: Stored, events: Sequence[Event], one: Sum) -> ColumnCheck:
+def _check(stored: Stored, events: Sequence[RecountEvent], one: Sum) -> ColumnCheck:
     """Find the value of a column that differs most from what it should be."""
     difference = _differences(one.found, one.expected)
     worst = int(difference.argmax()) if len(difference) else 0
@@ -174,7 +174,7 @@ def _differences(found: NDArray[Any], expected: NDArray[Any]) -> Floats:
     return np.where(same, 0.0, np.where(np.isnan(relative), np.inf, relative))
 
 
-def _where(stored: Stored, events: Sequence[Event], table: str, key: int) -> str:
+def _where(stored: Stored, events: Sequence[RecountEvent], table: str, key: int) -> str:
     if table == "welds":
         return f"weld {stored.body.welds[key]}"
     if table == "nodes":

@@ -11,11 +11,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
-from fatigue.verify.recount.inputs.case import Inputs, Modes
+from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes
 from fatigue.verify.recount.layout import FACES, Layout, station_finder
 from fatigue.verify.recount.stored.compare import ColumnCheck, compare_keys
 from fatigue.verify.recount.stored.cycles import StoredCycles, find_cycles
-from fatigue.verify.recount.stored.keys import Rows, find_rows
+from fatigue.verify.recount.stored.keys import RowPlaces, find_rows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,9 +27,9 @@ class Stored:
 
     folder: Path
     body: Layout
-    nodes: Rows
-    damage: Rows
-    stress: Rows
+    nodes: RowPlaces
+    damage: RowPlaces
+    stress: RowPlaces
     cycles: StoredCycles
     welds: pd.DataFrame
     left_out: pd.DataFrame
@@ -42,7 +42,7 @@ class Stored:
         return checks if self.cycles.strangers.passed else [*checks, self.cycles.strangers]
 
 
-def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes) -> Stored:
+def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: RecountModes) -> Stored:
     """Find the rows of all tables of a result.
 
     Raises
@@ -63,7 +63,7 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Modes)
     )
 
 
-def left_out_check(stored: Stored, inputs: Inputs) -> list[ColumnCheck]:
+def left_out_check(stored: Stored, inputs: RecountInputs) -> list[ColumnCheck]:
     """Compare why welds are not assessed with what the register says; nothing where all are."""
     expected, found = Counter(inputs.register.left_out), Counter(stored.left_out["reason"].fillna("").tolist())
     if not expected and not found:
@@ -125,7 +125,7 @@ def with_cycles(stored: Stored, governing: NDArray[np.int64], record: Mapping[st
     return frozenset(governing[of_point >= record["rules"]["cycles_kept_from_utilisation"]].tolist())
 
 
-def fastest_peaks(folder: Path, inputs: Inputs, events: Sequence[str]) -> list[float]:
+def fastest_peaks(folder: Path, inputs: RecountInputs, events: Sequence[str]) -> list[float]:
     """Highest peak rate of all points in every event [1/s]; 0 where nobody asks for it or there is none."""
     highest = np.zeros(len(events))
     if inputs.case.get("counting", {}).get("upsample") == "auto":

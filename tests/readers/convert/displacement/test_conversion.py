@@ -8,8 +8,7 @@ import pytest
 
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.convert.convert import convert
-from fatigue.readers.convert.displacement.record import Displacement
-from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.convert.options import ConvertOptions, Displacement
 from tests.readers.convert.displacement.modal_records import resonances
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee

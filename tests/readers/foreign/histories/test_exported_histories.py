@@ -6,7 +6,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.formats import read_coordinates
+from fatigue.readers.foreign.read import read_coordinates
 
 ROWS = "0,1,2\n0.1,3,4\n"
 MILLISECONDS = "0,1,2\n100,3,4\n"

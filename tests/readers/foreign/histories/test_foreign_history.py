@@ -10,9 +10,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.formats import read_coordinates, recognise
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, matched, uniform
 from fatigue.readers.foreign.histories.mcf import read_mcf
+from fatigue.readers.foreign.read import read_coordinates, recognise
 
 MCF = """\
 Modal Coordinates File
@@ -205,7 +205,7 @@ def test_mcf(tmp_path):
     """A wrapped file with mode numbers and frequencies; without the two lines modes count from 1."""
     path = tmp_path / "a.mcf"
     path.write_text(MCF)
-    assert recognise(path) == "mcf"
+    assert recognise(path).key == "mcf"
     found = read_coordinates(path, None, None)
     assert found.mode.tolist() == [1, 2, 7]
     assert found.frequency.tolist() == [10.0, 20.0, 30.0]
@@ -276,7 +276,7 @@ def test_formats_by_content():
     """Real files are recognised by content."""
     folder = Path("data/nastran")
     names = {"modes_elements.op2": "op2", "modes_elements.h5": "h5", "modes_elements.bdf": "bdf", "geom.inc": "bdf"}
-    assert {name: recognise(folder / name) for name in names} == names
+    assert {name: recognise(folder / name).key for name in names} == names
 
 
 def test_damaged_tables_are_refused_or_read(read):

@@ -6,7 +6,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.foreign.formats import read_coordinates
+from fatigue.readers.foreign.read import read_coordinates
 from fatigue.readers.units.channel_names import channel
 
 CATMAN = """\

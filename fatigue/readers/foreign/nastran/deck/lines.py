@@ -21,6 +21,15 @@ _BESIDE = ("AUXMODEL", "ARBMODEL", "HYPRBEAM", "MASSID", "UDS", "TRMC")  # block
 _PARTS = ("SUPER", "FEMODEL", "MODULE")
 _DEEPEST = 50
 _MOST_CONTROL = 10_000  # lines
+_STARTS = (
+    *("GRID", "GRDSET", "BEGIN BULK", "BEGIN,BULK", "CEND", "CQUAD", "CTRIA", "CORD1", "CORD2", "PSHELL", "SOL "),
+    *(f"INCLUDE{sign}" for sign in " '\"=,"),
+)
+
+
+def is_deck(head: str) -> bool:
+    """Whether the beginning of a text file is that of a deck."""
+    return any(line.lstrip().upper().startswith(_STARTS) for line in head.splitlines())
 
 
 @dataclass(frozen=True, slots=True, eq=False)

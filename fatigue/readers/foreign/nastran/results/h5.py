@@ -3,14 +3,13 @@
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
+import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, FatigueError, Problem
-from fatigue.extras import install_command
 from fatigue.readers.foreign.fe.assembly import assemble
 from fatigue.readers.foreign.fe.force_rows import sharing_rows
 from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, shell_mesh
@@ -38,7 +37,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
 
     Raises
     ------
-    DataError : h5py missing, damaged file, no GRID_FORCE table, other than modal and static results, superelements
+    DataError : damaged file, no GRID_FORCE table, other than modal and static results, superelements
     """
     with _open(path) as read:
         if not len(read("NASTRAN/RESULT/NODAL/GRID_FORCE", False)) and len(
@@ -131,20 +130,8 @@ def read_h5_model(path: Path) -> FeModel:
     )
 
 
-def _h5py() -> ModuleType:
-    """Import h5py, which only this format needs."""
-    try:
-        import h5py  # noqa: PLC0415
-    except ImportError as error:
-        raise DataError(
-            Problem("no_h5py", "MSC HDF5 input", "the package h5py is not installed", f"Run: {install_command('h5py')}")
-        ) from error
-    return h5py  # type: ignore[no-any-return]
-
-
 def _other_elements(path: Path) -> tuple[Problem, ...]:
     """Tell elements that are not read, by name and number: they need not be there, and a damaged name is among them."""
-    h5py = _h5py()
     try:
         with h5py.File(path, "r") as file:
             tables = {name: table for name, table in file[_ELEMENTS].items() if isinstance(table, h5py.Dataset)}
@@ -162,7 +149,6 @@ def _other_elements(path: Path) -> tuple[Problem, ...]:
 @contextmanager
 def _open(path: Path) -> Iterator[Any]:
     """Open the file and give a function that reads one table; every failure of the library becomes a DataError."""
-    h5py = _h5py()
 
     def read(name: str, required: bool = True) -> Rows:
         table = file.get(name)

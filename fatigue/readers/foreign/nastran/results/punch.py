@@ -19,6 +19,12 @@ _FORCE_ROW = re.compile(r"[ \d]{9}\d {8}(?: {10}|[ \d]{9}\d) {8}[A-Z*][\w*-]* *(
 _OTHER_SOLUTIONS = ("$TIME", "$FREQUENCY", "$LOAD FACTOR", "$LOAD STEP", "$COMPLEX EIGENVALUE")
 _PERHAPS_BUCKLING_HZ = 1.0
 _SORT2 = ("$POINT ID", "$ELEMENT ID")
+_STARTS = ("$TITLE", "$SUBTITLE", "$LABEL", "$SUBCASE ID", "$GRID POINT")
+
+
+def is_punch(head: str) -> bool:
+    """Whether the beginning of a text file is that of a punch file."""
+    return any(line.startswith(_STARTS) for line in head.splitlines()[:50])
 
 
 def read_punch(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:

@@ -1,0 +1,136 @@
+"""Commands that take a case: check it, assess it."""
+
+from contextlib import nullcontext
+from pathlib import Path
+
+import click
+
+from fatigue.cli.arguments import CASE, FOLDER, as_json, strict
+from fatigue.cli.early import refuse_missing_case
+from fatigue.cli.known_values import known_values
+from fatigue.cli.main import cli
+from fatigue.cli.numbers import SHARE
+from fatigue.cli.output import print_json, print_warnings
+from fatigue.cli.progress import narrated
+
+
+@cli.command()
+@click.argument("case_file", metavar="CASE", type=CASE)
+@strict
+@as_json
+@click.pass_obj
+def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool) -> None:
+    """Read and check a case and all its files; print sizes and the estimated time.
+
+    \b
+    Example:
+      fatigue check body/case.toml --strict
+    """
+    refuse_missing_case(case_file)
+    from fatigue.case import check_files, load_case
+
+    case = load_case(case_file)
+    check_files(case)
+    from fatigue.check import check_case
+
+    with narrated(quiet=options["quiet"]):
+        found = check_case(case, strict=strict)
+    if as_json:
+        print_json(found.as_record())
+        return
+    click.echo(found.as_text())
+    print_warnings(found.warnings, "--json lists them")
+
+
+@cli.command()
+@click.argument("case_file", metavar="CASE", type=CASE)
+@click.option(
+    "-o", "--output", type=FOLDER, required=True, metavar="DIR", help="Result folder, made if it is not there."
+)
+@click.option("--threads", type=click.IntRange(min=1), default=None, help="Threads; default: one per processor core.")
+@click.option("--exact", is_flag=True, help="Count every point of a large job, also those a bound would settle.")
+@click.option(
+    "--screen",
+    type=SHARE,
+    metavar="SHARE",
+    help="Do not count points proven to stay below this share of the damage limit.  [default: 0.1 for jobs of more "
+    "than 5e9 stress samples, else every point is counted]",
+)
+@click.option(
+    "--likely-worst",
+    is_flag=True,
+    help="In welds proven to stay below SHARE everywhere, count the point with the largest estimate and do not prove "
+    "that no other is worse: about half the time.",
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask cluster (package `distributed`).")
+@click.option(
+    "--force", is_flag=True, help="Replace the result of another case, and files in DIR that fatigue did not write."
+)
+@click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
+@click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
+@strict
+@as_json
+@click.pass_obj
+def assess(
+    options: dict[str, bool],
+    case_file: Path,
+    output: Path,
+    threads: int | None,
+    exact: bool,
+    screen: float | None,
+    likely_worst: bool,
+    scheduler: str | None,
+    force: bool,
+    no_report: bool,
+    exit_zero: bool,
+    strict: bool,
+    as_json: bool,
+) -> None:
+    """Assess every point of every weld of a case; write tables, ParaView file and report to DIR.
+
+    An interrupted run goes on where it was when the same command is given again. What was derived from an earlier
+    result of the same case in DIR (page, PDF, workbook, CSV, diagnosis) is removed; files of your own stay.
+
+    \b
+    Example:
+      fatigue assess body/case.toml -o result
+    """
+    if exact and (screen is not None or likely_worst):
+        raise click.UsageError("--exact counts every point: leave out --screen and --likely-worst")
+    refuse_missing_case(case_file)
+    from fatigue.case import check_files, load_case
+    from fatigue.results import JOURNAL
+    from fatigue.results.folder import refuse_foreign
+
+    case = load_case(case_file)
+    check_files(case)
+    if not (output / JOURNAL).exists():
+        own = [case_file, *case.input_files().values()]
+        refuse_foreign(output, force=force, case_file=case_file, inputs=own)
+    from fatigue.assess import assess as run
+    from fatigue.pipeline.run.cluster import cluster_executor
+    from fatigue.results.summary import result_summary
+
+    workers = cluster_executor(scheduler) if scheduler else nullcontext()
+    with narrated(quiet=options["quiet"]) as progress, workers as executor:
+        done = run(
+            case,
+            output,
+            threads=threads,
+            executor=executor,
+            share=0.0 if exact else screen,
+            proves_worst=not likely_worst,
+            strict=strict,
+            force=force,
+            report=not no_report,
+            verification=tuple if no_report else known_values,
+            progress=progress,
+        )
+    print_warnings(done.warnings)
+    found = result_summary(output, top=10)
+    if as_json:
+        print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+    if not done.fulfilled and not exit_zero:
+        raise SystemExit(1)

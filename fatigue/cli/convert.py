@@ -1,0 +1,101 @@
+"""The command that turns FE results and simulation exports into a folder of neutral files."""
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from fatigue.cli.arguments import as_json
+from fatigue.cli.early import (
+    missing_foreign,
+    missing_tables,
+    refuse_all,
+    refuse_foreign_conversion,
+    refuse_unknown_curve,
+    refuse_unknown_units,
+)
+from fatigue.cli.main import cli
+from fatigue.cli.options import asking_for
+from fatigue.cli.output import print_json
+from fatigue.cli.progress import narrating
+from fatigue.readers.convert.options import ConvertOptions
+
+if TYPE_CHECKING:
+    from fatigue.readers.convert.convert import Conversion
+
+_COLOUR = {"red": "red", "amber": "yellow", "green": "green"}
+
+
+@cli.command()
+@asking_for(ConvertOptions, "options")
+@as_json
+def convert(options: ConvertOptions, as_json: bool) -> None:
+    """Turn FE results and simulation exports into a neutral folder with a first case.toml.
+
+    The audit of signs, balance and completeness is printed; a red light stops the conversion. Formats are recognised by
+    content.
+
+    \b
+    Example:
+      fatigue convert --mesh model.bdf --forces run.op2 --coordinates q.csv -o body
+      fatigue assess body/case.toml -o result
+    """
+    _refuse_mistakes(options)
+    from fatigue.readers.convert.convert import convert as read_and_write
+
+    done = narrating(read_and_write)(options)
+    if as_json:
+        print_json(_record(done))
+    else:
+        _print(done)
+
+
+def _refuse_mistakes(options: ConvertOptions) -> None:
+    """Refuse what can be told before anything is read."""
+    welds = options.welds
+    refuse_all(missing_foreign(options.forces, options.mesh, *options.unit_loads, *options.coordinates))
+    displacements = (asked.file for asked in options.displacements)
+    tables = (welds.register, welds.node_lists, options.columns, options.simulation_modes, *displacements)
+    refuse_all(missing_tables(*tables))
+    refuse_unknown_units(force_units=options.force_units, coordinate_units=options.coordinate_units)
+    refuse_unknown_curve(options.curve)
+    refuse_foreign_conversion(options.out, force=options.force, keep_case=options.keep_case)
+
+
+def _record(done: "Conversion") -> dict[str, Any]:
+    """Tell a conversion to machines."""
+    from fatigue.readers.neutral.register.weld_register import reasons
+
+    return {
+        "folder": str(done.folder),
+        "files": done.files,
+        "modes": done.modes,
+        "audit": [
+            {"check": r.check, "light": r.light, "value": r.value, "finding": r.finding, "remedy": r.remedy}
+            for r in done.audit.rows
+        ],
+        "welds_assessed": done.assessed,
+        "welds_listed": len(done.welds),
+        "not_assessed": [{"lines": number, "reason": reason} for number, reason in reasons(done.welds)],
+        "remarks": [str(problem) for problem in done.remarks],
+    }
+
+
+def _print(done: "Conversion") -> None:
+    """Tell a conversion: a line for every check, what is doubtful, the sizes, and where to go on."""
+    from fatigue.readers.convert.case_text import register_named
+    from fatigue.readers.neutral.register.weld_register import reasons
+
+    for row in done.audit.rows:
+        light = click.style(f"{row.light:5}", fg=_COLOUR[row.light])
+        value = "" if row.value is None else f" {row.value:.3g}"
+        remedy = f" {row.remedy}." if row.remedy and row.light != "green" else ""
+        click.echo(f"{light}  {row.check}:{value} {row.finding}.{remedy}")
+    for problem in done.remarks:
+        click.echo(f"note   {problem}")
+    click.echo(
+        f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed"
+    )
+    for number, reason in reasons(done.welds):
+        click.echo(f"{number} weld line{'s' * (number > 1)} not assessed: {reason}")
+    edit = register_named(done.folder / "case.toml")
+    click.echo(f"written to {done.folder}: edit case.toml and {edit}, then `fatigue assess` the case")

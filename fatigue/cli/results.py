@@ -1,0 +1,139 @@
+"""Commands that take a result folder: show it, write its documents again, say what makes its damage."""
+
+import logging
+from pathlib import Path
+
+import click
+
+from fatigue.cli.arguments import CASE, FOLDER, as_json
+from fatigue.cli.early import refuse_missing_result
+from fatigue.cli.known_values import known_values
+from fatigue.cli.main import cli
+from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO
+from fatigue.cli.output import print_json
+from fatigue.cli.progress import narrated
+from fatigue.errors import DataError, refuse
+
+log = logging.getLogger(__name__)
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=FOLDER)
+@click.option("--top", type=click.IntRange(min=1), default=10, show_default=True, help="How many points to show.")
+@click.option("--weld", "welds", multiple=True, help="Only this weld; may be given several times.")
+@as_json
+def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
+    """Print the welds and the worst points of a result folder.
+
+    \b
+    Examples:
+      fatigue show result --top 20
+      fatigue show result --weld W1_roof_bracket_neg --json
+    """
+    refuse_missing_result(folder)
+    from fatigue.files.naming import composed
+    from fatigue.results.summary import result_summary
+
+    found = result_summary(folder, top=top, only=[composed(weld) for weld in welds])
+    if as_json:
+        print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=FOLDER)
+@click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
+@click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (package `xlsxwriter`).")
+@click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
+@click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
+@click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
+@click.pass_obj
+def report(
+    options: dict[str, bool], folder: Path, pdf: bool, xlsx: bool, csv: bool, case_file: Path | None, force: bool
+) -> None:
+    """Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
+
+    Without the case of the result the page lacks mesh, histories and spectra, and says so.
+
+    \b
+    Examples:
+      fatigue report result --pdf --xlsx
+      fatigue report result --case body/case.toml
+    """
+    refuse_missing_result(folder, case_file)
+    from fatigue.documents import AGAIN, CSV, write_documents
+    from fatigue.results import PRINT, WORKBOOK
+
+    wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
+    with narrated(quiet=options["quiet"]):
+        done = write_documents(folder, wanted, case_file=case_file, verification=known_values, force=force)
+    for path in done.written:
+        click.echo(path)
+    refuse(DataError, done.problems)
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=FOLDER)
+@click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
+@click.option(
+    "--share-of-limit",
+    type=FROM_ZERO,
+    default=0.1,
+    show_default=True,
+    help="Utilisation from which points are shared out, when not all can be.",
+)
+@click.option(
+    "--edges", default=None, metavar="HZ,HZ,...", help="Edges between frequency bands [Hz]; default: third octaves."
+)
+@click.option("--bin-km", type=ABOVE_ZERO, default=0.1, show_default=True, help="Length of a piece of track [km].")
+@as_json
+@click.pass_obj
+def diagnose(
+    options: dict[str, bool],
+    folder: Path,
+    case_file: Path | None,
+    share_of_limit: float,
+    edges: str | None,
+    bin_km: float,
+    as_json: bool,
+) -> None:
+    """Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
+
+    Writes attribution, track, diagnosis and levers tables into DIR and shows them in its report. Of a large result:
+    worst points of welds and points above --share-of-limit, of very many those with the shortest lives.
+
+    \b
+    Example:
+      fatigue diagnose result
+    """
+    edges_hz = None if edges is None else _hertz(edges, "--edges")
+    refuse_missing_result(folder, case_file)
+    from fatigue.diagnose import diagnose as run
+    from fatigue.documents import write_documents
+    from fatigue.results import PAGE, is_derived, read_provenance
+
+    with narrated(quiet=options["quiet"]) as progress:
+        found = run(
+            folder,
+            case_file=case_file,
+            share_of_limit=share_of_limit,
+            edges_hz=edges_hz,
+            bin_km=bin_km,
+            progress=progress,
+        )
+        if is_derived(folder, PAGE, read_provenance(folder)):
+            write_documents(folder, [PAGE], case_file=case_file, verification=known_values)
+        elif (folder / PAGE).exists():
+            log.warning("%s was not written by fatigue, or was changed since: it stays as it is", folder / PAGE)
+    if as_json:
+        print_json(found.as_record())
+    else:
+        click.echo(found.as_text())
+
+
+def _hertz(text: str, option: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(number) for number in text.split(","))
+    except ValueError:
+        raise click.BadParameter(f"{text!r} is not a list of numbers such as 5,10,20", param_hint=option) from None

@@ -1,0 +1,98 @@
+"""Commands to use before a conversion: the weld lines of a mesh, and the sign of a solver's forces."""
+
+from pathlib import Path
+
+import click
+
+from fatigue.cli.arguments import as_json
+from fatigue.cli.early import missing_foreign, missing_tables, refuse_all, refuse_existing, refuse_unknown_units
+from fatigue.cli.main import cli
+from fatigue.cli.options import FILE, asking_for
+from fatigue.cli.output import print_json
+from fatigue.cli.progress import is_quiet, narrated
+from fatigue.readers.convert.options import WeldSources
+from fatigue.stages import stage
+
+
+@cli.command()
+@click.argument("mesh", metavar="MODEL", type=FILE)
+@click.option("--units", default="mm-t-s", show_default=True, help="Unit system of the model: mm-t-s, m-kg-s ...")
+@click.option("-o", "--output", type=FILE, help="Register (CSV) to write, to be edited and given back with --register.")
+@click.option("--vtp", type=FILE, help="Picture of the lines for ParaView.")
+@click.option("--only", default="", help="List only lines whose name contains this text.")
+@click.option("--force", is_flag=True, help="Overwrite existing files.")
+@asking_for(WeldSources, "sources")
+@as_json
+def welds(
+    mesh: Path,
+    units: str,
+    output: Path | None,
+    vtp: Path | None,
+    only: str,
+    force: bool,
+    sources: WeldSources,
+    as_json: bool,
+) -> None:
+    """Find the weld lines of a mesh; list them, write the register to edit, and a picture of them.
+
+    \b
+    Example:
+      fatigue welds model.bdf -o welds_register.csv --vtp lines.vtp
+    """
+    refuse_all(missing_foreign(mesh))
+    refuse_all(missing_tables(sources.register, sources.node_lists))
+    refuse_unknown_units(units=units)
+    if output != sources.register:
+        remedy = "Give it as the register too, or use --force"
+        refuse_existing(output, force=force, what="the file exists", remedy=remedy)
+    refuse_existing(vtp, force=force, what="is there already", remedy="Use --force to overwrite it")
+    from dataclasses import asdict
+
+    from fatigue.errors import DataError, Problem
+    from fatigue.readers.convert.weld_lines import list_welds
+    from fatigue.report.files.vtp import write_line_picture
+
+    with narrated(quiet=is_quiet()):
+        stage("finding weld lines")
+        found = list_welds(mesh, sources, units, output, force)
+    rows = [row for row in found.rows if only in row.weld]
+    if not rows:
+        what = f"none of the {len(found.rows)} weld lines has '{only}' in its name"
+        raise DataError(Problem("no_welds", str(mesh), what, f"Give a part of a name, such as {found.rows[0].weld}"))
+    if vtp is not None:
+        write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
+    for problem in found.remarks:
+        click.echo(f"note: {problem}", err=True)
+    if as_json:
+        of_the_file = ("number", "others")
+        print_json([{k: v for k, v in asdict(row).items() if k not in of_the_file} for row in rows])
+        return
+    for row in rows:
+        reason = f"  {row.reason}" if row.reason else ""
+        click.echo(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {row.weld}{reason}")
+
+
+@cli.command("tension-patch")
+@click.argument("file", metavar="FILE", type=FILE)
+@click.option("--results", is_flag=True, help="FILE holds the grid point forces of the patch: tell their sign.")
+@click.option("--force", is_flag=True, help="Overwrite an existing deck.")
+def tension_patch(file: Path, results: bool, force: bool) -> None:
+    """Find the sign of a solver's forces: write a one-element tension patch to FILE, run it, and give its results.
+
+    \b
+    Examples:
+      fatigue tension-patch patch.bdf
+      fatigue tension-patch patch.op2 --results
+    """
+    if results:
+        refuse_all(missing_foreign(file))
+    else:
+        refuse_existing(file, force=force, what="is there already", remedy="Use --force to overwrite it")
+    from fatigue.readers.convert.audit.tension_patch import DECK, convention_of
+    from fatigue.readers.foreign.read import read_forces
+
+    if results:
+        click.echo(f'force_convention = "{convention_of(read_forces(file, None))}"')
+        return
+    file.write_text(DECK, encoding="ascii")
+    click.echo(f"{file}: run it in your solver, then fatigue tension-patch RESULTS --results")

@@ -1,0 +1,1 @@
+"""Files as they are given: their names, their formats, their hashes."""

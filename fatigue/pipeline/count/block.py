@@ -1,0 +1,125 @@
+"""A block of stations under all events of the mission: counted, counted as far as it is needed, or bounded."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.mission import Plan
+from fatigue.pipeline.count.bounds import Bound, Bounds
+from fatigue.pipeline.count.estimate import Estimate, estimate_event, member_variances
+from fatigue.pipeline.count.event_block import EventBlock, bounded_event, count_event, judged
+from fatigue.pipeline.count.mission_block import MissionBlock, mission_block
+from fatigue.pipeline.count.overflow import no_overflow
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.modal_stress import ModalStress
+
+TIERS = ("", "modal bound", "weld bound")  # of the column ``screened``: counted, or the bound that settled the point
+ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Settled:
+    """Stations of a block that were settled in one way, under all events.
+
+    ``rows`` are their places in the block, ascending; ``events`` are without histograms; ``tier`` is an index into
+    ``TIERS``.
+    """
+
+    rows: NDArray[np.intp]
+    events: tuple[EventBlock, ...]
+    mission: MissionBlock
+    tier: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Block:
+    """Stations of a group of welds that share a curve, and the events that they are under.
+
+    The methods raise ``NumericalError`` where stress or damage exceeds double precision.
+
+    Attributes
+    ----------
+    stress : modal stress of the n stations, and the rule of their curve
+    weld : (n,) which weld a station belongs to, ascending; no weld is divided
+    toe : (n, 2) faces that carry a weld toe
+    loads, plan : the events, and how often they occur
+    welds : which welds these are, in words
+    """
+
+    stress: ModalStress
+    weld: NDArray[np.int64]
+    toe: NDArray[np.bool_]
+    loads: Sequence[EventLoad]
+    plan: Plan
+    welds: str
+
+    def __len__(self) -> int:
+        """Count the stations."""
+        return len(self.stress)
+
+    def estimated(self) -> tuple[Estimate, ...]:
+        """The estimate of every event at all stations."""
+        estimates: tuple[Estimate, ...] = ()
+        for load in self.loads:
+            with no_overflow(load.counted.event, self.welds):
+                estimates += (estimate_event(self.stress, load, member_variances(self.stress, load)),)
+        return estimates
+
+    def all_counted(self) -> Iterator[Settled]:
+        """All stations, all of their events counted."""
+        return self.counted(np.arange(len(self)), self.estimated())
+
+    def counted(self, rows: NDArray[np.intp], estimates: Sequence[Estimate]) -> Iterator[Settled]:
+        """Some stations, all of their events counted."""
+        for some in self._at_once(rows):
+            stress = self.stress.at(some)
+            events = [
+                self._counted(stress, load, estimate.at(some))
+                for load, estimate in zip(self.loads, estimates, strict=True)
+            ]
+            yield self._settled(some, self._judged(stress, events), 0)
+
+    def counted_while_unsettled(
+        self, rows: NDArray[np.intp], estimates: Sequence[Estimate], bounds: Bounds
+    ) -> Iterator[Settled]:
+        """Those of some stations that stay unsettled until all of their events have been counted.
+
+        The stations are counted event by event. What was counted tightens the bound of the event, by which a station
+        may be settled; the events that are left are not counted there.
+        """
+        for some in self._at_once(rows):
+            events: dict[int, tuple[NDArray[np.intp], EventBlock]] = {}
+            for number, left in bounds.event_by_event(some):
+                event = self._counted(self.stress.at(left), self.loads[number], estimates[number].at(left))
+                bounds.tighten(number, left, Bound.of_count(event.count))
+                events[number] = left, event
+            remaining = bounds.unsettled(left)
+            if remaining.size:
+                in_order = [events[number] for number in sorted(events)]
+                of_these = [event.at(np.searchsorted(counted, remaining)) for counted, event in in_order]
+                yield self._settled(remaining, self._judged(self.stress.at(remaining), of_these), 0)
+
+    def bounded(self, rows: NDArray[np.intp], estimates: Sequence[Estimate], bounds: Bounds, tier: int) -> Settled:
+        """Some stations, with bounds in place of the count of every event."""
+        raw_ends = self.stress.raw_ends.at(rows)
+        of_events = zip(estimates, bounds.of_events, strict=True)
+        return self._settled(rows, [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in of_events], tier)
+
+    def _counted(self, stress: ModalStress, load: EventLoad, estimate: Estimate) -> EventBlock:
+        with no_overflow(load.counted.event, self.welds):
+            return count_event(stress, load, estimate)
+
+    def _judged(self, stress: ModalStress, events: Sequence[EventBlock]) -> list[EventBlock]:
+        return [judged(event, stress, load) for event, load in zip(events, self.loads, strict=True)]
+
+    def _settled(self, rows: NDArray[np.intp], events: Sequence[EventBlock], tier: int) -> Settled:
+        """Some stations, their events weighted with the mission; only the weighting needs the histograms."""
+        mission = mission_block(events, self.plan, self.stress.rule.law)
+        return Settled(rows, tuple(event.without_histogram() for event in events), mission, tier)
+
+    def _at_once(self, rows: NDArray[np.intp]) -> Iterator[NDArray[np.intp]]:
+        """All rows at once, unless their histograms would be large."""
+        step = max(1, len(rows)) if self.stress.rule.law.is_straight else ROWS_WITH_HISTOGRAM
+        return (rows[first : first + step] for first in range(0, len(rows), step))

@@ -1,0 +1,89 @@
+"""The result of a group of welds as few arrays, to be stored or sent: what its rows in the tables need."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from operator import attrgetter
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.pipeline.count.block import Settled
+from fatigue.pipeline.count.event_block import EventBlock
+from fatigue.pipeline.count.mission_block import MissionBlock
+
+OF_EVENT: dict[str, Callable[[EventBlock], NDArray[np.float64]]] = {  # columns of damage.parquet, from one pass
+    "damage_per_pass": attrgetter("count.damage"),
+    "damage_dirlik_per_pass": attrgetter("estimate.dirlik"),
+    "damage_tb_per_pass": attrgetter("estimate.tb"),
+    "damage_same_ratio_per_pass": attrgetter("count.damage_same_ratio"),
+    "cycles_per_pass": attrgetter("count.cycles"),
+    "max_range_MPa": attrgetter("count.max_range"),
+    "max_equivalent_range_dS": attrgetter("count.max_equivalent_range"),
+    "bending_ratio": attrgetter("estimate.bending_ratio"),
+    "mean_stress_MPa": attrgetter("estimate.mean"),
+    "kurtosis": attrgetter("count.kurtosis"),
+    "irregularity": attrgetter("estimate.irregularity"),
+    "peaks_per_s": attrgetter("estimate.peaks_per_s"),
+    "samples_per_peak": attrgetter("estimate.samples_per_peak"),
+}
+_OF_MISSION = tuple(f.name for f in fields(MissionBlock) if f.name not in ("governing", "verdict"))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GroupResult:
+    """Results of the n stations of one group of welds under e events, in the order of its stations.
+
+    Attributes
+    ----------
+    event_columns : (e, c, n, 2) the columns of ``OF_EVENT`` for every event
+    verdicts : (e, n, 2) the verdict of every event
+    of_mission : (f, n, 2) the fields of the ``MissionBlock`` but the two that follow
+    governing, verdict : (n, 2) of the mission
+    tier : (n,) index into ``block.TIERS``, 0 where cycles were counted
+    """
+
+    event_columns: NDArray[np.float64]
+    verdicts: NDArray[np.int8]
+    of_mission: NDArray[np.float64]
+    governing: NDArray[np.int64]
+    verdict: NDArray[np.int8]
+    tier: NDArray[np.int8]
+
+    @classmethod
+    def empty(cls, events: int, stations: int) -> Self:
+        """Room for the result of so many stations under so many events."""
+        return cls(
+            event_columns=np.empty((events, len(OF_EVENT), stations, 2)),
+            verdicts=np.empty((events, stations, 2), np.int8),
+            of_mission=np.empty((len(_OF_MISSION), stations, 2)),
+            governing=np.empty((stations, 2), np.int64),
+            verdict=np.empty((stations, 2), np.int8),
+            tier=np.empty(stations, np.int8),
+        )
+
+    def of_events(self, column: str) -> NDArray[np.float64]:
+        """A column of ``OF_EVENT`` for every event: a view, (e, n, 2)."""
+        return self.event_columns[:, list(OF_EVENT).index(column)]
+
+    @property
+    def mission(self) -> MissionBlock:
+        """All events together: views of the arrays."""
+        numbers = dict(zip(_OF_MISSION, self.of_mission, strict=True))
+        return MissionBlock(**numbers, governing=self.governing, verdict=self.verdict)
+
+    def put(self, settled: Settled, rows: NDArray[np.intp]) -> None:
+        """Write what was settled to its rows."""
+        for e, event in enumerate(settled.events):
+            for c, column in enumerate(OF_EVENT.values()):
+                self.event_columns[e, c, rows] = column(event)
+            self.verdicts[e, rows] = event.verdict
+        for f, name in enumerate(_OF_MISSION):
+            self.of_mission[f, rows] = getattr(settled.mission, name)
+        self.governing[rows], self.verdict[rows] = settled.mission.governing, settled.mission.verdict
+        self.tier[rows] = settled.tier
+
+
+def arrays_of(result: GroupResult) -> dict[str, NDArray[Any]]:
+    """Arrays of a result by name; ``GroupResult(**arrays)`` makes the result again."""
+    return {field.name: getattr(result, field.name) for field in fields(GroupResult)}

@@ -1,0 +1,103 @@
+"""Foreign files read: the format is recognised by the first bytes and not by the name, and names the reader."""
+
+from collections.abc import Callable, Collection
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from fatigue.errors import DataError, Problem, refuse
+from fatigue.extras import install_command
+from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
+from fatigue.files.naming import missing_foreign_file
+from fatigue.readers.foreign.fe.model import FeModel
+from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.foreign.formats import (
+    COORDINATES,
+    FORCES,
+    FORMATS,
+    MESH,
+    Content,
+    Extra,
+    ForeignFormat,
+    all_formats,
+    formats_called,
+)
+from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
+from fatigue.readers.text.encoding import marked_encoding
+
+
+def recognise(path: Path) -> ForeignFormat:
+    """Tell the format of a file by its content.
+
+    Raises
+    ------
+    DataError : missing, unreadable or empty file, a format that is not read
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(HEAD)
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+        raise DataError(missing_foreign_file(path)) from None
+    except OSError as error:
+        raise DataError(
+            Problem("unreadable", str(path), f"the file cannot be read ({error.strerror})", "Check the path")
+        ) from error
+    if not head:
+        raise DataError(Problem("empty", str(path), "the file is empty", "Give the file that the solver wrote"))
+    for form in reversed(FORMATS):
+        if form.fits_bytes(head):
+            return form
+    if (known := known_format(path)) is not None:
+        raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))
+    refuse(DataError, filter(None, [unknown_binary(path, str(path), f"Give {all_formats()}")]))
+    text = head.decode(marked_encoding(head), errors="replace")
+    return next(form for form in reversed(FORMATS) if form.fits_text(text))
+
+
+def read_forces(path: Path, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
+    """Read grid point forces from any format that holds them, with static subcases named as interface modes."""
+    results: FeResults = _reader(path, FORCES)(path, subcase, interface)
+    return results
+
+
+def read_model(path: Path) -> FeModel:
+    """Read geometry from any format that holds it."""
+    model: FeModel = _reader(path, MESH)(path)
+    return model
+
+
+def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
+    """Read modal coordinates from any format that holds them."""
+    history: ForeignHistory = _reader(path, COORDINATES)(path, columns, time_column)
+    return history
+
+
+def _reader(path: Path, content: Content) -> Callable[..., Any]:
+    """Find the function that reads a content of a file; refuse a file that is sound and in the wrong place."""
+    form = recognise(path)
+    own = own_format(path) if form.is_plain_text else None  # the case itself and its register are texts, too
+    reader = form.reads.get(content)
+    if own is not None and (reader is None or content.option not in own.remedy):
+        raise DataError(_misplaced(path, content, f"this is {own.name}", own.remedy))
+    if reader is None:
+        raise DataError(
+            _misplaced(path, content, f"this is {form.name} (format {form.key})", f"Give it to {form.home}")
+        )
+    if form.extra is not None:
+        _require(form.extra)
+    return reader.load()
+
+
+def _misplaced(path: Path, content: Content, what: str, remedy: str) -> Problem:
+    """Say what a file is, where it belongs, and what to give in its place."""
+    wanted = f"{content.option} {formats_called(content)}"
+    return Problem(content.code, str(path), f"{what}, which holds no {content.name}", f"{remedy}, and to {wanted}")
+
+
+def _require(extra: Extra) -> None:
+    """Refuse a format whose package is not installed."""
+    try:
+        import_module(extra.package)
+    except ImportError as error:
+        what, remedy = f"the package {extra.package} is not installed", f"Run: {install_command(extra.package)}"
+        raise DataError(Problem(f"no_{extra.package}", extra.needed_for, what, remedy)) from error

@@ -1,0 +1,107 @@
+"""A sorted copy of a table of nodal forces: its rows dealt out to files, buckets, that hold a few groups of welds each.
+
+Never more than a batch of rows is in memory.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from fatigue.errors import DataError, refuse
+from fatigue.files.misplaced import misplaced
+from fatigue.readers.neutral.columns import DAMAGE, Columns, damaged
+from fatigue.readers.neutral.csv_columns import csv_batches
+from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
+from fatigue.readers.neutral.forces.source import CODE, KINDS, Source, coded, force_columns, trimmed
+from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds
+from fatigue.readers.neutral.forces.weld_codes import WeldCodes
+from fatigue.readers.neutral.tables import Table, named
+from fatigue.readers.text.layout import table_layout
+
+BATCH = 200_000  # rows in memory together
+ROWS_OF_BUCKET = 500_000  # about
+MOST_BUCKETS = 500  # files open at the same time
+READ_BUFFER = 1 << 20  # bytes
+CSV_ROW = 60  # bytes, about
+
+
+def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
+    """Deal out the rows of a file to buckets in ``scratch`` that hold a few groups each.
+
+    Raises
+    ------
+    DataError : the file is no table, has no column ``weld`` or an unknown weld in it
+    """
+    if path.suffix.lower() != ".csv":
+        header = open_nodal_forces(path)
+        return _dealt_out(header, header.rows, _parquet_batches(path, force_columns(header)), welds, scratch)
+    refuse(DataError, filter(None, [misplaced(path, path.name, text=False)]))
+    layout = table_layout(path, ("weld",))
+    kinds = tuple(KINDS.get(name.strip(), pa.string()) for name in layout.names)
+    header = named(path, Columns(layout.names, kinds, 0, _unread))
+    columns = force_columns(header)
+    try:
+        batches = csv_batches(path, layout, {name: KINDS[name] for name in columns.values()})
+        tables = (pa.Table.from_batches([batch]) for batch in batches)
+        return _dealt_out(header, path.stat().st_size // CSV_ROW, tables, welds, scratch)
+    except DAMAGE:  # a mistake, or numbers of another type: told, or read, with the file in memory
+        header = open_nodal_forces(path)
+        whole = [header.columns.read(header.position[name]) for name in columns.values()]
+        return _dealt_out(header, header.rows, [pa.table(whole, list(columns.values()))], welds, scratch)
+
+
+def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: WeldCodes, scratch: Path) -> Source:
+    """Deal out batches of about so many rows, columns by trimmed name, to files of neighbouring groups."""
+    scratch.mkdir(parents=True, exist_ok=True)
+    groups = len(welds.groups)
+    buckets = min(max(1, math.ceil(rows / ROWS_OF_BUCKET)), groups, MOST_BUCKETS)
+    bucket_of_group = np.arange(groups) * buckets // groups
+    files = [scratch / f"forces-{bucket:03d}.arrow" for bucket in range(buckets)]
+    size = np.zeros(buckets, dtype=np.int64)
+    unknown = UnknownWelds(header)
+    first = 0
+    with ExitStack() as stack:
+        writers: dict[int, pa.ipc.RecordBatchFileWriter] = {}
+        for batch in batches:
+            numbered = coded(batch, welds, first)
+            code = numbered.column(CODE).to_numpy()
+            unknown.look(batch.column("weld"), code, first)
+            first += len(code)
+            bucket = np.where(code < 0, buckets, bucket_of_group[welds.group[code]])
+            ordered = numbered.take(np.argsort(bucket, kind="stable"))
+            ends = np.searchsorted(np.sort(bucket), np.arange(buckets + 1))
+            for i in np.flatnonzero(np.diff(ends)).tolist():
+                if i not in writers:
+                    sink = stack.enter_context(pa.OSFile(str(files[i]), "wb"))
+                    options = pa.ipc.IpcWriteOptions(compression="lz4")
+                    writers[i] = stack.enter_context(pa.ipc.new_file(sink, ordered.schema, options=options))
+                writers[i].write_table(ordered.slice(ends[i], ends[i + 1] - ends[i]))
+            size += np.diff(ends)
+    unknown.refuse(welds)
+
+    def read(bucket: int) -> pa.Table:
+        with pa.OSFile(str(files[bucket])) as stored:
+            return pa.ipc.open_file(stored).read_all().combine_chunks()
+
+    pieces = tuple((int(bucket),) if size[bucket] else () for bucket in bucket_of_group)
+    return Source(header, tuple(size.tolist()), pieces, read, numbered.schema.empty_table())
+
+
+def _parquet_batches(path: Path, columns: Mapping[str, str]) -> Iterator[pa.Table]:
+    """Read a Parquet file in batches; buffered, so that not even a whole column of a row group is in memory."""
+    weld = [stored for stored, name in columns.items() if name == "weld"]
+    file = pq.ParquetFile(path, read_dictionary=weld, buffer_size=READ_BUFFER, pre_buffer=False)
+    try:
+        for batch in file.iter_batches(BATCH, columns=list(columns)):
+            yield trimmed(pa.Table.from_batches([batch]), columns)
+    except DAMAGE as error:
+        raise DataError(damaged(path, error)) from None
+
+
+def _unread(position: int) -> pa.ChunkedArray:
+    raise NotImplementedError(f"column {position} of a file that is read in pieces")

@@ -1,0 +1,82 @@
+"""A finished result is put in place of what was there before: all of its files or none."""
+
+import json
+import os
+import shutil
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from fatigue.errors import DataError, Problem
+from fatigue.results.provenance import JOURNAL, PROVENANCE
+
+STAGING = ".fatigue-staging"
+
+
+def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
+    """Put finished files in place of what was derived before, all of them or none.
+
+    They are forced to disk first. Then a journal says what goes and what comes; from there on the publication is
+    completed, by `complete` at the next command if need be. Provenance goes first and comes last, so that a half-moved
+    result never looks whole.
+
+    Parameters
+    ----------
+    finished : folder of the new files; a new result has its provenance among them
+    folder : the result folder, locked
+    stale : names of files to remove
+    """
+    files = sorted(finished.iterdir())
+    for path in files:
+        with path.open("rb+") as file:
+            os.fsync(file.fileno())
+    names = {path.name for path in files}
+    journal = {"from": os.path.relpath(finished, folder), "remove": [name for name in stale if name not in names]}
+    unfinished = folder / f"{JOURNAL}.unfinished"
+    with unfinished.open("w", encoding="utf-8") as file:
+        file.write(json.dumps(journal))
+        file.flush()
+        os.fsync(file.fileno())
+    unfinished.replace(folder / JOURNAL)
+    complete(folder)
+
+
+@contextmanager
+def staging_in(folder: Path) -> Iterator[Path]:
+    """Give a hidden folder in a result folder to write to; files are published from it when all are whole."""
+    staging = folder / STAGING
+    shutil.rmtree(staging, ignore_errors=True)
+    staging.mkdir()
+    try:
+        yield staging
+    finally:
+        if not (folder / JOURNAL).exists():  # else `complete` needs it
+            shutil.rmtree(staging, ignore_errors=True)
+
+
+def complete(folder: Path) -> None:
+    """Complete a publication that has begun; nothing where there is none. The folder has to be locked.
+
+    Raises
+    ------
+    DataError : a file cannot be replaced or removed, as one that is open on Windows
+    """
+    try:
+        journal = json.loads((folder / JOURNAL).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return
+    finished = folder / journal["from"]
+    files = sorted(finished.iterdir()) if finished.is_dir() else []
+    files.sort(key=lambda path: path.name == PROVENANCE)
+    try:
+        for name in journal["remove"]:
+            (folder / name).unlink(missing_ok=True)
+        if any(path.name == PROVENANCE for path in files):
+            (folder / PROVENANCE).unlink(missing_ok=True)
+        for path in files:
+            path.replace(folder / path.name)
+    except PermissionError as error:
+        where, what = str(error.filename2 or error.filename or folder), f"cannot be replaced ({error.strerror})"
+        remedy = "Close the program that has it open and run the same command again"
+        raise DataError(Problem("cannot_write", where, what, remedy)) from error
+    (folder / JOURNAL).unlink()

@@ -1,0 +1,184 @@
+"""Some rows of a result table that as a whole may not fit into memory, or one column of its texts.
+
+One row group is in memory at a time. Numbers of all rows, a column at a time, are what `read_table` is for.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from fatigue.results.columns import TABLES
+from fatigue.results.tables import read_table, readable, table_path
+
+
+def read_rows(
+    folder: Path | str, table: str, rows: NDArray[np.integer], columns: Sequence[str] | None = None
+) -> pa.Table:
+    """Read rows by their numbers, in the order of these.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    ascending = np.argsort(rows, kind="stable")
+    wanted = rows[ascending]
+    with _opened(folder, table) as file:
+        names = _wanted(file, columns)
+        end = np.cumsum([0, *(file.metadata.row_group(i).num_rows for i in range(file.num_row_groups))])
+        group = np.searchsorted(end, wanted, side="right") - 1
+        groups = [file.schema_arrow.empty_table().select(names)]
+        for number in np.unique(group):
+            whole = file.read_row_group(number, names)
+            groups.append(whole.take(pa.array(wanted[group == number] - end[number])))
+    found = _plain(pa.concat_tables(groups).unify_dictionaries())
+    return found if (np.diff(rows) > 0).all() else found.take(pa.array(np.argsort(ascending)))
+
+
+def row_groups(folder: Path | str, table: str) -> Iterator[pa.Table]:
+    """Read a table, one row group after the other; at least one, be it empty.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    with _opened(folder, table) as file:
+        if file.num_row_groups == 0:
+            yield _plain(file.schema_arrow.empty_table())
+        for number in range(file.num_row_groups):
+            yield _plain(file.read_row_group(number))
+
+
+def row_count(folder: Path | str, table: str) -> int:
+    """Count the rows of a table.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    with _opened(folder, table) as file:
+        rows: int = file.metadata.num_rows
+    return rows
+
+
+def number_groups(
+    folder: Path | str, table: str, numbers: Sequence[str], texts: Mapping[str, Sequence[str]]
+) -> Iterator[dict[str, NDArray[Any]]]:
+    """Read columns of a table as plain arrays, one row group after the other.
+
+    ``numbers`` are columns of numbers and flags, NaN where there is none. ``texts`` has for each column of texts the
+    list of those that are known; the array holds the place of each text in it, -1 for any other and for a missing one.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    places = {name: {text: place for place, text in enumerate(known)} for name, known in texts.items()}
+    with _opened(folder, table) as file:
+        names = _wanted(file, [*numbers, *texts])
+        for number in range(file.num_row_groups):
+            group = file.read_row_group(number, names)
+            columns: dict[str, NDArray[Any]] = {name: group.column(name).to_numpy() for name in numbers}
+            for name, place in places.items():
+                codes, found = _coded(group.select([name]))
+                columns[name] = np.array([*(place.get(text, -1) for text in found.to_pylist()), -1])[codes]
+            yield columns
+
+
+def rows_of_welds(folder: Path | str, table: str, welds: Sequence[str]) -> dict[str, NDArray[np.int64]]:
+    """Find the numbers of the rows of each of some welds, ascending.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    found: dict[str, list[NDArray[np.int64]]] = {weld: [np.zeros(0, dtype=np.int64)] for weld in welds}
+    first = 0
+    with _opened(folder, table) as file:
+        at = file.schema_arrow.names.index("weld")
+        for number in range(file.num_row_groups):
+            group = file.metadata.row_group(number)
+            if _may_hold(group.column(at).statistics, welds):
+                codes, names = _coded(file.read_row_group(number, ["weld"]))
+                for code, name in enumerate(names.to_pylist()):
+                    if name in found:
+                        found[name].append(first + np.flatnonzero(codes == code))
+            first += group.num_rows
+    return {weld: np.concatenate(rows) for weld, rows in found.items()}
+
+
+def worst_toes(folder: Path | str, top: int, welds: Sequence[str] = ()) -> NDArray[np.int64]:
+    """Find the rows of the worst toe points in the table of nodes that were counted, worst first: of some welds or all.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    table = read_table(folder, "nodes", ["toe", "utilisation"])
+    toe, utilisation = table["toe"].to_numpy(), table["utilisation"].to_numpy()
+    tier, names = read_codes(folder, "nodes", "screened")
+    rows = np.flatnonzero(toe & (np.array(names)[tier] == ""))
+    if welds:
+        of_welds = np.concatenate([*rows_of_welds(folder, "nodes", welds).values()])
+        rows = np.intersect1d(rows, of_welds)
+    return rows[np.argsort(-utilisation[rows], kind="stable")[:top]]
+
+
+def read_codes(folder: Path | str, table: str, column: str) -> tuple[NDArray[np.int32], list[str]]:
+    """Read a column of texts as codes (n,), -1 for a missing one, and the texts they stand for.
+
+    Raises
+    ------
+    DataError : the folder holds no such table, or the file is damaged
+    """
+    with _opened(folder, table) as file:
+        codes, names = _coded(file.read([column]))
+    return codes, names.to_pylist()
+
+
+def _wanted(file: pq.ParquetFile, columns: Sequence[str] | None) -> list[str]:
+    """Give the names of the columns to read, in the order of the file; all of them must be there."""
+    there = file.schema_arrow.names
+    missing = [name for name in columns or () if name not in there]
+    if missing:
+        raise pa.ArrowInvalid(f"it has no column {missing[0]}")
+    return [name for name in there if columns is None or name in columns]
+
+
+@contextmanager
+def _opened(folder: Path | str, table: str) -> Iterator[pq.ParquetFile]:
+    """Open a table, its texts to be read as codes."""
+    path = table_path(folder, table)
+    texts = [column.name for column in TABLES[table] if column.type == "text"]
+    with readable(path):
+        try:
+            opened = pq.ParquetFile(path, read_dictionary=texts)
+        except KeyError as error:  # of the library, for a coded column that is not there
+            raise pa.ArrowInvalid(f"it has no column {error.args[0].decode()}") from None
+        with opened as file:
+            yield file
+
+
+def _may_hold(statistics: pq.Statistics | None, welds: Sequence[str]) -> bool:
+    """Whether some of the welds may be in a row group, by the first and last name in it."""
+    if statistics is None or not statistics.has_min_max:
+        return True
+    return any(statistics.min <= weld <= statistics.max for weld in welds)
+
+
+def _plain(table: pa.Table) -> pa.Table:
+    """Turn coded texts into texts."""
+    fields = [f.with_type(f.type.value_type) if pa.types.is_dictionary(f.type) else f for f in table.schema]
+    return table.cast(pa.schema(fields, metadata=table.schema.metadata))
+
+
+def _coded(table: pa.Table) -> tuple[NDArray[np.int32], pa.Array]:
+    """Codes and texts of the one column of a table."""
+    column = table.unify_dictionaries().column(0).combine_chunks()
+    return pc.fill_null(column.indices, -1).to_numpy(), column.dictionary
