@@ -100,7 +100,7 @@ def ratio_factor(r: Numbers) -> Numbers:
 
 
 def log_ratio_factor_slope(r: Floats) -> Floats:
-    """Slope d ln(I(r)^(1/m)) / dr of `ratio_factor`.
+    """Slope d ln(I(r)^(1/m)) / dr of ``ratio_factor``.
 
     >>> round(log_ratio_factor_slope(0.5), 6)
     0.066821
@@ -127,7 +127,7 @@ def size_factor(thickness: Floats, curve: SNCurve, rule: ThicknessRule) -> Float
 
 
 def size_exponent(thickness: float, curve: SNCurve, rule: ThicknessRule) -> float:
-    """Exponent d ln(size) / d ln(t) of `size_factor` at a thickness [mm]; 0 where the rule holds it fixed."""
+    """Exponent d ln(size) / d ln(t) of ``size_factor`` at a thickness [mm]; 0 where the rule holds it fixed."""
     if curve.applies == "dS":
         low, high = ASME_THICKNESS_LIMITS if rule == "asme" else (0.0, np.inf)
         return SIZE_EXPONENT if low <= thickness < high else 0.0
@@ -156,7 +156,7 @@ def factor_of_stress_ratio(R: Numbers) -> Numbers:
 
 
 def mean_stress_factor(minimum: Floats, maximum: Floats, yield_MPa: float) -> Floats:
-    """``f_M = (1 - R)^(1/m)`` where `has_mean_stress` says so, else 1; the range is divided by it.
+    """``f_M = (1 - R)^(1/m)`` where ``has_mean_stress`` says so, else 1; the range is divided by it.
 
     ``minimum`` and ``maximum`` are the structural stresses at the two reversals, dead load included [MPa].
 

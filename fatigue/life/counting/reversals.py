@@ -1,6 +1,6 @@
 """How cycles are found: from the samples of a signal to its reversals, and from these to cycles.
 
-Plain loops over one signal in float64: `turning_points` finds the reversals, `close_cycles` pairs them.
+Plain loops over one signal in float64: ``turning_points`` finds the reversals, ``close_cycles`` pairs them.
 """
 
 from typing import NamedTuple

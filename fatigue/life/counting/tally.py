@@ -21,7 +21,7 @@ _SCALARS = tuple(field.name for field in fields(BlockCount) if field.name != "hi
 
 
 class CompiledRule(NamedTuple):
-    """A `CycleRule` in a form that compiled code can read, its law among it: see `compiled_rule`."""
+    """A ``CycleRule`` in a form that compiled code can read, its law among it: see ``compiled_rule``."""
 
     slopes: Floats
     log_constants: Floats

@@ -112,12 +112,12 @@ def close_pass(room: Room, n: int, cycles: int, flat: np.float32) -> tuple[int, 
 
 
 def find_reversals(*args: Any) -> Any:
-    """Call `write_reversals`, in vector instructions where they are."""
+    """Call ``write_reversals``, in vector instructions where they are."""
     return write_reversals(*args)
 
 
 def close_ranges(*args: Any) -> Any:
-    """Call `close_pass`, in vector instructions where they are."""
+    """Call ``close_pass``, in vector instructions where they are."""
     return close_pass(*args)
 
 
@@ -331,8 +331,8 @@ def count_chunk(
 ) -> int:
     """Count the steps to the columns 1 to ``samples`` of a block, its membrane rows above its bending rows.
 
-    Surfaces on which rounding may have decided are left to `kernels.doubt.count_chunk_exactly`: returns how many there
-    are in ``doubts`` (2 n, 2), row and face of each.
+    Surfaces on which rounding may have decided are left to ``kernels.doubt.count_chunk_exactly``: returns how many
+    there are in ``doubts`` (2 n, 2), row and face of each.
     """
     points = stress.shape[0] // 2
     found = 0

@@ -84,9 +84,9 @@ def _widest_vectors(context: Any) -> Any:
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         attributes = builder.function.attributes
-        attributes.add("noinline")  # or those of the caller would count
+        attributes.add("noinline")  # or the attributes of the caller would count
         for name in ("prefer-vector-width", "min-legal-vector-width"):
-            set.add(attributes, f'"{name}"="512"')  # llvmlite's own `add` knows no such attributes
+            set.add(attributes, f'"{name}"="512"')  # llvmlite's own ``add`` knows no such attributes
         return context.get_dummy_value()
 
     return types.void(), generate
