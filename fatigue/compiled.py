@@ -1,7 +1,7 @@
 """Loops in machine code: one decorator for all of them.
 
-Machine code is kept on disk as long as the file of its function is the same. Functions of other files that it calls, and
-named tuples that it takes, are part of it: whoever changes or renames these deletes the ``*.nbi`` files in
+Machine code is kept on disk as long as the file of its function is the same. Functions of other files that it calls,
+and named tuples that it takes, are part of it: whoever changes or renames these deletes the ``*.nbi`` files in
 ``__pycache__``.
 """
 
