@@ -155,7 +155,7 @@ def assess(
 
 
 def _senseless(threads: object, share: object, executor: object) -> Iterator[Problem]:
-    """Find arguments that make no sense."""
+    """Arguments that make no sense."""
     if threads is not None and not (isinstance(threads, Integral) and int(threads) >= 1):
         yield Problem("argument", "threads", f"{threads!r} is no number of threads", "Give a whole number from 1 on")
     if share is not None and not (isinstance(share, Real) and 0.0 <= float(share) <= 1.0):
@@ -166,7 +166,7 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
 
 
 def write_documents(folder: Path, case: Case, verification: Verification) -> list[Path]:
-    """Write picture and page beside the tables of a result that is not published yet."""
+    """Write picture and page beside the tables of a result that is not published yet, and return their paths."""
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]
@@ -176,8 +176,8 @@ def write_documents(folder: Path, case: Case, verification: Verification) -> lis
 class Tally:
     """What adds up while groups of welds stream by.
 
-    ``stations`` are counted by the tier that settled them, ``samples_per_peak`` is the smallest of each event,
-    ``warnings`` has those about the welds in the order of their groups.
+    ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
+    ``warnings`` has the warnings about the welds in the order of their groups.
     """
 
     total: int
@@ -219,14 +219,14 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
 
 
 def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:
-    """Choose the worst points of a group whose cycles go into ``cycles.parquet``."""
+    """The worst points of a group whose cycles go into ``cycles.parquet``."""
     stations, curve_of_weld, used_up = group.model.stations, group.model.curve_of_weld, group.result.mission.utilisation
     matter = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
     return [kept_point(stations, curve_of_weld, point) for point in matter]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
-    """Tell which records are sampled too coarsely for their points, and what damage that hides."""
+    """Warnings of records that are sampled too coarsely for their points, with the damage that hides."""
     slope = max(float(rated.rule.law.slopes[0]) for rated in body.curves.values())
     return [
         Problem(

@@ -22,10 +22,10 @@ from fatigue.stages import stage
 class CheckedCase:
     """Sizes of a case that passed every check, and the warnings about it.
 
-    Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded, ``candidates`` are
-    candidates; ``samples`` are stress samples of one face: stations times kept samples, over all events.
-    ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` that with
-    every point counted, ``estimate`` what they consist of. ``warnings`` are summed up as those of an assessment are.
+    Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded and ``candidates``
+    are candidates. ``samples`` are stress samples of one face: stations times kept samples, over all events.
+    ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` the time
+    with every point counted, ``estimate`` what they consist of. ``warnings`` are summed up as in an assessment.
     """
 
     title: str
@@ -49,7 +49,7 @@ class CheckedCase:
         return self.excluded + self.candidates > 0
 
     def as_record(self) -> dict[str, Any]:
-        """For machines."""
+        """The sizes for machines."""
         plain = {name: getattr(self, name) for name in self.__slots__ if name not in ("warnings", "estimate")}
         return plain | {
             "estimate": asdict(self.estimate),
@@ -57,7 +57,7 @@ class CheckedCase:
         }
 
     def as_text(self) -> str:
-        """For people."""
+        """The sizes for people."""
         candidates = f"{self.candidates} candidate{'s' * (self.candidates != 1)}"
         return "\n".join(
             [
@@ -74,7 +74,9 @@ class CheckedCase:
 
 
 def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
-    """Read and check a case, or the case of a file, and all its files; ``strict``: unknown columns are errors.
+    """Sizes of a case, or of the case of a file, that is read and checked with all its files.
+
+    ``strict`` takes unknown columns for errors.
 
     Raises
     ------
@@ -120,7 +122,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
 
 
 def _time_text(needed: JobTime) -> str:
-    """Say how long it takes, and what that includes."""
+    """How long it takes, and what that includes, in words."""
     cores = os.cpu_count() or 1
     shared = needed.events + needed.counting
     counting = f"{_duration(needed.counting)} counting"

@@ -1,4 +1,8 @@
-"""Loops in machine code: one decorator for all of them."""
+"""Loops in machine code: one decorator for all of them.
+
+Machine code is kept on disk as long as the file of its function is the same. A function that is called from another
+file is part of that: whoever changes it deletes the ``*.nbi`` files beside the sources.
+"""
 
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar, cast
@@ -17,3 +21,8 @@ def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         return cast(Callable[P, R], njit(cache=True, nogil=True, error_model="numpy", fastmath=set(fastmath))(function))
 
     return compile_lazily
+
+
+def inlined(function: Callable[P, R]) -> Callable[P, R]:
+    """Let compiled code contain a function in place of calling it: a call counts the references to its arrays."""
+    return cast(Callable[P, R], njit(inline="always")(function))

@@ -1,4 +1,4 @@
-"""Independent pieces of work on a few threads, given back in order."""
+"""Independent items of work on a few threads, given back in order."""
 
 import os
 from collections.abc import Callable, Iterable
@@ -11,10 +11,10 @@ Result = TypeVar("Result")
 
 
 def in_order(do: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> list[Result]:
-    """Do the work of all items, as many at a time as there are threads, by default one per processor core.
+    """Results of all items in their order; as many are worked on at a time as there are threads.
 
-    The results are in the order of the items. Of several errors that of the first item is raised; what has not begun
-    then, or when the user interrupts, is dropped.
+    ``threads`` are by default one per processor core. Of several errors the error of the first item is raised. What has
+    not begun then, or when the user interrupts, is dropped.
     """
     executor = ThreadPoolExecutor(threads or os.cpu_count() or 1, thread_name_prefix="fatigue")
     try:
@@ -24,7 +24,7 @@ def in_order(do: Callable[[Item], Result], items: Iterable[Item], threads: int |
 
 
 def meanwhile(do: Callable[[], Result]) -> Callable[[], Result]:
-    """Begin a piece of work on a thread of its own; what is returned waits for it, and gives its result or its error.
+    """A call that waits for work begun on a thread of its own, and gives its result or its error.
 
     Where nobody asks, nobody waits.
     """

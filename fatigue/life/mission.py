@@ -16,8 +16,8 @@ REFERENCE_CYCLES = 2e6  # at which European classes are named
 class Pass:
     """How often one simulated pass of an event occurs.
 
-    ``samples`` are those kept of its record; ``length`` is the distance of the pass [km], None for an event counted by
-    number; ``share`` its part of the mileage; ``per_1000_km`` its number in 1000 km.
+    ``samples`` is how many of its record are kept; ``length`` is the distance of the pass [km], None for an event
+    counted by number; ``share`` its part of the mileage; ``per_1000_km`` its number in 1000 km.
     """
 
     event: str
@@ -46,18 +46,32 @@ class Plan:
 
 
 def mission_sum(per_pass: NDArray[np.float64], passes: Sequence[Pass]) -> NDArray[np.float64]:
-    """Sum a quantity counted per pass over the mission: (event, ...) -> (...) [1/km]."""
+    """Sum a quantity counted per pass over the mission: (event, ...) -> (...) [1/km].
+
+    >>> tangent = Pass("tangent", samples=1000, length=2.5, share=1.0, per_1000_km=None)
+    >>> loading = Pass("load and unload", samples=2, length=None, share=None, per_1000_km=4.0)
+    >>> float(mission_sum(np.array([2e-7, 5e-6]), [tangent, loading]).round(12))
+    1e-07
+    """
     weights = np.array([p.passes_per_km for p in passes])
     return np.asarray(np.tensordot(weights, per_pass, axes=1))
 
 
 def life_km(damage_per_km: NDArray[np.float64], damage_limit: float) -> NDArray[np.float64]:
-    """Distance at which the Miner sum reaches its limit [km]; +inf where nothing damages."""
+    """Distance at which the Miner sum reaches its limit [km]; +inf where nothing damages.
+
+    >>> life_km(np.array([1e-7, 0.0]), 0.5)
+    array([5000000.,      inf])
+    """
     return np.divide(damage_limit, damage_per_km, out=np.full_like(damage_per_km, np.inf), where=damage_per_km > 0.0)
 
 
 def straight_load_factor(utilisation: NDArray[np.float64], slope: float) -> NDArray[np.float64]:
-    """Scale on all stresses that just meets the target on a straight curve, ``utilisation^(-1/k)``; +inf undamaged."""
+    """Scale on all stresses that just meets the target on a straight curve, ``utilisation^(-1/k)``; +inf undamaged.
+
+    >>> straight_load_factor(np.array([8.0]), 3.0)
+    array([0.5])
+    """
     return np.power(utilisation, -1.0 / slope, out=np.full_like(utilisation, np.inf), where=utilisation > 0.0)
 
 
@@ -103,5 +117,9 @@ def load_factor(
 
 
 def range_at_2e6(power_sum_per_km: NDArray[np.float64], slope: float, target_km: float) -> NDArray[np.float64]:
-    """Find the constant range [MPa] that does the same in 2e6 cycles over the target: ``(sum n S^k / 2e6)^(1/k)``."""
+    """Constant range [MPa] that does the same in 2e6 cycles over the target: ``(sum n S^k / 2e6)^(1/k)``.
+
+    >>> range_at_2e6(np.array([4.0 * 30.0**3]), 3.0, 5e5).round(9)
+    array([30.])
+    """
     return np.asarray((power_sum_per_km * target_km / REFERENCE_CYCLES) ** (1.0 / slope))

@@ -11,8 +11,8 @@ and the life and the damage
 r is its bending ratio, f_M its mean-stress factor, C and h belong to the material (ASME VIII-2 5.5.5.2; Dong, 2001).
 Other S-N curves have the same form: a factor of the thickness, no I(r), and several segments d = x^k / A, k = 1 / h.
 
-Functions that take numbers as well as arrays are also compiled as they stand, for the counters. Code that was compiled
-before a formula here was changed is used again: delete ``__pycache__`` then.
+Functions that take numbers as well as arrays are also compiled as they stand, for the counters. After a change here the
+counters are to be compiled anew, see ``fatigue.compiled``.
 """
 
 from dataclasses import dataclass
@@ -100,7 +100,7 @@ def ratio_factor(r: Numbers) -> Numbers:
 
 
 def log_ratio_factor_slope(r: Floats) -> Floats:
-    """Slope d ln(I(r)^(1/m)) / dr of `ratio_factor`.
+    """Slope d ln(I(r)^(1/m)) / dr of ``ratio_factor``.
 
     >>> round(log_ratio_factor_slope(0.5), 6)
     0.066821
@@ -127,7 +127,7 @@ def size_factor(thickness: Floats, curve: SNCurve, rule: ThicknessRule) -> Float
 
 
 def size_exponent(thickness: float, curve: SNCurve, rule: ThicknessRule) -> float:
-    """Exponent d ln(size) / d ln(t) of `size_factor` at a thickness [mm]; 0 where the rule holds it fixed."""
+    """Exponent d ln(size) / d ln(t) of ``size_factor`` at a thickness [mm]; 0 where the rule holds it fixed."""
     if curve.applies == "dS":
         low, high = ASME_THICKNESS_LIMITS if rule == "asme" else (0.0, np.inf)
         return SIZE_EXPONENT if low <= thickness < high else 0.0
@@ -156,7 +156,7 @@ def factor_of_stress_ratio(R: Numbers) -> Numbers:
 
 
 def mean_stress_factor(minimum: Floats, maximum: Floats, yield_MPa: float) -> Floats:
-    """``f_M = (1 - R)^(1/m)`` where `has_mean_stress` says so, else 1; the range is divided by it.
+    """``f_M = (1 - R)^(1/m)`` where ``has_mean_stress`` says so, else 1; the range is divided by it.
 
     ``minimum`` and ``maximum`` are the structural stresses at the two reversals, dead load included [MPa].
 
@@ -180,8 +180,8 @@ def equivalent_range(S: Numbers, size: Numbers, ratio_factor: Numbers, f_M: Numb
 def segment(x: Numbers, knees: Floats) -> Numbers:
     """Index of the segment of a law on which each equivalent range x lies: how many ``knees`` are above it."""
     above: Numbers = 0
-    for knee in knees:
-        above = above + (x < knee)
+    for j in range(len(knees)):
+        above = above + (x < knees[j])
     return above
 
 

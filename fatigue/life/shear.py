@@ -11,8 +11,8 @@ def shear_factor(
 
     ASME VIII-2 5.5.5.3 combines ``sqrt(dS^2 + 3 dT^2) / F(delta)`` for a harmonic path with phase delta. In the plane
     of (sigma, sqrt(3) tau) its F is ``sqrt(l1 / (l1 + l2))`` with the principal variances l1 >= l2. It needs no phase
-    and carries the rule over to random histories (an extension of the clause). The variances are those of normal and
-    shear stress already divided by their own ``I(r)^(1/m)``. NaN where the normal stress does not vary.
+    and carries the rule over to random histories (an extension of the clause). Normal and shear stress are
+    already divided by their own ``I(r)^(1/m)``. NaN where the normal stress does not vary.
 
     >>> shear_factor(np.array([1.0]), np.array([1.0 / 3.0]), np.array([0.0]))
     array([2.])

@@ -27,7 +27,7 @@ AT_ONCE = 64  # stations whose products stay in the first-level cache
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FormPair:
-    """Two matrices (m, m) by their common directions; see `form_pair`.
+    """Two matrices (m, m) by their common directions; see ``form_pair``.
 
     Attributes
     ----------
@@ -86,7 +86,10 @@ def part_forms(S_m: Floats, S_b: Floats, pair: FormPair) -> Floats:
 
 @compiled("reassoc", "contract")
 def _sum_squares(S_m: Floats, S_b: Floats, T: Floats, weights: Floats, at_once: int, forms: Floats) -> None:
-    """Sum the squares of p with both weights (2, r), some stations at a time; the products are those of BLAS."""
+    """``forms = sum over k of weights_k p_k^2`` with p = T'w of both weights (2, r) and of membrane, bending and faces.
+
+    Some stations at a time; BLAS multiplies.
+    """
     room = np.empty((2, at_once, T.shape[1]))
     for first in range(0, len(S_m), at_once):
         n = min(at_once, len(S_m) - first)

@@ -2,8 +2,8 @@
 
 Cut a history into its rises and falls. Rainflow gives every bit of them to one cycle: a cycle from v up to p takes
 one rise and one fall through [v, p], a half cycle one of the two. So for any rising function f the counted cycles
-satisfy ``sum n (f(p) - f(v)) = TV(f(s)) / 2``, TV the total variation of the counted history (that of a recurring block
-contains the step from its last sample to its first). With ``f(s) = s |s|^(q-1)``, s without its mean,
+satisfy ``sum n (f(p) - f(v)) = TV(f(s)) / 2``, TV the total variation of the counted history (a recurring block also
+steps from its last sample to its first). With ``f(s) = s |s|^(q-1)``, s without its mean,
 
     f(p) - f(v) >= 2^(1-q) (p - v)^q,   hence   sum n S^q <= 2^(q-2) TV(s |s|^(q-1)),
 
@@ -16,8 +16,8 @@ For q = 1 this is Markov's inequality, for q equal to the slope the crossing bou
 two powers needs no range: ``sum n S^k <= (sum n S^q)^((p-k)/(p-q)) (sum n S^p)^((k-q)/(p-q))`` (Hoelder), and a curve
 that is steeper for smaller ranges lies nowhere above the straight continuation of any of its segments. The smallest of
 all these bounds is taken. They hold for the record that is counted (upsampled or not) and for modal stress that
-contains the event's stress factor. Range and sums come without a loop over time from `extent_bound`, and much closer,
-with a loop but without counting, from `weld_basis.reduced_bound`.
+contains the event's stress factor. Range and sums come without a loop over time from ``extent_bound``, and much closer,
+with a loop but without counting, from ``weld_basis.reduced_bound``.
 """
 
 from collections.abc import Mapping
@@ -37,12 +37,12 @@ Floats = NDArray[np.float64]
 PowerSums = Mapping[int, Floats]  # bounds of sum n S^q [MPa^q] by q
 
 ROUNDING = 1e-9  # all bounds are raised by this much
-RIDGE = 1e-10  # added to the variance in every direction, over that of the coordinates
+RIDGE = 1e-10  # added to the variance in every direction, over the variance of the coordinates
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModalExtent:
-    """How far and how much the modal coordinates of one record move; see `modal_extent`.
+    """How far and how much the modal coordinates of one record move; see ``modal_extent``.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class ModalExtent:
 def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | None = None) -> ModalExtent:
     """Prepare the bounds of all stresses of a record of modal coordinates (m, t), once per event.
 
-    ``known`` are their mean and covariance, see `mean_and_covariance`, where somebody has computed them before.
+    ``known`` are their mean and covariance, see ``mean_and_covariance``, where somebody has computed them before.
     """
     modes, samples = q.shape
     mean, covariance = mean_and_covariance(q) if known is None else known
@@ -107,7 +107,8 @@ def modal_extent(q: Samples, residue: Residue, known: tuple[Floats, Floats] | No
 def extent_bound(S_m: Floats, S_b: Floats, forms: Floats, extent: ModalExtent) -> tuple[Floats, PowerSums]:
     """Bound range (n, 2) and sum n S^q, q = 1 and 2, (n, 2) each, of top and bottom stress without a loop over time.
 
-    Modal stress S_m, S_b (n, m) as in `BlockStress`, ``forms`` (2, n, 2) their `face_forms` for ``extent.products``.
+    Modal stress S_m, S_b (n, m) as in ``BlockStress``, ``forms`` (2, n, 2) their ``face_forms`` for
+    ``extent.products``.
 
     With Cauchy-Schwarz twice, ``|w'q| <= sqrt(w'P w) sqrt(q'P^-1 q)`` for any P that is positive definite, and
     ``sum |w'dq| <= sqrt(steps) sqrt(sum (w'dq)^2)``; the sums over the coordinates, ``sum |w| range(q)`` and
@@ -135,9 +136,9 @@ def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, F
 def damage_bound(stress_range: Floats, power_sums: PowerSums, size: Floats, rule: CycleRule) -> tuple[Floats, Floats]:
     """Bound the damage of one pass and the largest equivalent range of some points, arrays of any one shape.
 
-    ``stress_range`` [MPa] and ``power_sums`` bound range and sum n S^q; ``size``, of a shape that fits, is that of
-    `BlockStress`. The bound of the damage is infinite for a law with a slope below every q: there is none
-    then. It does not contain the mean-stress factor f_M: see `may_need_mean_stress`.
+    ``stress_range`` [MPa] and ``power_sums`` bound range and sum n S^q; ``size``, of a shape that fits, is as in
+    ``BlockStress``. The bound of the damage is infinite for a law with a slope below every q: there is none
+    then. It does not contain the mean-stress factor f_M: see ``may_need_mean_stress``.
     """
     law, I = rule.law, rule.ratio_factor(np.zeros(()))  # noqa: E741 - the symbol of the standard
     g = equivalent_range(1.0, size, I, 1.0)
@@ -174,6 +175,7 @@ def _of_modal_stresses(S_m: Floats, S_b: Floats, limits: Floats) -> Floats:
 
 @compiled("reassoc", "contract")
 def _sum_sizes(S_m: Floats, S_b: Floats, limits: Floats, sums: Floats) -> None:
+    """``sum over k of limits_k |S_m,k + S_b,k|`` at the top, with a minus at the bottom."""
     for i in range(len(S_m)):
         for row in range(len(limits)):
             top = bottom = 0.0
@@ -189,6 +191,6 @@ def _peak(variance: Floats, modal: Floats, extent: ModalExtent) -> Floats:
 
 
 def _safe(forms: Floats, size: Floats, pair: FormPair) -> Floats:
-    """Add their largest rounding errors to both forms of a pair, (2, n, 2); ``size`` (n, 2) is that of the faces."""
-    of_parts = size.sum(axis=1)  # not below that of |S_m| + |S_b|
+    """Add their largest rounding errors to both forms of a pair, (2, n, 2); ``size`` (n, 2) belongs to the faces."""
+    of_parts = size.sum(axis=1)  # not below the size of |S_m| + |S_b|
     return np.asarray(forms + pair.rounding[:, None, None] * of_parts[:, None] ** 2)

@@ -1,9 +1,9 @@
 """Close bounds of the damage of all points of a weld from the few histories that their stresses are made of.
 
 The stresses of a weld have one source: some 10 combinations u = B q of 100 modal coordinates make all its points up to
-a hundredth. So s = L u + e, and the product of every point with every mode is replaced by that of every point with
-u. By `screening`, bounds follow from the range and from the total variation V_q of f(s) = s |s|^(q-1). Those of a = L u
-are found in a loop over time; what e adds is bounded. Let a and e go straight from each sample to the next one. Then
+a hundredth. So s = L u + e, and every point is multiplied with the few u in place of all modes. By ``screening``,
+bounds follow from the range and from the total variation V_q of f(s) = s |s|^(q-1). Both are found for a = L u in a
+loop over time; what e adds is bounded. Let a and e go straight from each sample to the next one. Then
 
     V_q(s) - V_q(a) <= sum int |f'(s)| |de| + |f'(s) - f'(a)| |da|
                     <= q sum |De| int |s|^(q-1) + q (q-1) sum |Da| int |e| (|a| + |e|)^(q-2),
@@ -41,14 +41,14 @@ TOLERANCE = 1.5e-2  # rms that the histories of a weld may miss, of the largest 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WeldBases:
-    """Modal stress of some welds and the few histories of each; see `weld_bases`.
+    """Modal stress of some welds and the few histories of each; see ``weld_bases``.
 
     Attributes
     ----------
     membrane, bending : (n, m) modal stress
     weld : (n,) number of the weld of a station, from 0
     basis : (h, m) the histories of all welds, per unit modal coordinate
-    begin : (w + 1,) row of ``basis`` at which those of a weld begin, and their number
+    begin : (w + 1,) row of ``basis`` at which the histories of a weld begin, and how many rows there are
     membrane_part, bending_part : (n, b) the modal stress in terms of these rows, filled up with zeros
     membrane_rest, bending_rest : (n, m) what the histories miss
     room : memory for the histories, which one thread may use at a time
@@ -71,7 +71,7 @@ def weld_bases(S_m: Floats, S_b: Floats, weld: NDArray[np.integer], extents: Seq
 
     They are the combinations of its membrane and bending stresses with the largest variances, summed over the events in
     units of the mean over all stations. ``S_m``, ``S_b`` (n, m) are the modal stress of whole welds, ``weld`` (n,)
-    tells them apart, stations of one weld side by side; ``extents`` are those of all events.
+    tells them apart, stations of one weld side by side; ``extents`` has all events.
     """
     products = S_m.T @ S_m + S_b.T @ S_b
     metric = np.zeros_like(products)
@@ -120,7 +120,7 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: SingleRecord, extent: Mo
     root_samples = np.sqrt(extent.samples)
     _, s, s_step = size_bound(bases.membrane[rows], bases.bending[rows], extent)
     peak, e, e_step = size_bound(bases.membrane_rest[rows], bases.bending_rest[rows], extent)
-    rms = (s + e) / root_samples  # not below that of a
+    rms = (s + e) / root_samples  # not below the rms of a
     scale = np.where(rms > 0.0, rms, 1.0)  # of the loop, so that no power leaves single precision
     stresses, rounding = _combined(bases, rows, scale, record, extent)
     rounding_norm = rounding[..., 1] * root_samples
@@ -130,7 +130,7 @@ def reduced_bound(bases: WeldBases, rows: Rows, record: SingleRecord, extent: Mo
     of_a = Sums(*(of_stress[stresses.places].reshape(scale.shape) for of_stress in sums))
 
     e_ends, a_step = np.sqrt(2.0) * e, s_step + e_step
-    I_2 = (np.sqrt(of_a.steps) + 32.0 * SINGLE * np.sqrt(of_a.sixth)) / 3.0  # a of a^3 is not quite that of a^4
+    I_2 = (np.sqrt(of_a.steps) + 32.0 * SINGLE * np.sqrt(of_a.sixth)) / 3.0  # a^3 and a^4 are rounded apart
     I_1 = np.sqrt(a_step * I_2)
     s_6 = of_a.sixth ** (1 / 6) + (peak**2 * e) ** (1 / 3)
     third = of_a.third + 3.0 * e_step * np.sqrt(s * s_6**3) + 6.0 * e_ends * (I_1 + peak * a_step)
@@ -145,7 +145,7 @@ def _combined(
 ) -> tuple[Combined, Floats]:
     """Prepare some stations, over their scale, for the loop over time: top beside bottom, weld by weld.
 
-    Beside them the largest error of a sample in single precision and that of its rms, (r, 2, 2).
+    Beside them the largest errors of a sample in single precision and of its rms, (r, 2, 2).
     """
     modal = np.stack([extent.ranges, np.sqrt(np.diagonal(extent.covariance))], axis=1) / record.scale[:, None]
     B = bases.basis * record.scale

@@ -1,4 +1,4 @@
-"""Sums over time of the stresses of many welds, each the combination of a few histories: the loop of `weld_basis`."""
+"""Sums over time of the stresses of many welds, each the combination of a few histories: the loop of ``weld_basis``."""
 
 from typing import NamedTuple
 
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
-CHUNK = 2048  # samples at a time, a multiple of `product.STEP`
+CHUNK = 2048  # samples at a time, a multiple of ``product.STEP``
 HISTORIES = 4_000_000  # numbers of u at a time: 16 MB
 SINGLE = 2.0**-24  # relative rounding error
 
@@ -49,7 +49,7 @@ class Combined(NamedTuple):
 
     ``histories`` (h, m) are the rows B of all welds; ``matrices`` L of all welds, laid out one after the
     other; ``begin`` (2, w + 1) says where the histories and the tiles of each weld begin; ``places`` (n,) are the rows
-    of the tiles that hold the stresses, those of a weld from the beginning of a tile on.
+    of the tiles that hold the stresses; a weld begins with a tile.
     """
 
     histories: Singles
@@ -111,9 +111,9 @@ def add_record(
     room: Singles,
     found: Floats,
 ) -> None:
-    """Add what `add_sums` finds in a record, ``sizes`` samples long, so many of them at a time.
+    """Add what ``add_sums`` finds in a record, ``sizes`` samples long, so many of them at a time.
 
-    As in `kernels.over_time` the loop is compiled where the record and the product allow that: `add_in_memory`.
+    As in ``kernels.over_time`` the loop is compiled where the record and the product allow that: ``add_in_memory``.
     """
     samples, width = sizes
     for start in range(0, samples, width):
@@ -126,9 +126,10 @@ def add_record(
 
 @compiled()
 def add_sums(u: Singles, columns: int, matrices: Singles, begin: Rows, room: Singles, found: Floats) -> None:
-    """Add what `sums_of_steps` finds in some samples of all stresses, in column 0 of u (h, w) the last one before them.
+    """Add what ``sums_of_steps`` finds in some samples of all stresses.
 
-    ``matrices`` and ``begin`` are those of `Combined`; ``room`` (12, w) is for the stresses of a tile.
+    Column 0 of u (h, w) is the last sample before them. ``matrices`` and ``begin`` are as in ``Combined``; ``room``
+    (12, w) is for the stresses of a tile.
     """
     done = 0
     for weld in range(begin.shape[1] - 1):
@@ -145,7 +146,10 @@ def add_sums(u: Singles, columns: int, matrices: Singles, begin: Rows, room: Sin
 
 @compiled("reassoc", "nsz", "nnan", "contract")
 def sums_of_steps(a: Singles) -> tuple[np.floating, ...]:
-    """Find `Sums`, in its order, of the steps of a and of its samples but the first."""
+    """``sum |d(a^3)|``, ``sum |d(a^3 |a|)|``, ``sum d(a^3)^2``, ``sum a^6``, ``sum a^12``: ``Sums``, in its order.
+
+    Of the steps d of a and of its samples but the first.
+    """
     widest_vectors()
     third = fourth = steps = sixth = twelfth = np.float32(0.0)
     cube_before = a[0] * a[0] * a[0]

@@ -21,7 +21,7 @@ class BlockStress:
     ----------
     membrane, bending : (n, m) membrane stress, and bending stress of the top surface [MPa per unit modal coordinate]
     size : (n,) factor of the thickness on the range
-    same_ratio : (n, 2) the one bending ratio of `BlockCount.damage_same_ratio`
+    same_ratio : (n, 2) the one bending ratio of ``BlockCount.damage_same_ratio``
     """
 
     membrane: Floats
@@ -58,8 +58,8 @@ class BlockCount:
     max_equivalent_range : largest dS
     mean : mean of the structural stress samples [MPa]; NaN without samples
     kurtosis : fourth over squared second central moment of the samples, 3 if Gaussian; NaN of a constant row
-    histogram : (n, 2, HISTOGRAM_BINS, 2) sum of n and sum of n dS**k between the `HISTOGRAM_EDGES` of dS, ranges beyond
-        them in the end bins; (n, 2, 0, 2) for a straight law, where damage scales with load**k
+    histogram : (n, 2, HISTOGRAM_BINS, 2) sum of n and sum of n dS**k between the ``HISTOGRAM_EDGES`` of dS, ranges
+        beyond them in the end bins; (n, 2, 0, 2) for a straight law, where damage scales with load**k
     """
 
     damage: Floats

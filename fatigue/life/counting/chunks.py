@@ -2,14 +2,14 @@
 
 The stress of some thousand samples is recovered, its reversals are appended to those that wait, cycles that close are
 summed up at once, and what is left waits for the next chunk: values of membrane and bending stress, as many as it
-takes. Cycles are found and summed up by the loops of `rainflow`.
+takes. The loops of ``reversals`` and ``tally`` find cycles and sum them up.
 
-A single pass is counted just as there: the stack of open reversals is all that the counter knows. A block that recurs
-is counted there from its largest sample on, which here is known at the end only. Until then a range is closed when it
-is smaller than the one before it and not larger than the one after it: what lies before cannot change that, so it is a
-cycle wherever counting begins. The rest is turned so that it begins at its largest reversal, and closes entirely. Every
-cycle is the one of `rainflow`. Only where the largest or smallest stress of a block that recurs occurs several times,
-exactly equal, other instants of it may be paired: same ranges, but perhaps other bending ratios.
+A single pass is counted just as in whole rows: the stack of open reversals is all that the counter knows. Of a block
+that recurs, whole rows begin at its largest sample, which here is known at the end only. Until then a range is closed
+when it is smaller than the one before it and not larger than the one after it: what lies before cannot change that, so
+it is a cycle wherever counting begins. The rest is turned so that it begins at its largest reversal, and closes
+entirely. Every cycle is the same as in whole rows. Only where the largest or smallest stress of a block that recurs
+occurs several times, exactly equal, other instants of it may be paired: same ranges, but perhaps other bending ratios.
 """
 
 import math
@@ -90,7 +90,7 @@ class _Stage(NamedTuple):
 
 
 def count_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK) -> BlockCount:
-    """Count a block as `count` does, ``chunk`` samples at a time.
+    """Count a block as ``count`` does, ``chunk`` samples at a time.
 
     Raises
     ------
@@ -227,9 +227,9 @@ def append_reversals(m: Floats, b: Floats, side: float, steps: int, step: int, n
 def close_open(s: Floats, waiting: int, reversals: int, recurs: bool, buffers: Buffers) -> tuple[int, int]:
     """Close what closes whatever is still to come: the first ``waiting`` of the reversals are open ones.
 
-    A single pass follows `rainflow.close_cycles`: a range that contains the starting point is a half cycle. In a block
-    that recurs such a range waits, as does one that is not smaller than the range before it. Returns how many cycles
-    there are, and how many reversals are left, by their places in ``buffers.reversal``.
+    A single pass follows ``reversals.close_cycles``: a range that contains the starting point is a half cycle. In a
+    block that recurs such a range waits, as does one that is not smaller than the range before it. Returns how many
+    cycles there are, and how many reversals are left, by their places in ``buffers.reversal``.
     """
     reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
     cycles = 0

@@ -14,7 +14,7 @@ LONGEST_ROW = 250_000  # samples of a record of which 16 rows at a time are wort
 def count(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
     """Count top and bottom stress of a block, membrane + bending and membrane - bending, and sum the damage.
 
-    No point depends on another. See `fatigue.life.counting` for the counters.
+    No point depends on another. See ``fatigue.life.counting`` for the counters.
 
     Raises
     ------

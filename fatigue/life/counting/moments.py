@@ -14,7 +14,10 @@ LANES, DEPTH = 8, 8  # sums side by side, and terms of each that are added up in
 
 @compiled()
 def mean_and_kurtosis(s: Floats) -> tuple[float, float]:
-    """Mean and Pearson's kurtosis; deviations from the first sample keep a constant signal exactly constant."""
+    """Mean and Pearson's kurtosis ``n sum x^4 / (sum x^2)^2`` of ``x = s - mean``.
+
+    Deviations from the first sample keep a constant signal exactly constant.
+    """
     if s.size == 0:
         return math.nan, math.nan
     sums = np.empty((3, LANES))
@@ -26,7 +29,7 @@ def mean_and_kurtosis(s: Floats) -> tuple[float, float]:
 
 @compiled()
 def sums_of_powers(s: Floats, origin: float, sums: Floats) -> tuple[float, float, float]:
-    """Sum x, x^2 and x^4 of x = s - origin; ``sums`` (3, LANES) is work space.
+    """``sum x``, ``sum x^2``, ``sum x^4`` of ``x = s - origin``; ``sums`` (3, LANES) is work space.
 
     The order of the sums is written out, lane by lane: left to the compiler, it is another one in the process that
     compiles than in those that read the compiled code from disk.

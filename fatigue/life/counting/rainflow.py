@@ -43,6 +43,14 @@ def rainflow(signal: ArrayLike, residue: Residue) -> Cycles:
     ------
     CaseError : another residue
     DataError : not one-dimensional, or no numbers; NumericalError : a sample is not finite, or their range overflows
+
+    Examples
+    --------
+    >>> cycles = rainflow([-2, 1, -3, 5, -1, 3, -4, 4, -2], "half")
+    >>> cycles.range
+    array([3., 4., 4., 8., 9., 8., 6.])
+    >>> cycles.count
+    array([0.5, 0.5, 1. , 0.5, 0.5, 0.5, 0.5])
     """
     block, s = recurs(residue), samples_of(signal)
     buffers = buffers_for(s.size)

@@ -17,7 +17,7 @@ class SingleRecord:
 
     Attributes
     ----------
-    q : without their mean and over ``scale``: in memory as `single.kernels.product` lays them out, or (m, t) on disk
+    q : without their mean and over ``scale``: in memory as ``single.kernels.product`` lays them out, or (m, t) on disk
     scale : (m,) powers of 2 near the standard deviations
     mean : (m,) time mean
     covariance : (m, m)

@@ -1,6 +1,6 @@
 """How cycles are found: from the samples of a signal to its reversals, and from these to cycles.
 
-Plain loops over one signal in float64: `turning_points` finds the reversals, `close_cycles` pairs them.
+Plain loops over one signal in float64: ``turning_points`` finds the reversals, ``close_cycles`` pairs them.
 """
 
 from typing import NamedTuple
@@ -77,9 +77,9 @@ def turning_points(s: Floats, step: NDArray[np.int8], reversal: Indices) -> int:
 def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: Buffers) -> int:
     """Pair the reversals into cycles, in the order in which they close, and return how many (ASTM E1049-85, 5.4.4).
 
-    The latest range X closes the range Y before it if X >= Y. A Y that contains the starting point is a half cycle,
-    unless the block recurs; what is left at the end is half cycles. The open reversals are a stack at the front of
-    ``reversal``.
+    The latest range ``X = |s_top - s_(top-1)|`` closes the range ``Y = |s_(top-1) - s_(top-2)|`` before it if X >= Y.
+    A Y that contains the starting point is a half cycle, unless the block recurs; what is left at the end is half
+    cycles. The open reversals are a stack at the front of ``reversal``.
     """
     reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
     cycles = 0

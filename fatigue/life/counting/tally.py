@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.compiled import compiled
+from fatigue.compiled import compiled, inlined
 from fatigue.life import rule as master
 from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount
 from fatigue.life.counting.reversals import Buffers
@@ -21,7 +21,7 @@ _SCALARS = tuple(field.name for field in fields(BlockCount) if field.name != "hi
 
 
 class CompiledRule(NamedTuple):
-    """A `CycleRule` in a form that compiled code can read, its law among it: see `compiled_rule`."""
+    """A ``CycleRule`` in a form that compiled code can read, its law among it: see ``compiled_rule``."""
 
     slopes: Floats
     log_constants: Floats
@@ -80,7 +80,7 @@ ratio_factor = compiled()(master.ratio_factor)
 has_mean_stress = compiled()(master.has_mean_stress)
 factor_of_stress_ratio = compiled()(master.factor_of_stress_ratio)
 equivalent_range = compiled()(master.equivalent_range)
-segment = compiled()(master.segment)
+segment = inlined(master.segment)
 damage_on_segment = compiled()(master.damage_on_segment)
 
 
@@ -105,7 +105,11 @@ def cycle_damage(x: float, rule: CompiledRule) -> float:
 def tally(
     point: Surface, total: NDArray[np.void], histogram: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
 ) -> None:
-    """Add cycles of one point and surface to its totals and its histogram."""
+    """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
+
+    A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` and
+    ``dS = S size / (I(r)^(1/m) f_M)``.
+    """
     membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rule.slopes[0]
     I_same = ratio_factor(point.same_ratio) if rule.uses_bending_ratio else 1.0

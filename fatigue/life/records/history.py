@@ -24,7 +24,7 @@ class ModalHistory:
     ----------
     event : name of the event
     mode : (m,) mode ids
-    q : (m, t) modal coordinates, time contiguous [unit modal coordinate]; those of a long record are on disk
+    q : (m, t) modal coordinates, time contiguous [unit modal coordinate]; a long record is on disk
     step : time step [s]
     start : file time of the first sample [s]
     """
@@ -47,7 +47,7 @@ def first_kept(step: float, start_s: float) -> int:
 
 
 def kept(history: ModalHistory, start_s: float) -> ModalHistory:
-    """Cut the start-up, see `first_kept`."""
+    """Cut the start-up, see ``first_kept``."""
     first, q = first_kept(history.step, start_s), history.q
     cut = q.later(first) if isinstance(q, Spool) else np.ascontiguousarray(q[:, first:])
     return replace(history, q=cut, start=history.start + first * history.step)

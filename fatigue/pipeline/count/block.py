@@ -15,7 +15,7 @@ from fatigue.pipeline.count.overflow import no_overflow
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import ModalStress
 
-TIERS = ("", "modal bound", "weld bound")  # of the column `screened`: counted, or the bound that settled the point
+TIERS = ("", "modal bound", "weld bound")  # of the column ``screened``: counted, or the bound that settled the point
 ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
 
 
@@ -23,7 +23,8 @@ ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a s
 class Settled:
     """Stations of a block that were settled in one way, under all events.
 
-    ``rows`` are theirs in the block, ascending; ``events`` have no histograms; ``tier`` is an index into `TIERS`.
+    ``rows`` are their places in the block, ascending; ``events`` are without histograms; ``tier`` is an index into
+    ``TIERS``.
     """
 
     rows: NDArray[np.intp]
@@ -36,7 +37,7 @@ class Settled:
 class Block:
     """Stations of a group of welds that share a curve, and the events that they are under.
 
-    Its methods raise ``NumericalError`` where stress or damage exceeds double precision.
+    The methods raise ``NumericalError`` where stress or damage exceeds double precision.
 
     Attributes
     ----------
@@ -59,7 +60,7 @@ class Block:
         return len(self.stress)
 
     def estimated(self) -> tuple[Estimate, ...]:
-        """Estimate all events at all stations."""
+        """The estimate of every event at all stations."""
         estimates: tuple[Estimate, ...] = ()
         for load in self.loads:
             with no_overflow(load.counted.event, self.welds):
@@ -67,11 +68,11 @@ class Block:
         return estimates
 
     def all_counted(self) -> Iterator[Settled]:
-        """Count all events at all stations."""
+        """All stations, all of their events counted."""
         return self.counted(np.arange(len(self)), self.estimated())
 
     def counted(self, rows: NDArray[np.intp], estimates: Sequence[Estimate]) -> Iterator[Settled]:
-        """Count all events at some stations."""
+        """Some stations, all of their events counted."""
         for some in self._at_once(rows):
             stress = self.stress.at(some)
             events = [
@@ -83,10 +84,10 @@ class Block:
     def counted_while_unsettled(
         self, rows: NDArray[np.intp], estimates: Sequence[Estimate], bounds: Bounds
     ) -> Iterator[Settled]:
-        """Count some stations event by event, as long as they are unsettled.
+        """Those of some stations that stay unsettled until all of their events have been counted.
 
-        What was counted tightens the bounds of the events, by which a station is settled or not; those that remain
-        unsettled have had all of their events counted.
+        The stations are counted event by event. What was counted tightens the bound of the event, by which a station
+        may be settled; the events that are left are not counted there.
         """
         for some in self._at_once(rows):
             events: dict[int, tuple[NDArray[np.intp], EventBlock]] = {}
@@ -101,7 +102,7 @@ class Block:
                 yield self._settled(remaining, self._judged(self.stress.at(remaining), of_these), 0)
 
     def bounded(self, rows: NDArray[np.intp], estimates: Sequence[Estimate], bounds: Bounds, tier: int) -> Settled:
-        """Take the bounds of all events at some stations."""
+        """Some stations, with bounds in place of the count of every event."""
         raw_ends = self.stress.raw_ends.at(rows)
         of_events = zip(estimates, bounds.of_events, strict=True)
         return self._settled(rows, [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in of_events], tier)
@@ -114,11 +115,11 @@ class Block:
         return [judged(event, stress, load) for event, load in zip(events, self.loads, strict=True)]
 
     def _settled(self, rows: NDArray[np.intp], events: Sequence[EventBlock], tier: int) -> Settled:
-        """Weight the events with the mission; only that needs their histograms."""
+        """Some stations, their events weighted with the mission; only the weighting needs the histograms."""
         mission = mission_block(events, self.plan, self.stress.rule.law)
         return Settled(rows, tuple(event.without_histogram() for event in events), mission, tier)
 
     def _at_once(self, rows: NDArray[np.intp]) -> Iterator[NDArray[np.intp]]:
-        """Take all rows at once unless their histograms would be large."""
+        """All rows at once, unless their histograms would be large."""
         step = max(1, len(rows)) if self.stress.rule.law.is_straight else ROWS_WITH_HISTOGRAM
         return (rows[first : first + step] for first in range(0, len(rows), step))

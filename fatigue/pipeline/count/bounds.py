@@ -21,9 +21,9 @@ ABOVE = 1.0 + 1e-6  # so that what was counted in single precision is a bound as
 class Screening:
     """What settles points without counting.
 
-    ``share`` of the damage limit below which a bound is enough; ``proves_worst``: also the worst point of welds that
-    are below it everywhere has to be proven; ``extents`` and ``records`` say of every event how far and how much its
-    modal coordinates move, without and with a loop over time.
+    A bound below ``share`` of the damage limit is enough. With ``proves_worst`` the worst point of welds that stay
+    below the share everywhere has to be proven, too. ``extents`` and ``records`` say of every event how far and how
+    much its modal coordinates move, without and with a loop over time.
     """
 
     share: float
@@ -45,7 +45,7 @@ class Bound:
         return type(self)(self.damage[rows], self.max_range[rows], self.max_equivalent_range[rows])
 
     def tightened(self, other: Self, rows: NDArray[np.intp]) -> Self:
-        """Take the lower one of two bounds at some stations, those of ``other`` in their order."""
+        """The lower one of two bounds at some stations; ``other`` has these stations only, in their order."""
         arrays = []
         for name in ("damage", "max_range", "max_equivalent_range"):
             lower = getattr(self, name).copy()
@@ -55,11 +55,11 @@ class Bound:
 
     @classmethod
     def of_count(cls, counted: BlockCount) -> Self:
-        """Take what was counted for a bound."""
+        """The bound that a count is."""
         return cls(ABOVE * counted.damage, ABOVE * counted.max_range, ABOVE * counted.max_equivalent_range)
 
     def as_count(self) -> BlockCount:
-        """Let the bounds stand for a count: what only cycles could tell is NaN."""
+        """A count that the bound stands for; what only cycles could tell is NaN."""
         unknown = {field.name: np.full_like(self.damage, np.nan) for field in fields(BlockCount)}
         known = {field.name: getattr(self, field.name) for field in fields(self)}
         return BlockCount(**(unknown | known | {"histogram": np.zeros((*self.damage.shape, 0, 2))}))
@@ -74,7 +74,7 @@ class Bounds:
     of_events : the bound of every event; they are tightened one by one
     plan : how often the events occur
     toe : (n, 2) faces that carry a weld toe
-    worst : (n, 1) share of the limit that the worst point of the weld is known to use up, 0 until one was counted
+    worst : (n, 1) share of the limit that a point of the weld is known to use up, 0 until one was counted
     screening : what is enough
     """
 
@@ -93,7 +93,7 @@ class Bounds:
         return utilisation(self.of_events, self.plan, rows)
 
     def unsettled(self, rows: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Find stations whose bound neither stays below the share nor below the worst point of their weld."""
+        """Those of some stations whose bound stays neither below the share nor below the worst point of their weld."""
         at_most = self.utilisation(rows)
         remains = at_most >= self.screening.share
         if self.screening.proves_worst:
@@ -101,10 +101,10 @@ class Bounds:
         return rows[np.flatnonzero(remains.any(axis=1))]
 
     def event_by_event(self, rows: NDArray[np.intp]) -> Iterator[tuple[int, NDArray[np.intp]]]:
-        """Give the number of each event and those of some stations that are still unsettled when it is its turn.
+        """The number of each event, and the stations that are still unsettled when it is its turn.
 
-        The events whose bounds make up most of the damage come first; whoever asks tightens the bound of an event
-        before he asks for the next one.
+        The events whose bounds make up most of the damage come first. The caller tightens the bound of an event before
+        he asks for the next one.
         """
         for event in self._by_share(rows):
             yield event, rows
@@ -113,7 +113,7 @@ class Bounds:
                 return
 
     def _by_share(self, rows: NDArray[np.intp]) -> list[int]:
-        """Numbers of the events, those first whose bounds make up most of the damage of some stations."""
+        """Numbers of the events; the events whose bounds make up most of the damage of some stations come first."""
         weights = np.array([p.passes_per_km for p in self.plan.passes])[:, None, None]
         damage = weights * np.stack([bound.damage[rows] for bound in self.of_events])
         with np.errstate(invalid="ignore"):  # no bound, or no damage at all
@@ -136,10 +136,10 @@ def event_bound(
     load: EventLoad,
     mean: NDArray[np.float64],
 ) -> Bound:
-    """Bound one pass at some ``rows`` of a block from bounds of range and sum n S^q, (n, 2) each, of the record.
+    """Bound of one pass at some ``rows`` of a block, from bounds of range and sum n S^q, (n, 2) each, of its record.
 
-    They are those before the event's stress factor. ``mean`` (n, 2) is the time mean of the stress [MPa]. Where the
-    damage contains the mean-stress factor, stations that may need it have no bound.
+    ``found`` does not contain the stress factor of the event. ``mean`` (n, 2) is the time mean of the stress [MPa].
+    Where the damage contains the mean-stress factor, stations that may need the factor have no bound.
     """
     stress_range = load.stress_factor * found[0]
     power_sums = {q: load.stress_factor**q * power_sum for q, power_sum in found[1].items()}

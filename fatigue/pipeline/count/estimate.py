@@ -64,10 +64,10 @@ def member_variances(stress: ModalStress, load: EventLoad) -> NDArray[np.float64
 
 
 def estimate_event(stress: ModalStress, load: EventLoad, variances: NDArray[np.float64]) -> Estimate:
-    """Estimate the damage of one pass of an event at every station of a block from its spectrum.
+    """Estimate of one pass of an event at every station of a block, from the spectrum of its record.
 
-    ``variances`` (n, 2) are the `member_variances`.
-    Both the estimates and the rainflow damage they are compared with use one bending ratio per station.
+    ``variances`` (n, 2) are the ``member_variances``. The estimates, and the rainflow damage that they are compared
+    with, use one bending ratio per station.
     """
     S_m, S_b, f = stress.membrane, stress.bending, load.stress_factor
     std_m, std_b = f * np.sqrt(variances.T)

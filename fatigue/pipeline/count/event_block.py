@@ -28,7 +28,7 @@ class EventBlock:
     estimate : the pass in the frequency domain
     count : its cycles; where bounds stand for them, what only cycles could tell is NaN
     damage_shear : Miner sum with the shear counted with the normal stress
-    shear_ratio : standard deviation of the shear over that of the normal stress
+    shear_ratio : standard deviation of the shear over the standard deviation of the normal stress
     damage_raw_end : Miner sum without the end treatment, NaN where that was not counted
     verdict : index into ``VERDICTS``
     """
@@ -52,15 +52,15 @@ class EventBlock:
         )
 
     def without_histogram(self) -> Self:
-        """Drop the histogram, which is larger than all else and serves the load factor only."""
+        """The same without its histogram, which is larger than all else and serves the load factor only."""
         nothing = np.zeros((*self.verdict.shape, 0, 2))
         return replace(self, count=replace(self.count, histogram=nothing))
 
 
 def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> EventBlock:
-    """Count one pass of an event at every station of a block; see `judged` for the verdict.
+    """One pass of an event counted at every station of a block; ``judged`` gives the verdict.
 
-    The equivalent range of each cycle has that cycle's own bending ratio (ASME VIII-2 5.5.5).
+    The equivalent range of a cycle has the bending ratio of this cycle (ASME VIII-2 5.5.5).
     """
     counted, damage_raw_end = _counted(stress, load, estimate.one_ratio)
     var, shear_var, covar, shear_bending_ratio = _variances(stress, load)
@@ -78,7 +78,7 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> Eve
 
 
 def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBlock:
-    """Judge by what was counted whether the estimate may be trusted at each point of a block."""
+    """The same event with its verdict: whether, by what was counted, the estimate may be trusted at each point."""
     if load.trust is None:
         return event
     law, both = stress.rule.law, load.stress_factor * faces(stress.membrane, stress.bending)
@@ -100,7 +100,7 @@ def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBloc
 
 
 def bounded_event(estimate: Estimate, bound: Bound, raw_ends: RawEnds) -> EventBlock:
-    """Take proven bounds for one pass of an event: damage and largest ranges are never larger; nothing was counted."""
+    """One pass of an event with proven bounds in place of a count: damage and largest ranges are never larger."""
     unknown = np.full_like(bound.damage, np.nan)
     damage_raw_end = bound.damage.copy()
     damage_raw_end[raw_ends.rows] = np.nan
@@ -114,9 +114,9 @@ def _not_assessed(like: NDArray[np.float64]) -> NDArray[np.int8]:
 def _counted(
     stress: ModalStress, load: EventLoad, one_ratio: NDArray[np.float64]
 ) -> tuple[BlockCount, NDArray[np.float64]]:
-    """Count a block, and beside it the raw ends that matter: also the damage with those in place of the treated ends.
+    """The count of a block, and its damage (n, 2) with raw ends in place of treated ones, NaN where they do not matter.
 
-    That is (n, 2), NaN at raw ends that do not matter.
+    The raw ends that matter are counted beside the block.
     """
     n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
     rows = ends.rows[matters]

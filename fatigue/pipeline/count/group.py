@@ -22,7 +22,7 @@ def assess_group(
     plan: Plan,
     screening: Screening | None,
 ) -> GroupResult:
-    """Count every event at every station of a group of welds, or at those that screening leaves to be counted.
+    """Result of a group of welds: every event counted at every station, or at the stations that screening leaves.
 
     Raises
     ------

@@ -17,9 +17,9 @@ from fatigue.quotient import quotient
 class MissionBlock:
     """Results of the whole mission at a block of stations; every array is (n, 2): top and bottom face.
 
-    ``life_km_raw_end`` is the life without the end treatment, NaN where that was not counted. ``governing`` is the
-    index of the event with the largest share of the damage, -1 where nothing damages; ``verdict`` that of the event
-    with the largest share of the damage among those that have a spectrum.
+    ``life_km_raw_end`` is the life without the end treatment, NaN where it was not counted. ``governing`` is the index
+    of the event with the largest share of the damage, -1 where nothing damages. ``verdict`` is the verdict of the
+    event with the largest share of the damage among the events that have a spectrum.
     """
 
     damage_per_km: NDArray[np.float64]
@@ -44,7 +44,7 @@ class MissionBlock:
 
 
 def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> MissionBlock:
-    """Weight the passes of every event with the mission: damage per km, life, load factor and what goes with them.
+    """Damage per km, life, load factor and what goes with them: the passes of every event weighted with the mission.
 
     Where bounds stand for counting (the number of cycles is NaN), damage, life and load factor are on the safe side,
     and nothing is said of what depends on the event that governs.
@@ -89,7 +89,7 @@ def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> M
 
 
 def _verdict(events: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDArray[np.int8]:
-    """Pick the verdict of the event that does most of the damage and was assessed in the frequency domain."""
+    """Verdict of the event that does most of the damage, of the events assessed in the frequency domain."""
     verdicts = np.stack([event.verdict for event in events])
     same_ratio = np.stack([event.count.damage_same_ratio for event in events])
     share = np.where(verdicts > 0, weights * same_ratio, -1.0)
@@ -99,7 +99,10 @@ def _verdict(events: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDAr
 def _load_factor(
     counts: Sequence[BlockCount], utilisation: NDArray[np.float64], plan: Plan, law: DamageLaw, counted: bool
 ) -> NDArray[np.float64]:
-    """Exact on a straight curve; from the stored spectrum on a curve with a knee, which only counting gives."""
+    """Scale on all stresses that meets the target: exact on a straight curve, from the spectrum on one with a knee.
+
+    Only counting gives a spectrum; without one the factor is NaN.
+    """
     if law.is_straight:
         return straight_load_factor(utilisation, float(law.slopes[0]))
     if not counted:
@@ -112,7 +115,7 @@ def _load_factor(
 def _sum(
     per_pass: Sequence[NDArray[np.float64]], passes: Sequence[Pass], like: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Sum a quantity of some events over the mission; over no event NaN, as many as there are in ``like``."""
+    """Sum of a quantity of some events over the mission; NaN of the form of ``like`` over no event."""
     return mission_sum(np.stack(per_pass), passes) if per_pass else np.full_like(like, np.nan)
 
 
@@ -122,6 +125,6 @@ def _life(damage_per_km: NDArray[np.float64], plan: Plan) -> NDArray[np.float64]
 
 
 def _of_event(per_event: Sequence[NDArray[np.float64]], event: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Pick a quantity of the given event at every point; NaN for event -1."""
+    """A quantity of the given event at every point; NaN for event -1."""
     picked = np.take_along_axis(np.stack(per_event), np.maximum(event, 0)[None], axis=0)[0]
     return np.where(event >= 0, picked, np.nan)

@@ -16,9 +16,9 @@ from fatigue.pipeline.solve.modal_stress import ModalStress
 
 
 def estimated_and_bounded(block: Block, screening: Screening) -> tuple[tuple[Estimate, ...], Bounds]:
-    """Estimate every event at all stations of a block, and bound it.
+    """Estimate and bound of every event at all stations of a block.
 
-    Both need variances; they are worked out once for both unless they are of different samples.
+    Both need variances. The variances are worked out once, unless the two are of different samples.
     """
     stress = block.stress
     estimates: tuple[Estimate, ...] = ()
@@ -33,7 +33,7 @@ def estimated_and_bounded(block: Block, screening: Screening) -> tuple[tuple[Est
 
 
 def without_small_raw_ends(block: Block, screening: Screening) -> Block:
-    """Let raw ends not matter where they stay below the share as well."""
+    """The same block; raw ends that are proven to stay below the share as well do not matter in it."""
     ends = block.stress.raw_ends
     if not ends.rows.size:
         return block
@@ -54,6 +54,6 @@ def _bound(
     forms: NDArray[np.float64],
     mean: NDArray[np.float64],
 ) -> Bound:
-    """Bound an event from mean stress (n, 2) and the forms (2, n, 2) that `extent_bound` wants."""
+    """Bound of an event from the mean stress (n, 2) and the forms (2, n, 2) that ``extent_bound`` wants."""
     found = extent_bound(stress.membrane, stress.bending, forms, extent)
     return event_bound(found, stress, slice(None), load, mean)

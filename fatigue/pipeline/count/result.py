@@ -36,11 +36,11 @@ class GroupResult:
 
     Attributes
     ----------
-    event_columns : (e, c, n, 2) the columns of `OF_EVENT` for every event
+    event_columns : (e, c, n, 2) the columns of ``OF_EVENT`` for every event
     verdicts : (e, n, 2) the verdict of every event
-    of_mission : (f, n, 2) the fields of the `MissionBlock` but the two that follow
+    of_mission : (f, n, 2) the fields of the ``MissionBlock`` but the two that follow
     governing, verdict : (n, 2) of the mission
-    tier : (n,) index into `block.TIERS`, 0 where cycles were counted
+    tier : (n,) index into ``block.TIERS``, 0 where cycles were counted
     """
 
     event_columns: NDArray[np.float64]
@@ -52,7 +52,7 @@ class GroupResult:
 
     @classmethod
     def empty(cls, events: int, stations: int) -> Self:
-        """Make room for the result of so many stations under so many events."""
+        """Room for the result of so many stations under so many events."""
         return cls(
             event_columns=np.empty((events, len(OF_EVENT), stations, 2)),
             verdicts=np.empty((events, stations, 2), np.int8),
@@ -63,7 +63,7 @@ class GroupResult:
         )
 
     def of_events(self, column: str) -> NDArray[np.float64]:
-        """Take a column of `OF_EVENT` for every event: a view, (e, n, 2)."""
+        """A column of ``OF_EVENT`` for every event: a view, (e, n, 2)."""
         return self.event_columns[:, list(OF_EVENT).index(column)]
 
     @property
@@ -85,5 +85,5 @@ class GroupResult:
 
 
 def arrays_of(result: GroupResult) -> dict[str, NDArray[Any]]:
-    """Give the arrays of a result by name; ``GroupResult(**arrays)`` makes it again."""
+    """Arrays of a result by name; ``GroupResult(**arrays)`` makes the result again."""
     return {field.name: getattr(result, field.name) for field in fields(GroupResult)}

@@ -28,7 +28,7 @@ BOUNDED_AT_ONCE = 1024  # stations whose bounds are laid out as events at a time
 
 
 def settle(block: Block, screening: Screening) -> Iterator[Settled]:
-    """Settle every station of a block by bounds, or count it.
+    """Every station of a block, settled by bounds or counted.
 
     Raises
     ------
@@ -60,7 +60,7 @@ def settle(block: Block, screening: Screening) -> Iterator[Settled]:
 
 
 def _likely_worst(block: Block, estimates: Sequence[Estimate], bounds: Bounds) -> NDArray[np.intp]:
-    """Find the station of every weld with the largest estimated damage at a toe; without spectrum, by the bound."""
+    """Station of every weld with the largest estimated damage at a toe; without a spectrum, with the largest bound."""
     of_events = zip(estimates, bounds.of_events, strict=True)
     guess = np.stack([np.where(np.isnan(e.dirlik), b.damage, e.dirlik) for e, b in of_events])
     damage = np.where(block.toe, mission_sum(guess, block.plan.passes), -1.0).max(axis=1)

@@ -10,7 +10,7 @@ from fatigue.pipeline.count.block import Block
 from fatigue.pipeline.count.bounds import Bounds, event_bound
 from fatigue.pipeline.count.estimate import Estimate
 
-WELD_BOUNDS_AT_ONCE = 1024  # stations, or those of one weld: 10 kB each with 100 modes
+WELD_BOUNDS_AT_ONCE = 1024  # stations, or as many as one weld has: 10 kB each with 100 modes
 
 
 def tighten_by_welds(block: Block, rows: NDArray[np.intp], estimates: Sequence[Estimate], bounds: Bounds) -> None:
@@ -26,7 +26,7 @@ def tighten_by_welds(block: Block, rows: NDArray[np.intp], estimates: Sequence[E
 
 
 def _between_welds(weld: NDArray[np.int64], rows: NDArray[np.intp]) -> list[NDArray[np.intp]]:
-    """Take some stations, ascending, about `WELD_BOUNDS_AT_ONCE` at a time, those of a weld together."""
+    """Some stations, ascending, about ``WELD_BOUNDS_AT_ONCE`` at a time; the stations of a weld stay together."""
     if not rows.size:
         return []
     first_of_weld = np.searchsorted(weld[rows], weld[rows])

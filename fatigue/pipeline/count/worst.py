@@ -21,7 +21,7 @@ class WorstPoint:
 
 
 def worst_points(stations: Stations, result: GroupResult) -> tuple[WorstPoint, ...]:
-    """Find the worst toe point of every weld; the first along the line where several are equal.
+    """The worst toe point of every weld; the first along the line where several are equal.
 
     A point that a bound has settled is never worse than the worst one that was counted.
     """

@@ -32,7 +32,7 @@ class EventLoad:
     covariance : (m, m) covariance of q over the kept samples
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
     is_upsampled : whether mean and covariance are of other samples than those that are counted
-    moment_pairs : those of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
+    moment_pairs : matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
     top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
     """
 
@@ -71,7 +71,7 @@ def prepare_event(
     single: bool = False,
     scratch: Path | None = None,
 ) -> EventLoad:
-    """Compute once per event what all stations share, from its kept record.
+    """What all stations share of an event, from its kept record.
 
     ``single``: for the fast kernel; ``scratch``: folder for whatever is as large as the record, None: in memory.
     """
@@ -100,7 +100,7 @@ def prepare_event(
 def fast_record(
     q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
 ) -> SingleRecord:
-    """Prepare modal coordinates for the kernel in single precision.
+    """Modal coordinates prepared for the kernel in single precision.
 
     Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
     goes to the folder ``scratch``. ``known`` are their mean and covariance, None: to be computed.

@@ -40,7 +40,7 @@ HELD_BYTES = 16e6  # of all records together, as they are in their files; the lo
 
 
 def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
-    """Read and check every record of the mission; return its passes per km and the warnings about the records.
+    """The mission in numbers, and the warnings about its records, each of which is read and checked.
 
     The records are read on some threads, by default one per processor core, and a column of each is in memory.
     """
@@ -61,7 +61,7 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
 def event_loads(
     groups: WeldGroups, plan: Plan, scratch: Path | None = None, threads: int | None = None
 ) -> tuple[EventLoad, ...]:
-    """Read the records of all events and compute what all stations share; they are kept while welds stream by.
+    """What all stations share of every event; it is kept while welds stream by.
 
     ``scratch`` is a folder for the longest records where all of them are more than ``HELD_BYTES``; None: all are held
     in memory, whatever their size. ``threads`` prepare an event each, by default one per processor core; the numbers do
@@ -92,7 +92,7 @@ def event_loads(
 def event_load(
     body: Body, event: Event, upsample: int, *, single: bool = False, scratch: Path | None = None
 ) -> EventLoad:
-    """Read the record of one event and compute what all stations share; ``scratch``: folder to keep the record in."""
+    """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
     load = load_of(body, event, _record(body, event, scratch), upsample, single=single, scratch=scratch)
     if upsample > 1 and scratch is not None:
         (scratch / RECORD).unlink()
@@ -100,7 +100,7 @@ def event_load(
 
 
 def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> ModalHistory:
-    """Read the record of an event and keep the first samples behind its start-up only."""
+    """The first samples of the record of an event behind its start-up."""
     history = _record(body, event, scratch)
     shortened = replace(history, q=np.ascontiguousarray(history.q[:, 0:samples]))
     (scratch / RECORD).unlink(missing_ok=True)
@@ -110,7 +110,7 @@ def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> M
 def load_of(
     body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool, scratch: Path | None = None
 ) -> EventLoad:
-    """Compute what all stations share of a record; ``scratch``: folder for what is computed of each sample."""
+    """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
     try:
         with np.errstate(over="raise"):
             spectra = event_spectra(body, history)
@@ -157,7 +157,7 @@ def upper_hz(body: Body, history: ModalHistory) -> float:
 
 
 def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
-    """Read the record of an event and cut its start-up."""
+    """The record of an event without its start-up."""
     case = body.case
     whole, _ = read_history(
         case.resolve(event.history),
@@ -171,7 +171,7 @@ def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
 
 
 def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
-    """Read and check the record of an event: its passes and the warnings about it, or what is wrong with it."""
+    """The passes of an event and the warnings about its record, or what is wrong with the record."""
     case = body.case
     path = case.resolve(event.history)
     try:
@@ -192,7 +192,7 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueEr
 
 
 def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
-    """Count the samples behind the start-up of a record, and check its length."""
+    """Number of samples behind the start-up of a record, whose length is checked."""
     where = f"{case.path.name}: mission.event '{event.name}'"
     samples = max(0, grid.samples - first_kept(grid.step, event.start_s))
     if samples < 2:
@@ -236,7 +236,7 @@ def _record_warnings(body: Body, event: Event, samples: int, step: float) -> lis
 
 
 def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | None]:
-    """Folder of each record that does not fit in memory after all shorter ones; None for those that do."""
+    """Folder of each record that does not fit in memory after all shorter ones; None for a record that does."""
     order = np.argsort(sizes, kind="stable")
     held = np.empty(len(sizes), dtype=np.bool_)
     held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
@@ -246,7 +246,7 @@ def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | No
 def _automatic_factors(groups: WeldGroups, folders: Sequence[Path | None]) -> list[int]:
     """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak.
 
-    ``folders`` are those for the records of the events, None: in memory. One record is open at a time.
+    ``folders`` are for the records of the events, None: in memory. One record is open at a time.
     """
     body = groups.body
     steps, moments = [], []

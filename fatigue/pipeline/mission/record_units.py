@@ -18,7 +18,7 @@ FINEST = 1000.0  # samples in a period of the fastest mode; simulations write 5 
 
 
 def step_problems(grid: TimeGrid, modes: Modes, file: str, event: str) -> list[Problem]:
-    """Find a coarse step in which every vibration of the body passes a period; ``file`` is the record of ``event``."""
+    """Problems of a coarse step in which every vibration passes a period; ``file`` is the record of ``event``."""
     slowest, _ = _vibration_hz(grid, modes)
     if grid.step * slowest <= 1.0 or grid.step < COARSE:
         return []
@@ -29,7 +29,10 @@ def step_problems(grid: TimeGrid, modes: Modes, file: str, event: str) -> list[P
 
 
 def step_warnings(grid: TimeGrid, modes: Modes, file: str, event: str) -> list[Problem]:
-    """Warn of a step that leaves out all vibration or is far shorter than it needs; see ``step_problems`` first."""
+    """Warnings of a step that leaves out all vibration, or is far shorter than any needs.
+
+    They are for records of which ``step_problems`` finds nothing.
+    """
     slowest, fastest = _vibration_hz(grid, modes)
     if grid.step * slowest > 1.0:
         remedy = "Check that time_s is in s, and sample the simulation more finely unless the body is quasi-static"

@@ -56,7 +56,7 @@ class Checkpoint:
             shutil.rmtree(self._root, ignore_errors=True)
 
     def load(self, group: str) -> GroupResult | None:
-        """Read what an earlier run finished, its checksums tested; None where there is none or it is damaged."""
+        """What an earlier run finished, its checksums tested; None where there is none or it is damaged."""
         try:
             with self._path(group).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
                 return GroupResult(**arrays)
@@ -73,7 +73,7 @@ class Checkpoint:
 
 
 def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Write contiguous arrays as `np.savez` does, which copies them first, all at a time."""
+    """Write contiguous arrays as ``np.savez`` does, which copies them first, all at a time."""
     with zipfile.ZipFile(file, "w") as archive:
         for name, array in arrays.items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
@@ -83,7 +83,7 @@ def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
 
 @contextmanager
 def replacing(final: Path) -> Iterator[Path]:
-    """Give a temporary path to write to; on success force it to disk and rename it to ``final`` in one step.
+    """A temporary path to write to; on success it is forced to disk and renamed to ``final`` in one step.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def locked(result_folder: Path) -> Iterator[None]:
 
 @contextmanager
 def claimed(folder: Path, *, force: bool, case_file: Path, inputs: Collection[Path]) -> Iterator[None]:
-    """Hold a result folder for one assessment that may write there, see `folder.refuse_foreign`.
+    """Hold a result folder for one assessment that may write there, see ``folder.refuse_foreign``.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The workers of a dask.distributed cluster as an executor, for `fatigue assess --scheduler`."""
+"""The workers of a dask.distributed cluster as an executor, for ``fatigue assess --scheduler``."""
 
 import re
 from collections.abc import Iterator

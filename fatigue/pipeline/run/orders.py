@@ -23,7 +23,7 @@ from fatigue.pipeline.solve.weld_groups import weld_groups
 class Order:
     """One group of welds to be assessed in a process that sees the same files.
 
-    ``key`` is that of the job, so that a worker with other inputs or another version of the program is found out.
+    ``key`` is the key of the job: a worker with other inputs or another version of the program is found out by it.
     """
 
     case: str
@@ -34,7 +34,7 @@ class Order:
 
 
 def fulfil(order: Order) -> dict[str, NDArray[Any]]:
-    """Assess the group of an order; the files are read once per process.
+    """Arrays of the result of the group that an order names; the files are read once per process.
 
     Raises
     ------
@@ -51,7 +51,7 @@ _OPENING = Lock()
 
 @lru_cache(maxsize=1)
 def _opened(path: str, strict: bool, counted: Counted, key: str) -> tuple[Work, TemporaryDirectory[str]]:
-    """Open the work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
+    """The work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
     threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
     case = load_case(Path(path))
     if key_of(inputs_of(case), counted) != key:

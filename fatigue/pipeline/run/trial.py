@@ -35,9 +35,9 @@ TRIAL_SAMPLES = 1.6e7  # of stress, one face, that are counted for the trial: be
 LONGEST_TRIAL, SHORTEST_TRIAL = 16_384, 2048  # samples of the record
 ROUNDS = 3  # of which the best counts
 
-# Processor time [s] of what is not timed, measured by `python -m benchmarks.estimate`
+# Processor time [s] of what is not timed, measured by ``python -m benchmarks.estimate``
 START = 2.0  # imports and the known values
-SETTLED_LATE = 1.5  # bounds of several events settle fewer points than those of one
+SETTLED_LATE = 1.5  # bounds of several events settle fewer points than bounds of one
 CELL, CYCLE = 0.12e-6, 0.5e-6  # written in a table; counted and written
 DETAIL, PAGE = 0.19, 0.6  # a weld shown in detail, the rest of the page
 MOST_DETAILED = 40
@@ -83,11 +83,11 @@ class _Trial:
     plan: Plan
 
     def counted(self, chunk: EventLoad) -> GroupResult:
-        """Count every point."""
+        """The result with every point counted."""
         return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), None)
 
     def screened(self, chunk: EventLoad, scratch: Path) -> GroupResult:
-        """Let bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
+        """The result where bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
         screening = screening_of(SHARE, True, [chunk], scratch, threads=1)
         return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), screening)
 
@@ -99,7 +99,7 @@ class _Trial:
 
 
 def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
-    """Estimate the processor time of ``fatigue assess`` with its default options, what is compiled already left out.
+    """Processor time of ``fatigue assess`` with its default options, as estimated; compiling is left out.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ class _Cost:
 
 
 def _of_length(load: EventLoad, short: EventLoad, count: Callable[[EventLoad], Result]) -> tuple[_Cost, Result]:
-    """Time a group under a chunk of a record and a shorter one; also what the longer gives."""
+    """Time of a group, from a chunk of a record and a shorter one; also the result of the longer one."""
     count(short)  # compiles, or loads what was compiled before
     whole_s, result = _timed(lambda: count(load))
     part_s, _ = _timed(lambda: count(short))

@@ -29,8 +29,8 @@ SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten ti
 class Counted:
     """Which points are to be counted.
 
-    ``share`` of the damage limit below which a proven bound is enough; 0: count every point; None: `SHARE` for a job
-    large enough for the kernel in single precision, else 0. ``proves_worst``: see `bounds.Screening`.
+    A proven bound below ``share`` of the damage limit is enough. 0: every point is counted. None: ``SHARE`` for a job
+    that is large enough for the kernel in single precision, else 0. ``proves_worst``: see ``bounds.Screening``.
     """
 
     share: float | None = None
@@ -41,8 +41,8 @@ class Counted:
 class Work:
     """What every group of welds needs to be assessed; threads may share it.
 
-    ``screening`` is None where every point is to be counted; ``kept_from`` is the utilisation from which the cycles of
-    a weld's worst point are kept: those of all welds of a train would fill the disk.
+    ``screening`` is None where every point is to be counted. ``kept_from`` is the utilisation from which the cycles of
+    the worst point of a weld are kept: the cycles of all welds of a train would fill the disk.
     """
 
     groups: WeldGroups
@@ -52,15 +52,15 @@ class Work:
     kept_from: float
 
     def group(self, number: int) -> tuple[Model, GroupResult]:
-        """Solve one group of welds and assess it."""
+        """One group of welds, solved, and its result."""
         model = solve_group(self.groups, number)
         return model, assess_group(model.stations, model.curve_of_weld, self.loads, self.plan, self.screening)
 
 
 def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, threads: int | None) -> Work:
-    """Read the records of all events and prepare the screening, on some threads, by default one per processor core.
+    """The work of a job, with the records of its events read and its screening prepared.
 
-    ``scratch`` is a folder for what memory cannot hold.
+    ``scratch`` is a folder for what memory cannot hold; ``threads`` are by default one per processor core.
     """
     loads = event_loads(groups, plan, scratch / "histories", threads)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
@@ -73,7 +73,7 @@ def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, t
 def screening_of(
     share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path, threads: int | None
 ) -> Screening:
-    """Prepare what settles points without counting, on some threads; see `Counted` and `open_work`."""
+    """What settles points without counting, prepared on some threads; see ``Counted`` and ``open_work``."""
     return Screening(
         share=share,
         proves_worst=proves_worst,
@@ -85,13 +85,13 @@ def screening_of(
 
 
 def input_paths(case: Case) -> list[Path]:
-    """List every input file of a case, the case file included."""
+    """Every input file of a case, the case file included."""
     files = {case.path, *case.input_files().values(), *filter(None, [register_file(case), conversion_file(case)])}
     return sorted(files)
 
 
 def inputs_of(case: Case) -> list[dict[str, str]]:
-    """List every input file of a case with its hash."""
+    """Every input file of a case with its hash."""
     return input_register(input_paths(case), case.path.parent)
 
 

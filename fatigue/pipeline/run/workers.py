@@ -28,7 +28,7 @@ class Group:
 
 
 def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[Group]:
-    """Assess the groups on threads, by default one per processor core, and give them in order.
+    """The groups in order, assessed on threads, by default one per processor core.
 
     What has not begun when the iterator is closed is dropped.
     """
@@ -54,9 +54,9 @@ def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[
 
 
 def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -> Generator[Group]:
-    """Have the workers of an executor assess the groups that no earlier run has finished, and give all in order.
+    """The groups in order; the workers of an executor assess those that no earlier run has finished.
 
-    ``order`` is that of any group of the job. A worker that dies costs the executor a second try and nothing else.
+    ``order`` is the order of any group of the job. A worker that dies costs the executor a second try and nothing else.
     """
     under_way: set[Future[dict[str, NDArray[Any]]]] = set()
 
@@ -83,7 +83,7 @@ def by_orders(work: Work, state: Checkpoint, executor: Executor, order: Order) -
 
 
 def _in_order(begin: Callable[[int], Callable[[], Group]], groups: int, ahead: int) -> Iterator[Group]:
-    """Begin some groups ahead and finish them one after the other."""
+    """The groups one after the other, some of them begun ahead."""
     waiting: deque[Callable[[], Group]] = deque()
     for number in range(groups):
         waiting.append(begin(number))

@@ -27,8 +27,8 @@ class Body:
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
     in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
-    the balance check and pictures; ``conversion`` is what `fatigue convert` recorded, its audit included; ``warnings``
-    are the warnings about these files.
+    the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
+    ``warnings`` are about these files.
     """
 
     case: Case
@@ -50,12 +50,12 @@ class Body:
         return self.register.left_out
 
     def curve_of(self, weld: Weld) -> RatedCurve:
-        """Find the curve of a weld: its own, else the one of the case."""
+        """Curve of a weld: its own, else the curve of the case."""
         return self.curves[weld.curve or self.case.curve.name]
 
 
 def read_body(case: Case, *, strict: bool) -> Body:
-    """Read and check the small files of a case.
+    """The body of a case, its small files read and checked.
 
     Raises
     ------
@@ -102,7 +102,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
 def _lines_on_disk(
     case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
 ) -> tuple[tuple[Weld, ...], LineFile, Joints, list[Problem]]:
-    """Read and check the lines of all welds to assess; in memory they are together only here."""
+    """Lines of all welds to assess, read and checked; only here they are in memory together."""
     path = case.resolve(case.body.weld_nodes)
     lines, warnings = read_lines(path, in_tables, plan.names, strict=strict)
     welds: tuple[Weld, ...] = plan.welds
@@ -116,13 +116,13 @@ def _lines_on_disk(
 
 
 def register_file(case: Case) -> Path | None:
-    """Find the weld register: the one the case names, else that beside the welds; None where there is none."""
+    """The weld register that the case names, else the one beside the welds; None where there is none."""
     named = case.body.weld_register
     return _beside_the_welds(case, REGISTER) if named is None else case.resolve(named)
 
 
 def conversion_file(case: Case) -> Path | None:
-    """Find the record of `fatigue convert` beside the welds, with its audit; None where there is none."""
+    """The record of ``fatigue convert`` beside the welds, with its audit; None where there is none."""
     return _beside_the_welds(case, RECORD)
 
 

@@ -16,8 +16,8 @@ class ModalStress:
 
     Attributes
     ----------
-    membrane, bending : (n, m) normal stress with treated ends, bending that of the top face [MPa per unit]
-    in_plane_shear, twist_shear : (n, m) the same of the shear
+    membrane, bending : (n, m) normal stress with treated ends, bending of the top face [MPa per unit modal coordinate]
+    in_plane_shear, twist_shear : (n, m) shear stress likewise
     size : (n,) factor of the thickness on the range
     rule : how the damage of a cycle follows from its range
     raw_ends : e stations whose stress the end treatment changes, and their stress before it
@@ -52,5 +52,5 @@ class ModalStress:
 
 
 def faces(mean: NDArray[np.float64], gradient: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Modal stress at both faces, (n, 2, m): top = mean + gradient part, bottom = mean - gradient part."""
+    """Modal stress at both faces, (n, 2, m): the mean + the gradient part at the top, - at the bottom."""
     return np.stack([mean + gradient, mean - gradient], axis=1)

@@ -57,7 +57,7 @@ class Model:
 
 
 def read_model(case: Case | Path | str, *, strict: bool = False) -> Model:
-    """Read the body of a case or its file and solve all its welds at once, for small bodies and notebooks.
+    """All welds of a case, or of a case file, solved at once: for small bodies and notebooks.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def read_model(case: Case | Path | str, *, strict: bool = False) -> Model:
 
 
 def solve_group(groups: WeldGroups, number: int) -> Model:
-    """Read the forces of one group of welds and solve their structural stress.
+    """One group of welds, its forces read and its structural stress solved.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
 def _solved(
     lines: LineStack, forces: NDArray[np.floating], welds: Sequence[Weld], file: str
 ) -> tuple[Stations, list[Problem]]:
-    """Solve some lines under their nodal forces (n, m, 6), and tell the warnings about them."""
+    """Stations of some lines under their nodal forces (n, m, 6), and the warnings about them."""
     load = line_load(lines, forces)
     with np.errstate(over="ignore", invalid="ignore"):
         solved = line_stress(lines, load)
@@ -127,7 +127,7 @@ def _is_finite(stress: StructuralStress, nodes: slice = slice(None)) -> bool:
 
 
 def _end_warnings(unresolved: NDArray[np.int64], where: str) -> list[Problem]:
-    """Tell the end nodes, by id, whose edge is longer than the end treatment."""
+    """Warning that names the end nodes whose edge is longer than the end treatment."""
     if not unresolved.size:
         return []
     nodes = ", ".join(str(node) for node in unresolved)

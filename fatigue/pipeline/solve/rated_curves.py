@@ -28,7 +28,7 @@ class RatedCurve:
 
 
 def curves_of_case(case: Case) -> dict[str, SNCurve]:
-    """Collect the catalogue and the curves of the case, which may not redefine a key of the catalogue."""
+    """Curves of the catalogue and of the case, which may not redefine a key of the catalogue."""
     shipped = catalogue()
     refuse(
         CaseError,
@@ -61,7 +61,7 @@ def _own_curve(name: str, given: CustomCurve) -> SNCurve:
 
 
 def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld]) -> dict[str, RatedCurve]:
-    """Rate every curve a weld asks for; all that is wrong with them is refused at once."""
+    """Every curve that a weld asks for, rated; all that is wrong with them is refused at once."""
     asked = {case.curve.name: f"{case.path.name}: curve.name"}
     asked |= {weld.curve: f"{case.body.welds}: weld {weld.name}: curve" for weld in welds if weld.curve}
     rated: dict[str, RatedCurve] = {}

@@ -28,7 +28,7 @@ class Stations:
     arc_length [mm], xyz (n, 3) [mm], thickness [mm] : where it is
     toe : (n, 2) faces that carry a weld toe
     at_end, at_corner : flags of the line solution
-    treated : structural stress, components (n, m) [MPa per unit modal coordinate]
+    treated : structural stress with treated ends, components (n, m) [MPa per unit modal coordinate]
     raw_ends : stations whose stress the end treatment has changed, and their stress before it
     """
 
@@ -62,7 +62,7 @@ class Stations:
 
 
 def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> Stations:
-    """Lay out the nodes of solved line parts, which follow each other as their welds do."""
+    """The nodes of solved line parts as one table; the parts follow each other as their welds do."""
     place = {weld.name: i for i, weld in enumerate(welds)}
     weld = np.array([place[name] for name in lines.weld])[line_of_node(lines)]
     raw_ends, names = solved.raw_ends, [component.name for component in fields(StructuralStress)]
@@ -86,7 +86,7 @@ def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> 
 
 
 def joined(parts: Sequence[Stations]) -> Stations:
-    """Lay stations of several stacks of lines, parts of the same welds, one after the other."""
+    """Stations of several stacks of lines, parts of the same welds, one after the other."""
     if len(parts) == 1:
         return parts[0]
     arrays = {f.name: [getattr(part, f.name) for part in parts] for f in fields(Stations)}

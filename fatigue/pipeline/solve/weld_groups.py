@@ -33,7 +33,7 @@ IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest 
 class SideForces:
     """Element forces of the assessed sides of all welds, in memory as a whole: some 60 bytes for each row of the file.
 
-    ``elements`` are those of each weld's side; ``warnings`` the warnings about both files.
+    ``elements`` are the elements of the side of each weld; ``warnings`` are about both files.
     """
 
     file: str
@@ -46,9 +46,9 @@ class SideForces:
 class WeldGroups:
     """The welds of a body in groups that are assessed one at a time, so that memory does not grow with the body.
 
-    ``blocks`` of a group, slices of welds like ``groups``, are read and solved one at a time; ``blocks_of`` are
-    those of each group. ``forces`` are the nodal forces block by block, or the element forces, which do grow with
-    the body.
+    ``groups`` and ``blocks`` are slices of welds; ``blocks_of`` are the numbers of the blocks of each group, which are
+    read and solved one at a time. ``forces`` are the nodal forces block by block, or the element forces, which do grow
+    with the body.
     """
 
     body: Body
@@ -63,7 +63,7 @@ class WeldGroups:
 
 
 def weld_groups(body: Body, scratch: Path) -> WeldGroups:
-    """Cut the welds into groups by their stations alone, and open their forces; no weld is ever divided.
+    """The welds in groups, by their stations alone, and their forces opened; no weld is ever divided.
 
     ``scratch`` is a folder for a sorted copy of the forces, should they need one.
 
@@ -77,7 +77,7 @@ def weld_groups(body: Body, scratch: Path) -> WeldGroups:
 
 
 def one_group(body: Body, scratch: Path) -> WeldGroups:
-    """Open the forces of all welds as one group of one block, for small bodies; otherwise like ``weld_groups``."""
+    """All welds as one group of one block, for small bodies; otherwise like ``weld_groups``."""
     together = np.zeros(len(body.welds))
     return _open_groups(body, together, together, scratch)
 
@@ -97,7 +97,7 @@ def check_forces(groups: WeldGroups, threads: int | None) -> None:
 
 
 def forces_of_block(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
-    """Read the forces of a block of a group: its line parts, the (n, m, 6) forces, and the warnings about them.
+    """Line parts of a block of a group, their forces (n, m, 6), and the warnings about the forces.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def _check_block(groups: WeldGroups, number: int) -> None:
 
 
 def _open_groups(body: Body, group: NDArray[np.number], block: NDArray[np.number], scratch: Path) -> WeldGroups:
-    """Open the forces of a body whose welds have these numbers of group and block of the group, ascending."""
+    """Groups of a body whose welds have these numbers of group and of block in the group, ascending."""
     of_blocks = _slices((np.diff(group) != 0) | (np.diff(block) != 0))
     of_groups = _slices(np.diff(group) != 0)
     first = np.searchsorted([some.start for some in of_blocks], [*(some.start for some in of_groups), len(body.welds)])
@@ -157,12 +157,12 @@ def _open_groups(body: Body, group: NDArray[np.number], block: NDArray[np.number
 
 
 def _slices(changes: NDArray[np.bool_]) -> tuple[slice, ...]:
-    """Cut a sequence where it changes from one element to the next."""
+    """Slices of a sequence between its changes from one element to the next."""
     return tuple(slice(a, b) for a, b in pairwise([0, *(np.flatnonzero(changes) + 1).tolist(), changes.size + 1]))
 
 
 def _side_forces(body: Body) -> SideForces:
-    """Read the element forces once for all groups and check their balance; only those of assessed sides are kept."""
+    """Element forces of the assessed sides, read once for all groups; the balance of all elements is checked."""
     case, files = body.case, body.case.body
     assert files.element_forces is not None
     assert files.weld_elements is not None
@@ -178,7 +178,7 @@ def _side_forces(body: Body) -> SideForces:
 
 
 def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[LineStack, NDArray[np.floating]]:
-    """Split lines at their kinks and sum the element forces of the assessed side per part, (n, m, 6)."""
+    """Parts of lines between their kinks, and the element forces of the assessed side summed per part, (n, m, 6)."""
     parts: list[WeldLine] = []
     summed: list[NDArray[np.float64]] = []
     for line in lines:
@@ -190,7 +190,7 @@ def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[L
 
 
 def _of_elastic_modes(forces: ElementForces, modes: Modes) -> ElementForces:
-    """Leave out rigid modes, whose forces are round-off, unless there are no others."""
+    """Forces without rigid modes, which are round-off, unless there are no other modes."""
     is_rigid = np.array([kind == "rigid" for kind in modes.kind])
     if not is_rigid.any() or is_rigid.all():
         return forces
@@ -198,7 +198,7 @@ def _of_elastic_modes(forces: ElementForces, modes: Modes) -> ElementForces:
 
 
 def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> list[Problem]:
-    """Refuse element forces out of equilibrium; mention those further off than single precision explains."""
+    """Warning of element forces that are further out of balance than single precision explains; worse is refused."""
     xyz = None if mesh is None else dict(zip(mesh.node.tolist(), mesh.xyz, strict=True))
     found = balance(forces, xyz)
     moment = found.force_residual if found.moment_residual is None else found.moment_residual

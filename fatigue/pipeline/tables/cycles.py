@@ -26,7 +26,7 @@ class KeptPoint:
     """A point whose cycles are kept, without the stations it is one of.
 
     ``membrane`` and ``bending`` (m,) are its modal stress, of the top face [MPa per unit modal coordinate];
-    ``thickness`` [mm] that of its plate.
+    ``thickness`` is the thickness of its plate [mm].
     """
 
     weld: str
@@ -66,7 +66,7 @@ class CycleWriter:
 
 
 def kept_point(stations: Stations, curve_of_weld: Sequence[RatedCurve], point: WorstPoint) -> KeptPoint:
-    """Take what the cycles of a point need from the stations of its group of welds."""
+    """What the cycles of a point need of the stations of its group of welds."""
     treated, at = stations.treated, point.station
     return KeptPoint(
         weld=stations.welds[point.weld].name,
@@ -82,9 +82,9 @@ def kept_point(stations: Stations, curve_of_weld: Sequence[RatedCurve], point: W
 
 
 def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[str, Any]]:
-    """Count one event at some points and keep every cycle, with the stress ranges between its own two instants.
+    """Rows of ``cycles.parquet``: every cycle of one event, of one point after the other.
 
-    Gives the rows of ``cycles.parquet`` of one point after the other, in their order.
+    A cycle has the stress ranges between its own two instants.
     """
     at_once = max(1, _SAMPLES_AT_ONCE // (2 * load.counted.q.shape[1]))
     for first in range(0, len(points), at_once):
@@ -98,7 +98,7 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[
 def _cycle_rows(
     point: KeptPoint, load: EventLoad, membrane: NDArray[np.float64], bending: NDArray[np.float64]
 ) -> dict[str, Any]:
-    """Count at one point with these stress histories (t,) [MPa]."""
+    """Rows of one point with these stress histories (t,) [MPa]."""
     rated, rule = point.rated, point.rated.rule
     stress = membrane + bending if point.face == 0 else membrane - bending
 

@@ -26,7 +26,7 @@ def provenance_record(
     inputs: Sequence[dict[str, Any]],
     warnings: Sequence[Problem],
 ) -> dict[str, Any]:
-    """Collect what an assessor needs to trace or repeat a result; the same inputs give the same record.
+    """Everything an assessor needs to trace or repeat a result; the same inputs give the same record.
 
     ``stations`` are numbers of stations by the tier of screening that settled them. ``case_path`` leads from the result
     folder to the case file, so that both can be moved together.
@@ -86,7 +86,7 @@ def provenance_record(
 
 
 def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]:
-    """Say which points a bound has settled, and why that is safe."""
+    """Which points a bound has settled, and why that is safe."""
     if work.screening is None:
         return {"rule": "none: every point is counted", "share_of_limit": 0.0, "stations": dict(stations)}
     worst = "" if work.screening.proves_worst else "; not so in welds that are below the share everywhere"

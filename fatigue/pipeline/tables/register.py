@@ -72,5 +72,5 @@ def excluded_rows(excluded: Sequence[RegisterRow]) -> dict[str, Any]:
 
 
 def _reason(row: RegisterRow) -> str:
-    """Say why a line is not assessed, and that it might be where the register calls it a candidate."""
+    """Why a line is not assessed; the register may call it a candidate."""
     return f"candidate: {row.reason}" if row.reason and row.status == "candidate" else row.reason or row.status

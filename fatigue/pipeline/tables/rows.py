@@ -1,4 +1,4 @@
-"""Rows of the result tables for some stations, those of a group of welds."""
+"""Rows of the result tables for the stations of a group of welds."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -19,8 +19,8 @@ _OF_A_WELD = ": weld "  # between file and weld in the place of a warning
 class WarningSummary:
     """The warnings of a job, in the order in which they come.
 
-    ``in_full`` are the first ``MOST_IN_FULL`` of each code, ``counts`` are those of all, and ``places`` names those of
-    the others: by code and by what they begin with, the file as a rule.
+    ``in_full`` are the first ``MOST_IN_FULL`` of each code; ``counts`` says how many there are of each code in all;
+    ``places`` names the places of the others, by code and by what they begin with, the file as a rule.
     """
 
     in_full: list[Problem] = field(default_factory=list)
@@ -40,13 +40,13 @@ class WarningSummary:
                     names.append(name)
 
     def listed(self) -> tuple[Problem, ...]:
-        """List those in full, as they came, then one for the others of each code."""
+        """The warnings in full, as they came, then one for the others of each code."""
         summed = (_sum(code, self.counts[code] - MOST_IN_FULL, places) for code, places in self.places.items())
         return (*self.in_full, *summed)
 
 
 def _parts(where: str) -> tuple[str, str]:
-    """Split a place behind what many have in common: ``nodes.csv: weld`` and the weld, or the file and the rest."""
+    """A place in two, behind what many have in common: ``nodes.csv: weld`` and the weld, or the file and the rest."""
     for mark in (_OF_A_WELD, ": "):
         begin, found, name = where.partition(mark)
         if found:
@@ -55,7 +55,7 @@ def _parts(where: str) -> tuple[str, str]:
 
 
 def _sum(code: str, count: int, places: dict[str, list[str]]) -> Problem:
-    """Sum up warnings of one code by their places."""
+    """One warning for those of one code, with their places."""
     where = "; ".join(begin + ", ".join(names) for begin, names in places.items())
     what = f"{count} more of this kind, the first {MOST_IN_FULL} are listed one by one"
     return Problem(code, where, what, "Do what is said of those", count)

@@ -3,21 +3,20 @@
 The stress histories come out of a matrix product, some thousand samples at a time, and are used up before the next
 product. Three steps follow per point and surface:
 
-1. `write_reversals` appends the turning points, z = stress at a peak and minus the stress at a valley, so that every
+1. ``write_reversals`` appends the turning points, z = stress at a peak and minus the stress at a valley, so that every
    z[i] + z[i + 1] is a range. The membrane stress carries the same sign.
-2. `close_pass` takes out every range that is smaller than the one before it and not larger than the one after it, all
-   of them at once: two neighbours never both qualify, and taking one never disqualifies another, so the cycles are
-   those of the stack machine in `reversals`, in another order. What is left after a few passes, some tens of points,
+2. ``close_pass`` takes out every range that is smaller than the one before it and not larger than the one after it, all
+   of them at once: two neighbours never both qualify, and taking one never disqualifies another, so these are the
+   cycles of the stack machine in ``reversals``, in another order. What is left after a few passes, some tens of points,
    waits for the next samples; at the end of the record the stack finishes it.
-3. `raise_to_slope` has S^k of all cycles from polynomials for log2 and exp2, and I(r)^(-k/m) from a polynomial in r.
+3. ``raise_to_slope`` has S^k of all cycles from polynomials for log2 and exp2, and I(r)^(-k/m) from a polynomial in r.
 
 Where single precision cannot tell which of two neighbouring samples is the extreme, or which of two ranges is the
-larger one, double precision does in that chunk, see `kernels.doubt`. The few surfaces of which that is not enough are
+larger one, double precision does in that chunk, see ``kernels.doubt``. The few surfaces of which that is not enough are
 counted again in the same way in double precision, all of a call together. Points in high mean tension, laws with knees,
-and short records go to `count_chunks`. The loop over time is in `kernels.over_time`, those over samples
-are in `kernels.loops` and `kernels.power`;
-`kernels.simd` has steps 1 and 2 in vector instructions, and without that file the plain loops do the same, bit for
-bit.
+and short records go to ``count_chunks``. ``kernels.over_time`` loops over time, ``kernels.loops`` and ``kernels.power``
+over samples; ``kernels.simd`` has steps 1 and 2 in vector instructions, and without that file the plain loops do the
+same, bit for bit.
 
 Modal coordinates are only read in slices of some thousand samples, so they may be on disk.
 """
@@ -72,7 +71,7 @@ def is_single(record: CountedRecord, rule: CycleRule) -> bool:
 
 
 def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
-    """Count a block as `count` does, where `is_single` says so.
+    """Count a block as ``count`` does, where ``is_single`` says so.
 
     Raises
     ------
@@ -139,7 +138,7 @@ def _count(
     law: PowerLaw,
     precision: type[np.floating],
 ) -> NDArray[np.void]:
-    """Count normalised stress, some samples and some points at a time, into numbers of type `SIDE` (n, 2)."""
+    """Count normalised stress, some samples and some points at a time, into numbers of type ``SIDE`` (n, 2)."""
     is_first = precision is np.float32
     modes, t = record.q.shape
     flat = np.float32(FLAT * math.sqrt(modes) if is_first else -1.0)
@@ -173,7 +172,7 @@ def _count(
 def _evaluated(
     found: NDArray[np.void], block: _Block, stress: BlockStress, samples: int, rule: CycleRule
 ) -> BlockCount:
-    """Turn the sums of normalised stress into those of `BlockCount`."""
+    """Turn the sums of normalised stress into a ``BlockCount``."""
     size = stress.size[:, None]
     k = float(rule.law.slopes[0])
     to_damage = np.exp(k * np.log(block.scale * size) - rule.law.log_constants[0])

@@ -14,14 +14,14 @@ from fatigue.life.records.spool import Samples, Spool
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-CHUNK = 4096  # samples recovered at a time, a multiple of `product.STEP`
+CHUNK = 4096  # samples recovered at a time, a multiple of ``product.STEP``
 
 
 def single_record(q: Samples, into: Spool | None = None, known: tuple[Floats, Floats] | None = None) -> SingleRecord:
-    """Prepare modal coordinates (m, t) for `count_single`, once for all points.
+    """Prepare modal coordinates (m, t) for ``count_single``, once for all points.
 
     Their copy in single precision is written to ``into`` (m, t), by default to memory. ``known`` are their mean and
-    covariance, see `mean_and_covariance`, where somebody has computed them before.
+    covariance, see ``mean_and_covariance``, where somebody has computed them before.
 
     Raises
     ------

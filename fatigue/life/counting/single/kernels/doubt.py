@@ -1,10 +1,10 @@
 """A surface in one chunk of time, where single precision cannot tell which of two stresses is the larger one.
 
 The larger one of two that are equal within rounding hardly matters for the range of a cycle, but its membrane stress is
-the one that counts, and that of the other one may be quite different. So both are worked out in double precision, and
-the surface is counted again in this chunk with what they say. Samples of other chunks are not at hand: if one of them
-is in doubt, or one of the few reversals that are left at the end of the record, the surface has to be counted again
-from the beginning.
+the one that counts, and the membrane stress of the other one may be quite different. So both are worked out in double
+precision, and the surface is counted again in this chunk with what they say. Samples of other chunks are not at hand:
+if one of them is in doubt, or one of the few reversals that are left at the end of the record, the surface has to be
+counted again from the beginning.
 """
 
 from typing import Any, NamedTuple
@@ -42,7 +42,7 @@ class Exact(NamedTuple):
 
 @compiled()
 def rise(exact: Exact, at: tuple[int, int], i: int, j: int) -> float:
-    """Stress at sample j of a chunk minus that at sample i, both from 1, in double precision."""
+    """``sum over k of (S_m,k + side S_b,k) (q_k,j - q_k,i)`` in double precision; samples i and j of a chunk from 1."""
     m_i = m_j = b_i = b_j = 0.0
     for k in range(len(exact.q)):
         m_i += exact.membrane[at[0], k] * exact.q[k, i - 1]
@@ -59,7 +59,7 @@ def write_steps(
 ) -> bool:
     """Write whether each step goes up (1), nowhere (0) or down (-1) into the work space; returns whether it is known.
 
-    Samples 1 to t are those of the chunk, sample 0 the one before it and t + 1 the one behind the record.
+    Samples 1 to t are in the chunk, sample 0 the one before it and t + 1 the one behind the record.
     """
     side, step, last = np.float32(1 - 2 * at[1]), room.marks[0], exact.q.shape[1]
     known = True
@@ -78,9 +78,9 @@ def write_steps(
 
 @compiled()
 def reaches(sample: Marks, i: int, sign: float, at: tuple[int, int], exact: Exact) -> int:
-    """Whether reversal i is as large as the one before it on its side (1) or not (0); -1 if that is not known.
+    """``sign (s_i - s_(i-2)) >= 0``: whether reversal i reaches the one before it on its side; -1 if not known.
 
-    ``sign`` is that of both, 1 at peaks; ``sample`` says which sample of the chunk a reversal is, 0 if none.
+    ``sign`` is 1 where both are peaks; ``sample`` says which sample of the chunk a reversal is, 0 if none.
     """
     if sample[i] == 0 or sample[i - 2] == 0:
         return -1
@@ -91,10 +91,10 @@ def reaches(sample: Marks, i: int, sign: float, at: tuple[int, int], exact: Exac
 def close_inner(
     room: Room, n: int, first_sign: float, at: tuple[int, int], flat: np.float32, exact: Exact
 ) -> tuple[int, int, bool]:
-    """Close what `kernels.loops.close_pass` takes out in any number of passes, on a stack.
+    """Close what ``kernels.loops.close_pass`` takes out in any number of passes, on a stack.
 
-    ``first_sign`` is that of the first reversal; the second row of marks says which sample of the chunk a reversal is,
-    0 if none. Returns how many are left, how many cycles there are, and whether all of that is known.
+    ``first_sign`` is the sign of the first reversal; the second row of marks says which sample of the chunk a reversal
+    is, 0 if none. Returns how many are left, how many cycles there are, and whether all of that is known.
     """
     z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
     sample = room.marks[1]
@@ -132,7 +132,7 @@ def count_side_exactly(
     room: Room,
     exact: Exact,
 ) -> None:
-    """Count one surface as `kernels.loops.count_side` does, with double precision where it is needed."""
+    """Count one surface as ``kernels.loops.count_side`` does, with double precision where it is needed."""
     known = state.sides[at]
     side = np.float32(1 - 2 * at[1])
     if not write_steps(m, b, steps, at, stage.flat, exact, room):
@@ -174,7 +174,7 @@ def count_chunk_exactly(
     exact: Exact,
     doubts: Places,
 ) -> None:
-    """Count the surfaces that `kernels.loops.count_chunk` has left out: rows and faces ``doubts`` (d, 2)."""
+    """Count the surfaces that ``kernels.loops.count_chunk`` has left out: rows and faces ``doubts`` (d, 2)."""
     points = stress.shape[0] // 2
     steps = samples + int(stage.ends and stage.recurs)
     for k in range(len(doubts)):

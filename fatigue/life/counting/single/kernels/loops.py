@@ -27,9 +27,11 @@ _ONE: Any = np.uintp(1)
 def write_reversals(
     m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: Room, n: int
 ) -> tuple[int, int, bool]:
-    """Append the reversals among the first samples of a row; ``up`` is the direction before them.
+    """Append the reversals among the first samples of a row: ``z = sign s_i`` where ``sign (s_(i+1) - s_i) < 0``.
 
-    Returns how many reversals there are now, the direction behind them, and whether any step is as small as rounding.
+    ``s = m + side b``; ``sign`` is 1 after a rise and -1 after a fall, so that ``z_i + z_(i+1)`` is a range;
+    ``zm = sign m_i`` beside it. ``up`` is the direction before the samples. Returns how many reversals there are now,
+    the direction behind them, and whether any step ``|ds| <= flat (1 + |s|)`` is as small as rounding.
     """
     step = room.marks[0]
     small_steps = level_steps = np.int32(0)
@@ -84,9 +86,11 @@ def list_reversals(
 
 @compiled()
 def close_pass(room: Room, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
-    """Take out every range smaller than the one before and not larger than the one after; none begins at the start.
+    """Take out every closed range at once: ``S = z_i + z_(i+1)`` where ``z_(i+2) >= z_i`` and ``z_(i+1) < z_(i-1)``.
 
-    Returns how many reversals are left, how many cycles there are now, and whether rounding may have decided.
+    This is the four-point rule: such a range is smaller than the one before and not larger than the one after. None
+    begins at the start. ``dm = zm_i + zm_(i+1)`` goes with it. Returns how many reversals are left, how many cycles
+    there are now, and whether rounding may have decided, ``|z_(i+2) - z_i| <= flat (1 + |z_i|)``.
     """
     z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
     z[n] = z[n + 1] = -np.inf
@@ -108,12 +112,12 @@ def close_pass(room: Room, n: int, cycles: int, flat: np.float32) -> tuple[int, 
 
 
 def find_reversals(*args: Any) -> Any:
-    """Call `write_reversals`, in vector instructions where they are."""
+    """Call ``write_reversals``, in vector instructions where they are."""
     return write_reversals(*args)
 
 
 def close_ranges(*args: Any) -> Any:
-    """Call `close_pass`, in vector instructions where they are."""
+    """Call ``close_pass``, in vector instructions where they are."""
     return close_pass(*args)
 
 
@@ -146,7 +150,7 @@ def rotate_to_maximum(room: Room, n: int, first_peak: int) -> int:
 
 @compiled()
 def close_on_stack(room: Room, n: int, recurs: bool, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
-    """Do what `rainflow.close_cycles` does, on signed reversals.
+    """Close ``S = z_(top-2) + z_(top-1)`` where ``z_top >= z_(top-2)``, as ``reversals.close_cycles`` does.
 
     Returns how many full and half cycles there are, and whether rounding may have decided.
     """
@@ -180,7 +184,7 @@ def close_on_stack(room: Room, n: int, recurs: bool, cycles: int, flat: np.float
 
 @compiled()
 def extremes(room: Room, n: int, first_peak: int) -> tuple[float, float]:
-    """Largest and smallest stress: closing cycles never takes the last one of either out."""
+    """Largest and smallest stress, ``max z`` of peaks and ``-max z`` of valleys: closing cycles leaves one of both."""
     z = room.numbers[0]
     largest, smallest = -np.inf, -np.inf
     for i in range(n):
@@ -193,7 +197,7 @@ def extremes(room: Room, n: int, first_peak: int) -> tuple[float, float]:
 
 @compiled()
 def add_cycles(room: Room, row: int, n: int, count: float, law: PowerLaw, total: Any) -> None:
-    """Add the first n cycles of two rows of the work space, counting ``count`` each, to the sums of a surface."""
+    """Add ``count sum S^k`` and ``count sum S^k I(r)^(-k/m)`` of n cycles, S in a row of the work space, dm behind."""
     S, dm = room.numbers[row], room.numbers[row + 1]
     raise_to_slope(S, dm, n, law)
     power_sum, damage_sum, largest = add_up(S, dm, n)
@@ -327,8 +331,8 @@ def count_chunk(
 ) -> int:
     """Count the steps to the columns 1 to ``samples`` of a block, its membrane rows above its bending rows.
 
-    Surfaces on which rounding may have decided are left to `kernels.doubt.count_chunk_exactly`: returns how many there
-    are in ``doubts`` (2 n, 2), row and face of each.
+    Surfaces on which rounding may have decided are left to ``kernels.doubt.count_chunk_exactly``: returns how many
+    there are in ``doubts`` (2 n, 2), row and face of each.
     """
     points = stress.shape[0] // 2
     found = 0

@@ -1,6 +1,6 @@
 """A whole record, some samples of some points at a time: their stress, its count, and what is in doubt.
 
-The loop is compiled where the record is in memory and its product that of `kernels.simd`, so that threads do not wait
+The loop is compiled where the record is in memory and ``kernels.simd`` multiplies, so that threads do not wait
 for the interpreter between its steps. Else the interpreter goes through the same loop, with the product of BLAS or
 reading from disk what each step needs.
 """
@@ -24,8 +24,8 @@ Numbers = NDArray[np.floating]
 class Workspace(NamedTuple):
     """How a block is counted, and the work space.
 
-    ``modal_stress`` laid out, of some points at a time that of the membrane before that of bending; ``stress`` for so
-    many points, ``space`` for the samples of a chunk, ``room`` for a surface; ``recurs`` and ``flat`` as in `Stage`;
+    ``modal_stress`` laid out, of some points at a time membrane before bending; ``stress`` for so
+    many points, ``space`` for the samples of a chunk, ``room`` for a surface; ``recurs`` and ``flat`` as in ``Stage``;
     ``sizes``: samples of a chunk, points at a time.
     """
 
@@ -39,7 +39,7 @@ class Workspace(NamedTuple):
 
 
 def count_record(q: Samples, exact: Exact, law: PowerLaw, state: State, work: Workspace) -> None:
-    """Count a record, some samples of some points at a time; `count_in_memory` is the same in compiled code.
+    """Count a record, some samples of some points at a time; ``count_in_memory`` is the same in compiled code.
 
     ``q`` is what stress is made of, ``exact`` settles what rounding may have decided: read where that is needed.
     """

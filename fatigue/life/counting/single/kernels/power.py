@@ -84,9 +84,9 @@ def _widest_vectors(context: Any) -> Any:
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         attributes = builder.function.attributes
-        attributes.add("noinline")  # or those of the caller would count
+        attributes.add("noinline")  # or the attributes of the caller would count
         for name in ("prefer-vector-width", "min-legal-vector-width"):
-            set.add(attributes, f'"{name}"="512"')  # llvmlite's own `add` knows no such attributes
+            set.add(attributes, f'"{name}"="512"')  # llvmlite's own ``add`` knows no such attributes
         return context.get_dummy_value()
 
     return types.void(), generate
@@ -99,7 +99,7 @@ widest_vectors = cast(Callable[[], None], intrinsic(_widest_vectors))
 
 @compiled("contract")
 def polynomial(c: tuple[np.float32, ...], x: np.float32) -> np.float32:
-    """Evaluate a polynomial of even degree, its highest power first: even and odd powers do not wait for each other."""
+    """``c_0 x^n + c_1 x^(n-1) + ... + c_n`` of even degree n: even and odd powers do not wait for each other."""
     square = x * x
     even, odd = c[0], c[1]
     for k in range(2, len(c) - 1, 2):
@@ -110,9 +110,10 @@ def polynomial(c: tuple[np.float32, ...], x: np.float32) -> np.float32:
 
 @compiled("contract")
 def raise_to_slope(S: Numbers, dm: Numbers, n: int, law: PowerLaw) -> None:
-    """Replace S by S^k, and the membrane range dm by S^k I(r)^(-k/m) with r = db / (dm + db).
+    """``S <- S^k`` and ``dm <- S^k I(r)^(-k/m)``, with ``r = db / (|dm| + db)`` and ``db = |S - dm|``.
 
-    What is behind is overwritten with anything, up to a multiple of `LANES`.
+    ``S^k = 2^(k log2 S)`` with ``S = 2^e (1 + t)`` and ``log2 S = e + t p(t)``. What is behind is overwritten with
+    anything, up to a multiple of ``LANES``.
     """
     widest_vectors()
     for i in range((n + LANES - 1) // LANES * LANES):
@@ -131,7 +132,7 @@ def raise_to_slope(S: Numbers, dm: Numbers, n: int, law: PowerLaw) -> None:
 
 @compiled("reassoc", "nsz", "nnan", "contract")
 def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, np.floating]:
-    """Sum both and find the largest damage."""
+    """``sum power``, ``sum damage`` and ``max damage`` of the first n."""
     widest_vectors()
     power_sum = damage_sum = 0.0
     largest = _ZERO
@@ -144,7 +145,7 @@ def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, np.fl
 
 @compiled("contract")
 def add_powers(m: Numbers, b: Numbers, top_total: Any, bottom_total: Any) -> None:
-    """Add the second and the fourth powers of the stress of both surfaces, without its mean.
+    """Add ``sum x^2`` and ``sum x^4`` of both surfaces, ``x = m + b - mean`` and ``x = m - b - mean``.
 
     The order of the sums is written out, lane by lane: left to the compiler, it is another one in the process that
     compiles than in those that read the compiled code from disk.

@@ -1,8 +1,8 @@
 """The stress of some points in some samples: the product of their modal stress with the modal coordinates.
 
 Both are laid out for the product first, the rows of modal stress once for all samples and the samples once for all
-points. In single precision with AVX-512 the product is that of `kernels.simd`, of tiles (n / 12, m, 12) and panels
-(t / 32, m, 32), else that of BLAS, of (n, m) and (m, t); they differ by rounding at most. Compiled code can call the
+points. In single precision with AVX-512 ``kernels.simd`` multiplies tiles (n / 12, m, 12) and panels
+(t / 32, m, 32), else BLAS multiplies (n, m) and (m, t); they differ by rounding at most. Compiled code can call the
 former only.
 """
 
@@ -29,7 +29,7 @@ if importlib.util.find_spec("fatigue.life.counting.single.kernels.simd"):
 
 
 def in_tiles(precision: type[np.floating]) -> bool:
-    """Whether the product is that of `kernels.simd`."""
+    """Whether ``kernels.simd`` multiplies."""
     return simd is not None and simd.WIDTH == 512 and precision is np.float32
 
 
@@ -39,17 +39,17 @@ def is_in_panels(record: Samples) -> bool:
 
 
 def prepared_rows(rows: Numbers) -> Numbers:
-    """Lay rows (n, m) out for `multiply`."""
+    """Lay rows (n, m) out for ``multiply``."""
     return np.asarray(simd.tiles_of(rows)) if in_tiles(rows.dtype.type) else rows
 
 
 def space_for_samples(modes: int, samples: int, precision: type[np.floating]) -> Numbers:
-    """Memory for the modal coordinates as `multiply` reads them: to use it again is faster than fresh memory."""
+    """Memory for the modal coordinates as ``multiply`` reads them: to use it again is faster than fresh memory."""
     return np.asarray(simd.panels_for(modes, samples)) if in_tiles(precision) else np.empty((modes, samples), precision)
 
 
 def prepared_samples(q: Numbers, into: Numbers) -> Numbers:
-    """Lay modal coordinates (m, t) out for `multiply`, in the precision of the memory they go to."""
+    """Lay modal coordinates (m, t) out for ``multiply``, in the precision of the memory they go to."""
     if in_tiles(into.dtype.type):
         return np.asarray(simd.lay_out(q, into))
     into = into[:, : q.shape[1]]
@@ -68,14 +68,14 @@ def samples_between(laid_out: Numbers, first: int, end: int) -> Numbers:
 
 
 def samples_of(record: Samples, first: int, end: int, into: Numbers) -> Numbers:
-    """Give some samples of a record as `multiply` reads them: part of one laid out, or laid out now in another type."""
+    """Give some samples of a record as ``multiply`` reads them: part of what is laid out, or laid out now."""
     if isinstance(record, np.ndarray) and record.dtype == into.dtype:
         return samples_between(record, first, end)
     return prepared_samples(record[:, first:end], into)
 
 
 def rows_in_tiles(matrix: Singles) -> Singles:
-    """Lay a matrix (n, h) out for `multiply_rows`, tile after tile, the last one filled up with zeros."""
+    """Lay a matrix (n, h) out for ``multiply_rows``, tile after tile, the last one filled up with zeros."""
     if in_tiles(np.float32):
         return np.asarray(simd.tiles_of(matrix)).ravel()
     return np.pad(matrix, ((0, -len(matrix) % TILE), (0, 0))).ravel()
@@ -83,7 +83,7 @@ def rows_in_tiles(matrix: Singles) -> Singles:
 
 @compiled()
 def rows_by_blas(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
-    """Do what `multiply_rows` does, in all columns."""
+    """``stress = tile @ samples``, as ``multiply_rows`` but in all columns."""
     np.dot(tile.reshape(TILE, len(samples)), samples, stress)
 
 
@@ -104,7 +104,7 @@ def block_for(rows: int, width: int, precision: type[np.floating]) -> Numbers:
 
 
 def multiply(rows: Numbers, q: Numbers, stress: Numbers) -> None:
-    """Write the product of what was laid out into the columns 1 to t of a block; the next 31 may get anything."""
+    """``stress[:, 1 : t + 1] = rows @ q`` of what was laid out; the next 31 columns may get anything."""
     if rows.ndim == 3:
         simd.multiply(rows, q, stress)
     else:

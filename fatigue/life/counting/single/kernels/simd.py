@@ -1,11 +1,11 @@
 """The inner loops in vector instructions of x86-64 processors, up to 16 samples at a time.
 
-The two steps of `kernels.loops` select: turning points among samples, closed ranges among turning points. A comparison
-of vectors gives one bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop would
-decide one after the other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps`` with
-a table of lane numbers). The results are bit for bit those of the plain loops, which run instead where this file says
-so or is missing. With AVX-512 the matrix product is here, too: BLAS clears its result first and adds to it, which
-takes as long as a third of the product of so few modes.
+The two steps of ``kernels.loops`` select: turning points among samples, closed ranges among turning points. A
+comparison of vectors gives one bit per lane, integer arithmetic on these bits decides for all lanes at once what a loop
+would decide one after the other, and the selected lanes are moved together (AVX-512: ``vcompressps``, AVX2: ``vpermps``
+with a table of lane numbers). The results are bit for bit the same as in the plain loops, which run instead where this
+file says so or is missing. With AVX-512 the matrix product is here, too: BLAS clears its result first and adds to it,
+which takes as long as a third of the product of so few modes.
 """
 
 import itertools
@@ -51,7 +51,7 @@ def lanes(array_type: Any) -> int:
 
 
 def _lanes_of(typing: Any, array: Any) -> Any:
-    """Give `lanes` to compiled code."""
+    """Give ``lanes`` to compiled code."""
     return types.int64(array), lambda *_: ir.Constant(I64, lanes(array))
 
 
@@ -150,7 +150,7 @@ class _Vector:
 def _reversals_of_lanes(
     typing: Any, m: Any, b: Any, side: Any, flat: Any, i: Any, up: Any, z: Any, zm: Any, n: Any
 ) -> Any:
-    """Do what `kernels.loops.write_reversals` does for the samples i to i + lanes - 1."""
+    """Do what ``kernels.loops.write_reversals`` does for the samples i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         m_, b_, side_, flat_, i_, up_, z_, zm_, n_ = args
@@ -201,7 +201,7 @@ def _cycles_of_lanes(
     cycles: Any,
     flat: Any,
 ) -> Any:
-    """Do what `kernels.loops.close_pass` does for the reversals i to i + lanes - 1."""
+    """Do what ``kernels.loops.close_pass`` does for the reversals i to i + lanes - 1."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         z_, zm_, S_, dm_, i_, n_, before_, taken_, kept_, cycles_, flat_ = args
@@ -245,7 +245,7 @@ def _cycles_of_lanes(
 def _product_of_tile(typing: Any, tiles: Any, tile: Any, samples: Any, panel: Any, stress: Any) -> Any:
     """Multiply a tile of 12 rows with a panel of 32 samples: 24 sums stay in the 32 registers of AVX-512.
 
-    Samples are laid out in panels, or they are rows like those of the product, from column 1 on.
+    Samples are laid out in panels, or they are rows as in the product, from column 1 on.
     """
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -301,7 +301,7 @@ product_of_tile = cast(Callable[..., None], intrinsic(_product_of_tile))
 def write_reversals(
     m: Numbers, b: Numbers, side: np.float32, flat: np.float32, samples: int, up: int, room: Any, n: int
 ) -> tuple[int, int, bool]:
-    """Do what `kernels.loops.write_reversals` does."""
+    """Do what ``kernels.loops.write_reversals`` does."""
     z, zm = room.numbers[0], room.numbers[1]
     small_steps = 0
     for i in range(0, samples, lanes_of(m)):
@@ -312,7 +312,7 @@ def write_reversals(
 
 @compiled()
 def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, int, bool]:
-    """Do what `kernels.loops.close_pass` does."""
+    """Do what ``kernels.loops.close_pass`` does."""
     z, zm, S, dm = room.numbers[0], room.numbers[1], room.numbers[2], room.numbers[3]
     z[n] = z[n + 1] = -np.inf
     kept = 0
@@ -325,7 +325,7 @@ def close_pass(room: Any, n: int, cycles: int, flat: np.float32) -> tuple[int, i
 
 
 def tiles_of(matrix: Singles) -> Singles:
-    """Lay a matrix (n, m) out as `multiply` reads them: (n / 12, m, 12), filled up with zeros."""
+    """Lay a matrix (n, m) out as ``multiply`` reads them: (n / 12, m, 12), filled up with zeros."""
     rows, modes = matrix.shape
     tiles = np.zeros((-(-rows // TILE), TILE, modes), np.float32)
     tiles.reshape(len(tiles) * TILE, modes)[:rows] = matrix
@@ -333,7 +333,7 @@ def tiles_of(matrix: Singles) -> Singles:
 
 
 def panels_for(modes: int, samples: int) -> Singles:
-    """Memory for modal coordinates as `multiply` reads them: (t / 32, m, 32)."""
+    """Memory for modal coordinates as ``multiply`` reads them: (t / 32, m, 32)."""
     return np.empty((-(-samples // PANEL), modes, PANEL), np.float32)
 
 
@@ -354,7 +354,7 @@ def lay_out(q: Singles, panels: Singles) -> Singles:
 
 @compiled()
 def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
-    """Write the product into the columns of ``stress`` from 1 on; rows and columns are as many as tiles and panels."""
+    """``stress[:, 1:] = tiles @ panels``; rows and columns are as many as tiles and panels."""
     for first in range(0, len(panels), CACHED):
         for tile in range(len(tiles)):
             for panel in range(first, min(first + CACHED, len(panels))):
@@ -363,7 +363,7 @@ def multiply(tiles: Singles, panels: Singles, stress: Singles) -> None:
 
 @compiled("contract")
 def multiply_rows(tile: Singles, samples: Singles, columns: int, stress: Singles) -> None:
-    """Write the product of a tile, (h 12,), with so many columns of samples (h, w), as they are, into the same columns.
+    """``stress[:, :columns] = tile @ samples[:, :columns]`` of a tile (h 12,) and samples (h, w) as they are.
 
     Up to 31 more columns of both are touched: w is that much larger.
     """

@@ -22,17 +22,17 @@ SIDE = np.dtype(
 
 ``wanted``: to be counted; ``doubtful``: rounding may have decided, nothing else is of use; ``crowded``: there was no
 room for all that waits. ``first_up`` and ``up`` are the directions of the first step and of the last one, -1 before
-there is any; ``waiting`` reversals have not closed a cycle. ``mean`` is that of the normalised stress, 0 in single
-precision; ``plateau_m`` the membrane stress before the first step. The rest are the sums and extremes of `BlockCount`,
-for normalised stress.
+there is any; ``waiting`` reversals have not closed a cycle. ``mean`` is the mean of the normalised stress, 0 in single
+precision; ``plateau_m`` the membrane stress before the first step. The rest are the sums and extremes of
+``BlockCount``, for normalised stress.
 """
 
 
 class State(NamedTuple):
     """What is known of n points; few arrays, because compiled code counts the references to each at every call.
 
-    ``sides`` (n, 2) of type `SIDE`; ``ends`` (n, 2, 2) the first sample and the last one so far, membrane and bending;
-    ``waiting`` (n, 2, 2, r) the reversals that wait, those of the surface and their membrane part.
+    ``sides`` (n, 2) of type ``SIDE``; ``ends`` (n, 2, 2) the first sample and the last one so far, membrane and
+    bending; ``waiting`` (n, 2, 2, r) the reversals of the surface that wait, and their membrane part.
     """
 
     sides: NDArray[np.void]
@@ -53,7 +53,7 @@ class Room(NamedTuple):
     """Work space of one surface.
 
     The rows of ``numbers`` (6, w) are signed reversals and their membrane part, the ranges of full cycles and their
-    membrane part, those of half cycles; ``marks`` (2, w) are directions and places of reversals.
+    membrane part, the ranges of half cycles; ``marks`` (2, w) are directions and places of reversals.
     """
 
     numbers: Numbers
