@@ -10,7 +10,6 @@ import click
 
 from fatigue.cli.arguments import FOLDER
 from fatigue.cli.numbers import ABOVE_ZERO
-from fatigue.readers.convert.mode_list import mode_list
 from fatigue.readers.convert.option_fields import OptionField, option_fields, parts_with_options
 
 Command = Callable[..., None]
@@ -55,7 +54,7 @@ def _option(field: OptionField) -> Callable[[Command], Command]:
     if field.is_required:
         return click.option(*names, field.name, required=True, **told)
     if asked.is_list:
-        return click.option(*names, field.name, callback=_modes, **told)
+        return click.option(*names, field.name, **told)
     if field.is_repeated:
         return click.option(*names, field.name, multiple=True, **told)
     return click.option(*names, field.name, default=field.default, show_default=bool(field.default), **told)
@@ -76,8 +75,3 @@ def _made(asked: type[Asked], given: Mapping[str, Any]) -> Asked:
         field.name: field.value(given[field.name]) for field in option_fields(asked) if given[field.name] is not None
     }
     return asked(**own, **{name: _made(part, given) for name, part in parts_with_options(asked).items()})
-
-
-def _modes(_: click.Context, param: click.Parameter, given: str | None) -> tuple[int, ...]:
-    """Mode numbers of a list, refused in the words of ``mode_list`` where it is none."""
-    return mode_list(given, param.opts[0]) if given else ()

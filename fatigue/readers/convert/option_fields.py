@@ -10,6 +10,7 @@ from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from fatigue.errors import given_path
+from fatigue.readers.convert.mode_list import mode_list
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +61,14 @@ class OptionField:
         return self.default is MISSING
 
     def value(self, given: Any) -> Any:
-        """Value of what a command line gives; words that belong together become one record."""
+        """Value of what a command line gives: numbers of a list, records of words that belong together.
+
+        Raises
+        ------
+        CaseError : a list that is none
+        """
+        if self.option.is_list:
+            return mode_list(given, self.option.name) if given else ()
         if isinstance(self.kind, type) and is_dataclass(self.kind):
             return tuple(self.kind(*words) for words in given)
         return given
