@@ -1,7 +1,8 @@
 """Loops in machine code: one decorator for all of them.
 
-Machine code is kept on disk as long as the file of its function is the same. A function that is called from another
-file is part of that: whoever changes it deletes the ``*.nbi`` files beside the sources.
+Machine code is kept on disk as long as the file of its function is the same. Functions of other files that it calls,
+and named tuples that it takes, are part of it: whoever changes or renames these deletes the ``*.nbi`` files in
+``__pycache__``.
 """
 
 from collections.abc import Callable

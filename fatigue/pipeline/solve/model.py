@@ -77,16 +77,16 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     body = groups.body
     welds = body.welds[groups.groups[number]]
     stacks: list[LineStack] = []
-    parts: list[Stations] = []
+    blocks: list[Stations] = []
     warnings: list[Problem] = []
     for block in groups.blocks_of[number]:
         lines, forces, of_forces = forces_of_block(groups, block)
         stations, of_lines = _solved(lines, forces, welds, body.case.body.weld_nodes)
         stacks.append(lines)
-        parts.append(stations)
+        blocks.append(stations)
         warnings += of_forces + of_lines
     together = stacks[0] if len(stacks) == 1 else stacked([line for stack in stacks for line in stack])
-    return Model(body, together, joined(parts), tuple(warnings))
+    return Model(body, together, joined(blocks), tuple(warnings))
 
 
 def _solved(

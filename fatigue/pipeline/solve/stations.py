@@ -85,23 +85,23 @@ def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> 
     )
 
 
-def joined(parts: Sequence[Stations]) -> Stations:
-    """Stations of several stacks of lines, parts of the same welds, one after the other."""
-    if len(parts) == 1:
-        return parts[0]
-    arrays = {f.name: [getattr(part, f.name) for part in parts] for f in fields(Stations)}
+def joined(blocks: Sequence[Stations]) -> Stations:
+    """Stations of several blocks of the same welds, one after the other."""
+    if len(blocks) == 1:
+        return blocks[0]
+    arrays = {f.name: [getattr(block, f.name) for block in blocks] for f in fields(Stations)}
     treated, ends = _joined(arrays.pop("treated")), arrays.pop("raw_ends")
-    begin = np.cumsum([0, *(len(part) for part in parts)])
+    begin = np.cumsum([0, *(len(block) for block in blocks)])
     rows = np.concatenate([one.rows + first for one, first in zip(ends, begin[:-1], strict=True)])
     del arrays["welds"]
     together = {name: np.concatenate(some) for name, some in arrays.items()}
     raw_ends = RawEnds(rows, _joined([one.stress for one in ends]))
-    return Stations(welds=parts[0].welds, **together, treated=treated, raw_ends=raw_ends)
+    return Stations(welds=blocks[0].welds, **together, treated=treated, raw_ends=raw_ends)
 
 
-def _joined(parts: Sequence[StructuralStress]) -> StructuralStress:
-    names = [part.name for part in fields(StructuralStress)]
-    return StructuralStress(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+def _joined(blocks: Sequence[StructuralStress]) -> StructuralStress:
+    names = [component.name for component in fields(StructuralStress)]
+    return StructuralStress(*(np.concatenate([getattr(block, name) for block in blocks]) for name in names))
 
 
 def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) -> ModalStress:

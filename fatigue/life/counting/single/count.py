@@ -51,7 +51,7 @@ CANCELLATION = 8.0  # modal stresses over their sum from which on single precisi
 FLAT = 4e-8  # doubt about a difference of stresses of rms 1, per root of the number of modes: 3 standard deviations
 
 
-class _Block(NamedTuple):
+class _Normalised(NamedTuple):
     """Modal stress of a block over ``scale`` [MPa], and the mean of its stress [MPa].
 
     ``membrane`` and ``bending`` (n, m); ``scale`` (n, 1); ``mean`` and ``trusted`` (n, 2): single precision is enough.
@@ -90,7 +90,7 @@ def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) ->
     rows = np.flatnonzero(doubtful.any(axis=1))
     if rows.size:
         wanted = doubtful[rows]
-        again = _count(_Block._make(a[rows] for a in block), wanted, record, single, law, np.float64)
+        again = _count(_Normalised._make(a[rows] for a in block), wanted, record, single, law, np.float64)
         for name in ("maximum", "minimum"):
             again[name] -= again["mean"]
         found[doubtful] = again[wanted]
@@ -112,7 +112,7 @@ def _surfaces(membrane: Floats, bending: Floats) -> Floats:
     return np.stack([membrane + bending, membrane - bending], axis=1)
 
 
-def _normalised(stress: BlockStress, single: SingleRecord) -> _Block:
+def _normalised(stress: BlockStress, single: SingleRecord) -> _Normalised:
     """Divide the stress of each point by a power of 2 so that its modal stresses have an rms of about 1."""
     S_m, S_b = stress.membrane, stress.bending
     of_membrane, of_bending = S_m @ single.covariance, S_b @ single.covariance
@@ -121,7 +121,7 @@ def _normalised(stress: BlockStress, single: SingleRecord) -> _Block:
     variance = np.maximum(_surfaces(membrane + bending, 2.0 * both), 0.0)
     modal = (S_m**2 + S_b**2) @ np.diagonal(single.covariance)
     scale = np.ldexp(1.0, np.frexp(np.sqrt(modal))[1])[:, None]
-    return _Block(
+    return _Normalised(
         membrane=S_m * single.scale / scale,
         bending=S_b * single.scale / scale,
         scale=scale,
@@ -131,7 +131,7 @@ def _normalised(stress: BlockStress, single: SingleRecord) -> _Block:
 
 
 def _count(
-    block: _Block,
+    block: _Normalised,
     wanted: NDArray[np.bool_],
     record: CountedRecord,
     single: SingleRecord,
@@ -170,7 +170,7 @@ def _count(
 
 
 def _evaluated(
-    found: NDArray[np.void], block: _Block, stress: BlockStress, samples: int, rule: CycleRule
+    found: NDArray[np.void], block: _Normalised, stress: BlockStress, samples: int, rule: CycleRule
 ) -> BlockCount:
     """Turn the sums of normalised stress into a ``BlockCount``."""
     size = stress.size[:, None]
