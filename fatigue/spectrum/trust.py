@@ -1,4 +1,4 @@
-"""Verdict time against frequency domain: may Dirlik's damage be trusted at a point in an event, and if not, why not.
+"""Verdict on the frequency domain: may Dirlik's damage be trusted at a point in an event, and if not, why not.
 
 A spectrum describes a stationary Gaussian process sampled densely and long enough. Each of these words is measured, for
 all points at once, and the first one that fails gives the verdict. Time domain damage stays the result either way: the

@@ -125,7 +125,7 @@ Computed = TypeVar("Computed")
 
 
 def once(compute: Callable[[Lines], Computed]) -> Callable[[Lines], Computed]:
-    """Function that computes something of a line or stack at the first call and keeps it there: much is made from it.
+    """Function that computes the same at the first call and keeps it with the line: half of the rest is made from it.
 
     What such a function returns must not be changed.
     """

@@ -94,7 +94,7 @@ class EndTreatment:
 
 
 def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
-    """Line load, (n, ...), near the ends of open lines replaced by its mean over the end zone (Eq. 4).
+    """End treatment of a line load, (n, ...): its mean over the end zone replaces it near open ends (Eq. 4).
 
     The plate solution is singular at a weld end, and at a corner, so the value there grows under mesh refinement while
     its mean over a fixed length ``a`` does not. ``a`` is the line's end length, the plate thickness by default, and
