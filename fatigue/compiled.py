@@ -1,11 +1,13 @@
 """Loops in machine code: one decorator for all of them.
 
-Machine code is kept on disk as long as the file of its function is the same. Functions of other files that it calls,
-and named tuples that it takes, are part of it: whoever changes or renames these deletes the ``*.nbi`` files in
-``__pycache__``.
+Machine code is kept on disk, in ``__pycache__``. It contains the functions it calls and the named tuples it takes, also
+those of other files; numba looks only at the file of the function itself. So machine code that is older than a file of
+the rooms with loops is removed before any is loaded.
 """
 
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import ParamSpec, TypeVar, cast
 
 import scipy.linalg.cython_blas  # noqa: F401 - the BLAS of compiled products; limits of its threads need it loaded
@@ -13,6 +15,8 @@ from numba import njit
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+ROOMS = ("weld", "life", "spectrum")  # with compiled loops
 
 
 def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -27,3 +31,24 @@ def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
 def inlined(function: Callable[P, R]) -> Callable[P, R]:
     """Let compiled code contain a function in place of calling it: a call counts the references to its arrays."""
     return cast(Callable[P, R], njit(inline="always")(function))
+
+
+def remove_stale(rooms: Sequence[Path]) -> None:
+    """Remove machine code that is older than the newest source file of the rooms; it is compiled again.
+
+    Files dated in the future are left out of it: machine code would always be older. Where nothing may be removed,
+    nothing is.
+    """
+    now = time.time()
+    written = [path.stat().st_mtime for room in rooms for path in room.rglob("*.py")]
+    newest = max((when for when in written if when <= now), default=0.0)
+    for room in rooms:
+        for kept in room.rglob("__pycache__/*.nb[ic]"):
+            try:
+                if kept.stat().st_mtime < newest:
+                    kept.unlink()
+            except OSError:  # another process was faster, or the folder is read-only
+                continue
+
+
+remove_stale([Path(__file__).parent / room for room in ROOMS])

@@ -3,10 +3,12 @@
 import os
 import subprocess
 import sys
+import time
 
+import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-import fatigue.compiled  # noqa: F401 - loads the BLAS of compiled code
+from fatigue.compiled import remove_stale  # the module loads the BLAS of compiled code
 
 SCRIPT = """
 import hashlib, sys
@@ -49,3 +51,56 @@ def test_limits_of_threads_reach_the_blas_of_compiled_code():
         libraries = {library["filepath"]: library["num_threads"] for library in threadpool_info()}
     assert any("scipy" in path for path in libraries)
     assert set(libraries.values()) == {1}
+
+
+@pytest.fixture
+def room(tmp_path):
+    """A room of two source files, an hour old, with machine code of half an hour ago."""
+    (tmp_path / "inner" / "__pycache__").mkdir(parents=True)
+    names = ("rule.py", "inner/loops.py", "inner/__pycache__/loops.add-3.py311.nbi")
+    for name, age in zip(names, (3600, 3600, 1800), strict=True):
+        (tmp_path / name).touch()
+        os.utime(tmp_path / name, (time.time() - age,) * 2)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("changed", "age_s", "stays"),
+    [
+        (None, 0, True),
+        ("rule.py", 60, False),  # called by the loops: numba alone would not notice
+        ("inner/loops.py", 60, False),
+        ("rule.py", -600, True),  # a clock that is wrong must not cost a compilation at every start
+    ],
+)
+def test_machine_code_older_than_a_source_file_is_removed(room, changed, age_s, stays):
+    """Also where the file that has changed is another one than that of the loop."""
+    if changed:
+        os.utime(room / changed, (time.time() - age_s,) * 2)
+    remove_stale([room])
+    assert (room / "inner" / "__pycache__" / "loops.add-3.py311.nbi").exists() == stays
+
+
+def test_a_changed_formula_is_compiled_anew(tmp_path):
+    """Two files, the loop in one and what it calls in the other: machine code on disk follows the other one, too."""
+    (tmp_path / "called.py").write_text("def factor(x):\n    return 2.0 * x\n")
+    (tmp_path / "loop.py").write_text(
+        "from pathlib import Path\n"
+        "from fatigue.compiled import compiled, remove_stale\n"
+        "remove_stale([Path(__file__).parent])\n"
+        "from called import factor\n"
+        "factor = compiled()(factor)\n"
+        "@compiled()\ndef run(x):\n    return factor(x)\n"
+        "print(run(1.0))\n"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    found = []
+    for text in (None, None, "def factor(x):\n    return 3.0 * x\n"):
+        if text:
+            time.sleep(0.05)
+            (tmp_path / "called.py").write_text(text)
+        command = [sys.executable, "-B", str(tmp_path / "loop.py")]
+        found.append(
+            subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.strip()
+        )
+    assert found == ["2.0", "2.0", "3.0"]

@@ -1,0 +1,8 @@
+"""The commands, one file for each group of them; each parses, calls and prints.
+
+A file here registers its commands with ``main.cli`` when it is imported, and knows no other file here.
+"""
+
+from fatigue.cli.commands import assess, beginnings, convert, results, verify, welds
+
+__all__ = ["assess", "beginnings", "convert", "results", "verify", "welds"]
