@@ -25,7 +25,7 @@ def aluminium() -> DamageLaw:
 
 @dataclass(frozen=True)
 class Load:
-    """Modal stress of some nodes and modal coordinates of one event, these for either counter."""
+    """Modal stress of some nodes and modal coordinates of one event, the latter for either counter."""
 
     S_m: Floats
     S_b: Floats
@@ -35,16 +35,16 @@ class Load:
     double: CountedRecord
 
     def stress(self, first: int = 0, end: int | None = None) -> BlockStress:
-        """Take some nodes."""
+        """Stress of some nodes."""
         S_m, S_b = self.S_m[first:end], self.S_b[first:end]
         return BlockStress(S_m, S_b, np.ones(len(S_m)), np.full((len(S_m), 2), 0.3))
 
-    def fast(self, first: int = 0, end: int | None = None) -> BlockCount:
-        """Count nodes the fast way."""
+    def count_single(self, first: int = 0, end: int | None = None) -> BlockCount:
+        """Count of some nodes in single precision."""
         return count(self.stress(first, end), self.single, CycleRule(aluminium(), uses_bending_ratio=True))
 
-    def exact(self, first: int = 0, end: int | None = None) -> BlockCount:
-        """Count nodes in double precision throughout."""
+    def count_double(self, first: int = 0, end: int | None = None) -> BlockCount:
+        """Count of some nodes in double precision."""
         return count_rows(self.stress(first, end), self.double, CycleRule(aluminium(), uses_bending_ratio=True))
 
     def product(self) -> None:

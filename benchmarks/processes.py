@@ -21,10 +21,10 @@ from benchmarks.timing import best_times
 
 case = load(256)
 with threadpool_limits(1, user_api="blas"):
-    best = best_times({"product": case.product, "fast": case.fast}, 8)
-print(f"{best['fast'] / best['product']:.2f}")
+    best = best_times({"product": case.product, "single": case.count_single}, 8)
+print(f"{best['single'] / best['product']:.2f}")
 """
-_COUNT = "from benchmarks.load import load; case = load({nodes}, 60, {steps}); case.fast()"
+_COUNT = "from benchmarks.load import load; case = load({nodes}, 60, {steps}); case.count_single()"
 
 
 def start_up() -> list[Row]:
@@ -46,12 +46,12 @@ def plain_loops() -> list[Row]:
     """Take away the file of vector instructions, as on a processor that has none of them."""
     with tempfile.TemporaryDirectory() as empty:
         ratio = _run(["-c", _WITHOUT_VECTORS], NUMBA_CACHE_DIR=empty)
-    return [("fast pipeline in plain loops / product", ratio.strip())]
+    return [("single precision pipeline in plain loops / product", ratio.strip())]
 
 
 def first_run() -> list[Row]:
-    """Compiling the fast counter and the double precision one, with an empty cache."""
-    code = "from benchmarks.load import load; case = load(8, 4, 600); case.fast(); case.exact()"
+    """Compiling both counters, in single and in double precision, with an empty cache."""
+    code = "from benchmarks.load import load; case = load(8, 4, 600); case.count_single(); case.count_double()"
     with tempfile.TemporaryDirectory() as empty:
         cold, warm = (_seconds(["-c", code], rounds=1, NUMBA_CACHE_DIR=empty) for _ in range(2))
     return [("compilation at the first run", f"{cold - warm:.0f} s")]
