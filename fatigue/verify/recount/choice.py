@@ -43,12 +43,11 @@ def choose(
     *,
     sample: int | None,
     seed: int,
-    samples: int,
-    most_samples: int,
+    most: int,
 ) -> Choice:
     """The worst and the named points of every weld, and some drawn from the others.
 
-    Where counting these takes more than ``most_samples`` it is done for fewer welds: half of them are those with the
+    Where these are more than ``most`` points it is done for fewer welds: half of them are those with the
     highest utilisation, half are drawn from the others.
 
     Parameters
@@ -59,15 +58,13 @@ def choose(
     named : further points to recount with their weld
     sample : how many others to draw; None: all points
     seed : of what is drawn
-    samples : of the records of all events together, what one point costs
-    most_samples : what all points may cost, apart from those drawn
+    most : how many points there may be, apart from those drawn
     """
     every = np.arange(len(body.welds), dtype=np.int64)
     if sample is None:
         return Choice(np.arange(body.points, dtype=np.int64), every, "")
     rng = np.random.default_rng(seed)
     must = np.union1d(worst, named)
-    most = max(2, most_samples // samples)
     if len(must) <= most:
         others = _without(must, body.points)
         return Choice(np.union1d(must, others[rng.permutation(len(others))[:sample]]), every, "")

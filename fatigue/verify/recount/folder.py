@@ -121,8 +121,8 @@ def recount(
 
     toe, utilisation = toes_and_utilisation(stored)
     worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(inputs, record)
-    limits = {"samples": samples, "most_samples": most_samples}
-    choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, **limits)
+    most = max(2, most_samples // samples)
+    choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, most=most)
     fastest, cycles_of = fastest_peaks(folder, inputs, events), with_cycles(stored, governing, record)
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
@@ -142,15 +142,10 @@ def recount(
             of_few = _values(inputs, few, passes, mission)
             found += _compared(few, stored, of_few, passes, mission, raw_life_enough)
             values |= {body.key(point): of_few[point] for point in few}
-        found += _compared_stress(
-            modes, {number: stations[number] for number in np.unique(points // 2).tolist()}, stored
-        )
-        found += _compared_welds(
-            {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds},
-            stored,
-            values,
-            all_counted=all_counted,
-        )
+        recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
+        found += _compared_stress(modes, recounted, stored)
+        chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
+        found += _compared_welds(chosen, stored, values, all_counted=all_counted)
     checks += merged(found)
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
