@@ -1,4 +1,8 @@
-"""``case.toml`` <-> frozen models: what is assessed, with which curve, over which mission."""
+"""A case: what is assessed, with which curve, over which mission.
+
+``tables`` are the tables of ``case.toml`` as frozen models, ``load`` reads and checks a case file, ``problems`` says
+what is wrong with it in the words of the file.
+"""
 
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum

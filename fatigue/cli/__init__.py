@@ -1,4 +1,9 @@
-"""The command line: parse, call, print. Heavy imports stay inside the commands, so that ``--help`` is quick."""
+"""The command line: parse, call, print. Heavy imports stay inside the commands, so that ``--help`` is quick.
+
+``main`` is the group of all ``commands`` and their exit codes. ``arguments``, ``numbers`` and ``options`` are what
+commands take, ``early`` refuses mistakes before anything heavy is imported; ``progress`` and ``output`` are what is
+seen of a command. ``known_values`` are computed for the report, ``memory`` sets the allocators of the process.
+"""
 
 from fatigue.cli import commands  # registers them
 from fatigue.cli.main import cli, main

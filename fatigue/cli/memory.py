@@ -14,7 +14,7 @@ M_TRIM_THRESHOLD, M_MMAP_THRESHOLD, M_ARENA_MAX = -1, -3, -8  # malloc.h of glib
 
 
 def hold_little() -> None:
-    """Have Arrow use the allocator of C, and that share one heap, and give back large blocks once they are free.
+    """Make Arrow use the allocator of C, with one heap for all threads that gives back large blocks once they are free.
 
     To be called before Arrow is imported. Whoever has chosen an allocator for Arrow keeps it.
     """
