@@ -21,7 +21,7 @@ from fatigue.readers.convert.options import Displacement
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.readers.units.systems import Normalisation, UnitSystem
 
 Floats = NDArray[np.float64]

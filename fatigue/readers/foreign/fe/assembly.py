@@ -17,7 +17,7 @@ from fatigue.readers.foreign.fe.results import (
     UnusableBlock,
     frequency_of,
 )
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _NOT_GIVEN = 1e-37
 """A smaller eigenvalue is no number a solver computes: the word holds an integer or nothing."""

@@ -10,7 +10,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.files.naming import composed
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.forces.in_place import in_place
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces

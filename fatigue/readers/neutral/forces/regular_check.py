@@ -14,7 +14,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.columns import DAMAGE
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.forces.placement import stations_of

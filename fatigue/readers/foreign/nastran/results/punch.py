@@ -10,7 +10,7 @@ import numpy as np
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.assembly import assemble
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults, ForceBlock
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
