@@ -168,37 +168,37 @@ TEXT = (
 """Text formats, the first that fits counts."""
 
 
-OWN = (
-    Known("a Parquet table", "Name it .parquet where it is a table of a case", (b"PAR1",)),
-    Known("an HDF5 file", "Give it to fatigue convert if MSC Nastran wrote it", (b"\x89HDF\r\n\x1a\n",)),
-    Known(
-        "a NASTRAN OP2 file",
-        "Give it to fatigue convert --forces",
-        tuple(bytes(b) for b in ((4, 0, 0, 0), (8, 0, 0, 0))),
-    ),
-    Known("a NASTRAN OP2 file", "Give it to fatigue convert --forces", (b"\0\0\0\x04", b"\0\0\0\x08")),
-    Known(
-        "an ANSYS file of modal coordinates (.mcf)",
-        "Give it to fatigue convert --coordinates",
-        within=rb"(?ims)^\s*Number of Modes\s*:?\s*\d+\s*$.*^\s*(?:Time|Freq\w*)\s+Coordinates",
-    ),
-    Known(
-        "a NASTRAN punch file", "Give it to fatigue convert --forces", within=rb"(?m)^\$(?:TITLE|SUBCASE ID|GRID POINT)"
-    ),
-    Known(
-        "a NASTRAN deck",
-        "Give it to fatigue convert --mesh",
-        within=rb"(?im)^\s*(?:BEGIN BULK|CEND|GRID[*, ]|CQUAD4|CTRIA3)",
-    ),
-    Known(
-        "a case (case.toml)",
-        "Give it to fatigue check or fatigue assess",
-        within=rb"(?ms)^\s*\[body\]\s*$.*^\s*\[\[?\w+(?:\.\w+)*\]\]?\s*$",
-    ),
-    Known("a weld register", "Give it to --register", within=rb"^(?=[^\n]*\bweld\b)(?=[^\n]*\bline\b)[^\n]*\bstatus\b"),
+PARQUET = Known("a Parquet table", "Name it .parquet where it is a table of a case", (b"PAR1",))
+HDF5 = Known("an HDF5 file", "Give it to fatigue convert if MSC Nastran wrote it", (b"\x89HDF\r\n\x1a\n",))
+OP2 = Known(
+    "a NASTRAN OP2 file",
+    "Give it to fatigue convert --forces",
+    (b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
 )
-"""Formats that are read, and where."""
+MCF = Known(
+    "an ANSYS file of modal coordinates (.mcf)",
+    "Give it to fatigue convert --coordinates",
+    within=rb"(?ims)^\s*Number of Modes\s*:?\s*\d+\s*$.*^\s*(?:Time|Freq\w*)\s+Coordinates",
+)
+PUNCH = Known(
+    "a NASTRAN punch file", "Give it to fatigue convert --forces", within=rb"(?m)^\$(?:TITLE|SUBCASE ID|GRID POINT)"
+)
+DECK = Known(
+    "a NASTRAN deck",
+    "Give it to fatigue convert --mesh",
+    within=rb"(?im)^\s*(?:BEGIN BULK|CEND|GRID[*, ]|CQUAD4|CTRIA3)",
+)
+_CASE = Known(
+    "a case (case.toml)",
+    "Give it to fatigue check or fatigue assess",
+    within=rb"(?ms)^\s*\[body\]\s*$.*^\s*\[\[?\w+(?:\.\w+)*\]\]?\s*$",
+)
+_REGISTER = Known(
+    "a weld register", "Give it to --register", within=rb"^(?=[^\n]*\bweld\b)(?=[^\n]*\bline\b)[^\n]*\bstatus\b"
+)
 
+OWN = (PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER)
+"""Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 
 ZIPPED = (
     (r"xl/", Known("an Excel workbook (.xlsx)", AS_CSV)),  # [V]

@@ -12,7 +12,7 @@ from fatigue.case import Case, Event
 from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.files.hashes import sha256
 from fatigue.life.records.history import ModalHistory, kept
-from fatigue.readers.neutral.body import Mesh, read_mesh
+from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.history import read_history
 from fatigue.readers.neutral.register.weld_register import REGISTER
 from fatigue.results import case_of

@@ -18,7 +18,7 @@ from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import Residue
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
 from fatigue.why.points import Points
 

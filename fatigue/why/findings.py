@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan, life_km
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.tables.rows import FACES
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.why.attribute import Attribution
 from fatigue.why.levers import SMALLER, Levers
 from fatigue.why.verdicts import EventVerdicts

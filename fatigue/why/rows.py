@@ -6,7 +6,7 @@ import numpy as np
 
 from fatigue.life.mission import Plan, life_km
 from fatigue.pipeline.tables.rows import FACES
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.why.attribute import Attribution, EventAttribution
 from fatigue.why.levers import Levers
 from fatigue.why.points import Points

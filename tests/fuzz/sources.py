@@ -20,7 +20,9 @@ from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.matching import matched
 from fatigue.readers.foreign.histories.time_grid import uniform
 from fatigue.readers.foreign.read import read_coordinates, read_forces, read_model
-from fatigue.readers.neutral.body import Modes, read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.body.mesh import read_mesh
+from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.welds import read_welds
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces, read_nodal_forces
 from fatigue.readers.neutral.history import read_history

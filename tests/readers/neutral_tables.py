@@ -1,13 +1,16 @@
 """A small body in the neutral format: two welds, three modes; each test spoils one thing in it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
+import pytest
 
-from fatigue.errors import Problem
-from fatigue.readers.neutral.body import Modes, Weld, checked_lines, read_lines, read_modes, read_welds
+from fatigue.errors import DataError, Problem
+from fatigue.readers.neutral.body.lines import checked_lines, read_lines
+from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.weld.line import LineStack
 
 Columns = dict[str, list]
@@ -107,3 +110,10 @@ def small_body(folder: Path, ignore_modes=(), scale=None) -> tuple[Modes, LineSt
 
 def _cell(value: object) -> str:
     return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def refusal_of(read: Callable[..., object], *arguments: object) -> str:
+    """Message of the refusal."""
+    with pytest.raises(DataError) as refusal:
+        read(*arguments, strict=False)
+    return str(refusal.value)

@@ -9,7 +9,7 @@ does not vibrate may leave them out: its step is short all the same.
 import numpy as np
 
 from fatigue.errors import Problem
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.history import TimeGrid
 
 FEWEST_SAMPLES = 100  # shorter records are load cases typed in by hand, their times may be anything

@@ -9,7 +9,10 @@ from fatigue.case import Case, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
-from fatigue.readers.neutral.body import Mesh, Modes, Weld, checked_lines, read_lines, read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.body.lines import checked_lines, read_lines
+from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
+from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
 from fatigue.readers.neutral.register.conversion import convert_record
 from fatigue.readers.neutral.register.register_file import open_register

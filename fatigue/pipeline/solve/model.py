@@ -15,7 +15,8 @@ from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import Stations, joined, stations_of
 from fatigue.pipeline.solve.weld_groups import WeldGroups, forces_of_block, one_group
-from fatigue.readers.neutral.body import Modes, Weld
+from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.welds import Weld
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.line import LineStack, line_of_node, stacked
 from fatigue.weld.line_load import line_load

@@ -10,7 +10,7 @@ from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.life.curves import SNCurve, ThicknessRule, catalogue, damage_law, survival_level, user_curve
 from fatigue.life.rule import CycleRule, size_factor
-from fatigue.readers.neutral.body import Weld
+from fatigue.readers.neutral.body.welds import Weld
 
 
 @dataclass(frozen=True, slots=True)

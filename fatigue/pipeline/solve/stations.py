@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.rated_curves import RatedCurve
-from fatigue.readers.neutral.body import Weld
+from fatigue.readers.neutral.body.welds import Weld
 from fatigue.weld.line import LineStack, line_of_node
 from fatigue.weld.line_geometry import arc_length
 from fatigue.weld.structural_stress import LineStress, RawEnds, StructuralStress

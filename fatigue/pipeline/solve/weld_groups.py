@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.solve.body import Body
-from fatigue.readers.neutral.body import Mesh, Modes
+from fatigue.readers.neutral.body.mesh import Mesh
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.forces.by_group import ForcesByGroup
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.forces.nodal_forces import check_nodal_forces, read_nodal_forces

@@ -9,7 +9,7 @@ import numpy as np
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.convert.audit.audit import Audit, audit
 from fatigue.readers.convert.audit.row import AuditRow
-from fatigue.readers.convert.displacement.check import displacement_row
+from fatigue.readers.convert.displacement.check import ModalSum, displacement_row
 from fatigue.readers.convert.displacement.record import read_displacement
 from fatigue.readers.convert.modal_basis import (
     SimulationModes,
@@ -129,13 +129,18 @@ def unknown_checks(judged: Audit, options: ConvertOptions) -> list[Problem]:
 
 def _displacement_rows(read: ForeignInputs, options: ConvertOptions) -> Iterator[AuditRow]:
     """Rows on the displacements that are given, each beside mode shapes times coordinates."""
-    units = unit_system(options.force_units, "force units")
-    own, scale = unit_system(options.coordinate_units, "coordinate units"), mode_scale(read.results, read.simulated)
-    records = [read_displacement(asked.file, own.length) for asked in options.displacements]
+    modal = ModalSum(
+        read.results,
+        read.model,
+        read.histories,
+        mode_scale(read.results, read.simulated),
+        unit_system(options.force_units, "force units"),
+        unit_system(options.coordinate_units, "coordinate units"),
+        options.normalisation,
+    )
+    records = [read_displacement(asked.file, modal.history_units.length) for asked in options.displacements]
     for asked, record in zip(options.displacements, records, strict=True):
-        yield displacement_row(
-            asked, record, read.results, read.model, read.histories, scale, units, own, options.normalisation
-        )
+        yield displacement_row(asked, record, modal)
 
 
 def _ignored_nowhere(options: ConvertOptions, numbers: set[int]) -> list[Problem]:

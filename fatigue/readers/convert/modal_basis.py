@@ -12,7 +12,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.mode_frequencies import StatedFrequencies
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.coordinate_units import SYSTEM_UNITS, compared
 from fatigue.readers.units.systems import Normalisation, UnitSystem

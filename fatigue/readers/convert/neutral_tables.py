@@ -13,7 +13,7 @@ from fatigue.readers.convert.weld_lines import FoundWelds
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 

@@ -1,7 +1,7 @@
 """The foreign formats that are read, one entry each: recognition, reading, refusals and help are made of them.
 
-A new format is one entry at the end of ``FORMATS``; in ``files.known_formats`` its line moves from the formats that are
-refused to ``OWN``. ``ForeignFormat("tdms", "an NI TDMS file", ending=".tdms", place=6, starts=(b"TDSm",),
+A new format is one entry at the end of ``FORMATS``; its name and first bytes are those of an entry of
+``files.known_formats.OWN``. ``ForeignFormat("tdms", TDMS.name, ending=".tdms", place=6, starts=TDMS.starts,
 extra=Extra("nptdms", "NI TDMS input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` is
 a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
 """
@@ -10,6 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
+
+from fatigue.files.known_formats import DECK, HDF5, OP2, PARQUET, PUNCH
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +65,7 @@ class ForeignFormat:
     key : its short name in messages
     name : what a file of the format is called
     ending : its name in the list of all formats
-    place : its place in that list, lowest first
+    place : its place in that list, lowest first; of equal ones in the order of ``FORMATS``
     reads : readers by what they read
     starts : first bytes of a binary format
     looks_like : function that tells the format of a text by its beginning, below ``fatigue.readers.foreign``
@@ -111,7 +113,7 @@ FORMATS = (
     ),
     ForeignFormat(
         "bdf",
-        "a NASTRAN deck",
+        DECK.name,
         ending=".bdf",
         place=4,
         reads={MESH: Reader("nastran.deck.bdf.read_bdf", "the deck (.bdf, .dat)", "BDF")},
@@ -119,27 +121,27 @@ FORMATS = (
     ),
     ForeignFormat(
         "op2",
-        "a NASTRAN OP2 file",
+        OP2.name,
         ending=".op2",
         place=1,
         reads={FORCES: Reader("nastran.results.op2.read_op2", "an .op2", "OP2")},
-        starts=(b"\x04\0\0\0", b"\x08\0\0\0", b"\0\0\0\x04", b"\0\0\0\x08"),
+        starts=OP2.starts,
     ),
     ForeignFormat(
         "h5",
-        "an HDF5 file",
+        HDF5.name,
         ending="MSC .h5",
         place=2,
         reads={
             FORCES: Reader("nastran.results.h5.read_h5", "an MSC .h5", "MSC .h5"),
             MESH: Reader("nastran.results.h5.read_h5_model", "the MSC .h5", "the same MSC .h5"),
         },
-        starts=(b"\x89HDF\r\n\x1a\n",),
+        starts=HDF5.starts,
         extra=Extra("h5py", "MSC HDF5 input"),
     ),
     ForeignFormat(
         "punch",
-        "a NASTRAN punch file",
+        PUNCH.name,
         ending=".pch",
         place=3,
         reads={FORCES: Reader("nastran.results.punch.read_punch", "a punch file", "punch")},
@@ -147,11 +149,11 @@ FORMATS = (
     ),
     ForeignFormat(
         "parquet",
-        "a Parquet table",
+        PARQUET.name,
         ending=".parquet",
         place=6,
         reads={COORDINATES: Reader("histories.text.read_parquet_history", ".parquet")},
-        starts=(b"PAR1",),
+        starts=PARQUET.starts,
         belongs=", or, if it is a table of a case, to case.toml",
     ),
     ForeignFormat(

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.history import TimeGrid
 
 

@@ -14,7 +14,9 @@ from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.folder import TABLES
 from fatigue.readers.convert.options import ConvertOptions, WeldSources
 from fatigue.readers.convert.weld_lines import list_welds
-from fatigue.readers.neutral.body import read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.body.mesh import read_mesh
+from fatigue.readers.neutral.body.modes import read_modes
+from fatigue.readers.neutral.body.welds import read_welds
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from fatigue.readers.neutral.history import read_history
 from fatigue.weld.element_forces import balance, side_forces

@@ -16,8 +16,8 @@ PARAMETERS = {
 
 
 def test_no_two_formats_are_told_alike():
-    """Keys, names, endings and places in the list differ; one format alone is what no signature tells."""
-    for told in ("key", "name", "ending", "place"):
+    """Keys, names and endings differ; one format alone is what no signature tells."""
+    for told in ("key", "name", "ending"):
         assert len({getattr(form, told) for form in FORMATS}) == len(FORMATS), told
     assert [form.key for form in FORMATS if form.is_plain_text] == ["text"]
     assert not [form.key for form in FORMATS if form.starts and form.looks_like]

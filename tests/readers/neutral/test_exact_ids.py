@@ -9,7 +9,9 @@ import pytest
 
 from fatigue.errors import CaseError
 from fatigue.readers.convert.mode_list import mode_list
-from fatigue.readers.neutral.body import read_mesh, read_modes, read_welds
+from fatigue.readers.neutral.body.mesh import read_mesh
+from fatigue.readers.neutral.body.modes import read_modes
+from fatigue.readers.neutral.body.welds import read_welds
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.verify.recount.inputs.tables import read_frame, read_rows_where
 from tests.readers import neutral_tables as neutral

@@ -6,7 +6,7 @@ from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.audit.shell_rows import own_rows, shell_rows
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import SHELL_KINDS, FeResults
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 
 def completeness_row(results: FeResults, model: FeModel) -> AuditRow:

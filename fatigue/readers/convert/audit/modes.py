@@ -4,7 +4,7 @@ import numpy as np
 
 from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 FREQUENCY_LIMIT = 0.01
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.weld.mesh import NONE, normals
 
 _ROUND_OFF = 1e-9

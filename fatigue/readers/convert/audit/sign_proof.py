@@ -9,7 +9,7 @@ from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.audit.shell_rows import shell_rows, whole_rows
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.readers.neutral.forces.convention import Convention
 
 WORK_TOLERANCE = 2e-3

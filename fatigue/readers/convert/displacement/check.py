@@ -4,7 +4,8 @@ One node, one direction and one record prove which coordinate belongs to which m
 and the units, in one stroke: u(t) = sum_k phi_k q_k(t). Sign flips of modes between FE runs show nowhere else.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ from fatigue.readers.convert.options import Displacement
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.readers.units.systems import Normalisation, UnitSystem
 
 Floats = NDArray[np.float64]
@@ -28,59 +29,59 @@ Floats = NDArray[np.float64]
 _NOISE = 0.01  # misfit below which no cause is looked for
 
 
-def displacement_row(
-    asked: Displacement,
-    record: DisplacementRecord,
-    results: FeResults,
-    model: FeModel,
-    histories: Sequence[ForeignHistory],
-    scale: Floats,
-    units: UnitSystem,
-    history_units: UnitSystem,
-    normalisation: Normalisation,
-) -> AuditRow:
-    """Row on a displacement beside the sum of the modes at its node; of several events the one that it fits best.
+@dataclass(frozen=True, slots=True, eq=False)
+class ModalSum:
+    """Mode shapes and modal coordinates, whose sum a displacement is compared with.
 
-    Parameters
+    Attributes
     ----------
     results, model : as read, in the file's own units and displacement frames
     histories : modal coordinates of the events on uniform times, with the modes of ``results``
     scale : (m,) factor on the coordinates of each mode of the FE run, where the simulation normalises differently
     units, history_units, normalisation : of the force file, of the coordinates, and of the modes
+    """
+
+    results: FeResults
+    model: FeModel
+    histories: Sequence[ForeignHistory]
+    scale: Floats
+    units: UnitSystem
+    history_units: UnitSystem
+    normalisation: Normalisation
+
+    @property
+    def shape_factor(self) -> Floats:
+        """Factor on each mode's shape, (m,), besides that of its length; the simulation's coordinates go with it."""
+        return np.asarray(self.scale / coordinate_units(self.results, self.units, self.normalisation))
+
+    @property
+    def coordinate_factor(self) -> Floats:
+        """Factor on each mode's coordinates as the files have them, (m,)."""
+        return coordinate_units(self.results, self.history_units, self.normalisation)
+
+
+def displacement_row(asked: Displacement, record: DisplacementRecord, modal: ModalSum) -> AuditRow:
+    """Row on a displacement beside the sum of the modes at its node; of several events the one that it fits best.
 
     Raises
     ------
     CaseError : no modal coordinates to compare with; DataError : the node has no mode shape
     """
     name = f"{asked.file.name}, node {asked.node} {asked.direction}"
-    if not histories:
+    results, model = modal.results, modal.model
+    if not modal.histories:
         raise CaseError(
             Problem("no_coordinates", name, "a displacement is compared with modal coordinates", "Give --coordinates")
         )
-    if not results.shape_node.size:
-        return AuditRow(
-            CHECK,
-            "amber",
-            None,
-            f"{name}: the force file holds no mode shapes to compare it with",
-            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for all modes in the same run",
-        )
-    given = {int(mode) for history in histories for mode in history.mode}
-    bare = [m for m, u in zip(results.mode.tolist(), results.shape, strict=True) if m in given and not u.any()]
-    if bare:
-        return AuditRow(
-            CHECK,
-            "amber",
-            None,
-            f"{name}: {len(bare)} modes with coordinates have no displacements in the force file, mode {bare[0]} the "
-            "first, so that the sum of the modes lacks them",
-            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for the unit loads, too",
-        )
-    coordinate = coordinate_units(results, units, normalisation)
-    factor = coordinate_units(results, history_units, normalisation)
-    shape = _shape(asked, name, results, model) * units.length * (scale / coordinate)[:, None]
+    given = {int(mode) for history in modal.histories for mode in history.mode}
+    if (row := _row_without_shapes(name, results, given)) is not None:
+        return row
+    shape = _shape(asked, name, results, model) * modal.units.length * modal.shape_factor[:, None]
     direction = "xyz".index(asked.direction)
-    found = [compared(record, direction, results.mode, shape, factor, history) for history in histories]
+    found = [
+        compared(record, direction, results.mode, shape, modal.coordinate_factor, history)
+        for history in modal.histories
+    ]
     lacking = [
         int(mode)
         for mode, hertz in zip(results.mode, results.frequency, strict=True)
@@ -95,12 +96,35 @@ def displacement_row(
             causes = ()
         if best.comparison is not None and np.isfinite(best.misfit):
             grids = results.shape_node[np.isin(results.shape_node, model.mesh.node)]
-            millimetres = units.length * (scale / coordinate)[:, None, None]
+            millimetres = modal.units.length * modal.shape_factor[:, None, None]
             causes = with_other_node(
                 causes, best.comparison, asked.node, grids, lambda at: _basic(grids[at], results, model) * millimetres
             )
         return judged(name, best, causes, lacking)
     return judged(name, best, (), lacking)
+
+
+def _row_without_shapes(name: str, results: FeResults, given: Collection[int]) -> AuditRow | None:
+    """Row on a force file that lacks mode shapes, of all modes or of some with coordinates; else None."""
+    if not results.shape_node.size:
+        return AuditRow(
+            CHECK,
+            "amber",
+            None,
+            f"{name}: the force file holds no mode shapes to compare it with",
+            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for all modes in the same run",
+        )
+    bare = [m for m, u in zip(results.mode.tolist(), results.shape, strict=True) if m in given and not u.any()]
+    if bare:
+        return AuditRow(
+            CHECK,
+            "amber",
+            None,
+            f"{name}: {len(bare)} modes with coordinates have no displacements in the force file, mode {bare[0]} the "
+            "first, so that the sum of the modes lacks them",
+            "Request DISPLACEMENT(PLOT) = ALL (or a set with the node) for the unit loads, too",
+        )
+    return None
 
 
 def _basic(grids: NDArray[np.int64], results: FeResults, model: FeModel) -> Floats:

@@ -1,7 +1,7 @@
 """Blocks of a result file, one for each mode or subcase, joined into one FE run."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from fatigue.readers.foreign.fe.results import (
     UnusableBlock,
     frequency_of,
 )
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _NOT_GIVEN = 1e-37
 """A smaller eigenvalue is no number a solver computes: the word holds an integer or nothing."""
@@ -32,25 +32,34 @@ Key = tuple[int, int]
 """Subcase and mode; mode 0: a static subcase."""
 
 
-def assemble(
-    source: str,
-    solver: str,
-    forces: list[ForceBlock],
-    shapes: list[ShapeBlock],
-    summary: list[Eigenvalue],
-    stated: Mapping[Key, Sequence[float]],
-    subcase: int | None,
-    unusable: Collection[UnusableBlock] = (),
-    interface: Collection[int] = (),
-) -> FeResults:
+@dataclass(frozen=True, slots=True, eq=False)
+class FileBlocks:
+    """What a result file holds, block by block.
+
+    Attributes
+    ----------
+    source, solver : path of the file, and the program that wrote it, empty where it does not tell
+    forces, shapes : of each mode or subcase
+    summary : the eigenvalue summaries of the file
+    stated : eigenvalues beside shapes, reactions and forces, used for modes of a file without summary
+    unusable : blocks that are refused if the choice falls on them
+    """
+
+    source: str
+    solver: str
+    forces: list[ForceBlock]
+    shapes: list[ShapeBlock]
+    summary: list[Eigenvalue]
+    stated: Mapping[Key, Sequence[float]]
+    unusable: Collection[UnusableBlock] = ()
+
+
+def assemble(file: FileBlocks, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
     """FE run that the blocks of a file make.
 
     Parameters
     ----------
-    summary : the eigenvalue summaries of the file
-    stated : eigenvalues beside shapes, reactions and forces, used for modes of a file without summary
     subcase : the subcase to take from a file with several modal ones; None if there is only one
-    unusable : blocks that are refused if the choice falls on them
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
 
     Raises
@@ -58,13 +67,14 @@ def assemble(
     DataError : no blocks, a choice of subcase is needed, a mode or a row given twice, rows that differ between modes, a
         value that is no number, eigenvalues that contradict each other
     """
-    if not forces and not unusable:
+    source, stated = file.source, file.stated
+    if not file.forces and not file.unusable:
         raise DataError(Problem("no_forces", source, "its table of grid point forces is empty", REQUEST))
-    chosen, warnings = _choose(source, forces, unusable, subcase, interface)
+    chosen, warnings = _choose(source, file.forces, file.unusable, subcase, interface)
     modal = {block.subcase for block in chosen if block.mode > 0}
     key = np.array([block.mode or block.subcase for block in chosen], np.int64)
     is_static = np.array([block.mode == 0 for block in chosen])
-    known = _summary_of(summary, stated, modal)
+    known = _summary_of(file.summary, stated, modal)
     rows = common_rows(chosen)
     if absent := sorted(set(interface) - set(key.tolist())):
         warnings.append(
@@ -96,7 +106,7 @@ def assemble(
             )
         )
     if not modal and subcase is None:
-        warnings += _subcases_without_forces(source, shapes, set(key.tolist()))
+        warnings += _subcases_without_forces(source, file.shapes, set(key.tolist()))
     beside = {} if known else _given(source, stated, [(block.subcase, block.mode) for block in chosen if block.mode])
     frequency, mass, eigenvalue = (np.full(key.size, np.nan) for _ in range(3))
     for k, block in enumerate(chosen):
@@ -107,10 +117,10 @@ def assemble(
             eigenvalue[k] = beside.get((block.subcase, block.mode), np.nan)
             frequency[k] = frequency_of(eigenvalue[k])
     warnings += _unstable(source, key, frequency, eigenvalue)
-    shape_node, shape = _shapes([(block.subcase, block.mode) for block in chosen], shapes)
+    shape_node, shape = _shapes([(block.subcase, block.mode) for block in chosen], file.shapes)
     return FeResults(
         source=source,
-        solver=solver,
+        solver=file.solver,
         analysis="modal" if modal else "static",
         mode=key,
         frequency=frequency,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.mode_frequencies import StatedFrequencies, other_mode_problems
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 FREQUENCY_TOLERANCE = 0.01
 Match = Literal["id", "frequency", "order"]

@@ -10,7 +10,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.files.naming import composed
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.forces.in_place import in_place
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
@@ -27,8 +27,8 @@ DETOUR = 1.5  # a file is read where it is if all groups in turn decode no more 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Piece:
-    """Rows of the file in the order of the groups.
+class _Bucket:
+    """Decoded rows of a bucket in the order of the groups.
 
     ``begin``, (g + 1,), is where each group begins; ``expected`` are the groups that have not been asked for yet.
     """
@@ -49,7 +49,7 @@ class ForcesByGroup:
     ``groups`` are the names of the welds of each group, ``in_file`` those they have in the file if these are others,
     ``skipped`` the welds of the file that are not asked for. Any group may be asked for at any time, by several threads
     at once; those near the groups asked for last come without decoding anything again, and of groups asked for in turn
-    hardly more than one piece is in memory. ``scratch`` is a folder for a sorted copy of the file, should it need one;
+    hardly more than one bucket is in memory. ``scratch`` is a folder for a sorted copy of the file, should it need one;
     no other process may use it.
 
     Raises
@@ -68,7 +68,7 @@ class ForcesByGroup:
         self._path = path
         self._welds = weld_codes(groups, in_file, skipped)
         self._lock = Lock()
-        self._decoded: dict[int, _Piece] = {}
+        self._decoded: dict[int, _Bucket] = {}
         if len(groups) > 1:
             self._source = _source(path, self._welds, scratch)
             self._nameless = _nameless(path, self._source.header)
@@ -106,27 +106,27 @@ class ForcesByGroup:
     def _rows(self, group: int) -> pa.Table:
         """Rows of a group with their ``CODE`` and ``ROW``.
 
-        A piece stays decoded until all its groups have been asked for, those used last as long as there is room.
+        A bucket stays decoded until all its groups have been asked for, those used last as long as there is room.
         """
-        wanted = self._source.pieces[group]
+        wanted = self._source.buckets[group]
         found = []
         with self._lock:
             for i in _dropped(list(self._decoded), wanted, self._source.rows):
                 del self._decoded[i]
             for i in wanted:
-                piece = self._decoded.pop(i) if i in self._decoded else self._piece(i)
-                piece.expected.discard(group)
-                rows = piece.rows_of(group)
-                if piece.expected:
-                    self._decoded[i] = piece
+                bucket = self._decoded.pop(i) if i in self._decoded else self._bucket(i)
+                bucket.expected.discard(group)
+                rows = bucket.rows_of(group)
+                if bucket.expected:
+                    self._decoded[i] = bucket
                 elif i != wanted[-1]:
-                    rows = rows.take(np.arange(len(rows)))  # a view would keep the piece while the next one is decoded
+                    rows = rows.take(np.arange(len(rows)))  # a view would keep the bucket while the next one is decoded
                 found.append(rows)
-                del piece
+                del bucket
         return pa.concat_tables(found or [self._source.nothing])
 
-    def _piece(self, number: int) -> _Piece:
-        """Decoded piece, its rows in the order of the groups; the rows of a group keep the order of the file."""
+    def _bucket(self, number: int) -> _Bucket:
+        """Decode a bucket, its rows in the order of the groups; the rows of a group keep the order of the file."""
         rows = self._source.read(number)
         if self._welds.skipped:
             rows = rows.filter(pa.array(rows.column(CODE).to_numpy() >= 0))
@@ -135,11 +135,11 @@ class ForcesByGroup:
             order = np.argsort(group, kind="stable")
             rows, group = rows.take(order), group[order]
         begin = np.searchsorted(group, np.arange(len(self._welds.groups) + 1))
-        return _Piece(rows, begin, set(np.flatnonzero(np.diff(begin)).tolist()))
+        return _Bucket(rows, begin, set(np.flatnonzero(np.diff(begin)).tolist()))
 
 
 def _nameless(path: Path, header: Table) -> dict[int, pa.ChunkedArray]:
-    """First value, if there is any, of every column without a name: it is told, and not kept in pieces."""
+    """First value, if there is any, of every column without a name: it is told, and not kept in buckets."""
     places = [k for k, name in enumerate(header.columns.names) if not composed(name)]
     if not places:
         return {}
@@ -186,7 +186,7 @@ def _rows_decoded(source: Source) -> float:
     """Count the rows that are decoded when all groups are asked for in turn; infinite where they never fit."""
     decoded: list[int] = []
     rows = 0
-    for wanted in source.pieces:
+    for wanted in source.buckets:
         if sum(source.rows[i] for i in wanted) > ROWS_KEPT:
             return np.inf
         rows += sum(source.rows[i] for i in wanted if i not in decoded)
@@ -196,7 +196,7 @@ def _rows_decoded(source: Source) -> float:
 
 
 def _dropped(decoded: Sequence[int], wanted: Collection[int], rows: Sequence[int]) -> list[int]:
-    """Pieces to drop, of those decoded, the ones used last at the end, to keep ``ROWS_KEPT`` rows at most."""
+    """Buckets to drop, of those decoded, the ones used last at the end, to keep ``ROWS_KEPT`` rows at most."""
     before = [i for i in reversed(decoded) if i not in wanted]
     kept = np.cumsum([sum(rows[i] for i in wanted), *(rows[i] for i in before)])[1:]
     return [i for i, total in zip(before, kept, strict=True) if total > ROWS_KEPT]

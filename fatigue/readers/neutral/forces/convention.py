@@ -8,7 +8,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 
 Convention: TypeAlias = Literal["on_element", "on_node"]
 COMPONENTS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")

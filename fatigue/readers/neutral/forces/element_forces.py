@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.readers.neutral.body import Modes, Weld
+from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.forces.convention import COMPONENTS, Convention, on_element, on_element_factor
 from fatigue.readers.neutral.forces.mistakes import note_unknown_modes
 from fatigue.readers.neutral.forces.placement import positions

@@ -32,32 +32,32 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
         return None
     first = np.cumsum([0, *rows])
     unknown = UnknownWelds(header)
-    pieces: list[list[int]] = [[] for _ in welds.groups]
+    buckets: list[list[int]] = [[] for _ in welds.groups]
     for i in range(len(rows)):
         column = _decoded(path, partial(file.read_row_group, i, [weld])).column(0)
         present = welds.among(column)
         if (present == -1).any():
             unknown.look(column, welds.of(column), int(first[i]))
         for group in np.unique(welds.group[present[present >= 0]]):
-            pieces[group].append(i)
+            buckets[group].append(i)
     unknown.refuse(welds)
 
-    def read(piece: int) -> pa.Table:
-        table = _decoded(path, partial(file.read_row_group, piece, list(columns)))
-        return coded(trimmed(table, columns), welds, int(first[piece]))
+    def read(bucket: int) -> pa.Table:
+        table = _decoded(path, partial(file.read_row_group, bucket, list(columns)))
+        return coded(trimmed(table, columns), welds, int(first[bucket]))
 
-    def batches(piece: int, at_once: int) -> Iterator[pa.RecordBatch]:
+    def batches(bucket: int, at_once: int) -> Iterator[pa.RecordBatch]:
         own = pq.ParquetFile(path, metadata=file.metadata, read_dictionary=[weld], pre_buffer=False)
-        for batch in own.iter_batches(at_once, [piece], list(columns), use_threads=False):
+        for batch in own.iter_batches(at_once, [bucket], list(columns), use_threads=False):
             batch.validate(full=True)
             yield trimmed(batch, columns)
 
     nothing = coded(trimmed(file.schema_arrow.empty_table().select(list(columns)), columns), welds, 0)
-    return Source(header, rows, tuple(map(tuple, pieces)), read, nothing, batches)
+    return Source(header, rows, tuple(map(tuple, buckets)), read, nothing, batches)
 
 
 def _decoded(path: Path, read: Callable[[], pa.Table]) -> pa.Table:
-    """Read a piece of a file; one that cannot be decoded is refused."""
+    """Read columns of a row group; one that cannot be decoded is refused."""
     try:
         table = read()
         table.validate(full=True)

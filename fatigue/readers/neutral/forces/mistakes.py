@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.forces.placement import RowKeys, Slots
 from fatigue.readers.neutral.tables import Table
 from fatigue.weld.line import LineStack, WeldLine

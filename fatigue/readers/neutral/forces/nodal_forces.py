@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.forces.convention import COMPONENTS, Convention, on_element, on_element_factor
 from fatigue.readers.neutral.forces.mistakes import refuse_misplaced
 from fatigue.readers.neutral.forces.placement import Grid, RowKeys, Slots, grid, slots

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.weld.line import LineStack, line_of_node
 
 BLOCK = 1 << 20  # rows whose stations are looked up at a time, so that a large file needs little memory beside it

@@ -14,7 +14,7 @@ import pyarrow.types as pt
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.body import Modes
+from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.columns import DAMAGE
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.forces.placement import stations_of
@@ -34,7 +34,7 @@ class RegularCheck:
     """A table of forces under the assumption that row after row it has the modes of ``cycle``, again and again.
 
     ``batches`` and ``rows`` come from the ``Source``; ``welds`` are numbered as in ``lines``. ``modes`` repeats the
-    cycle for a batch of rows that begins anywhere in it. Threads may check different pieces at the same time.
+    cycle for a batch of rows that begins anywhere in it. Threads may check different buckets at the same time.
     """
 
     batches: Batches
@@ -44,8 +44,8 @@ class RegularCheck:
     cycle: NDArray[np.int64]
     modes: NDArray[np.int64]
 
-    def runs(self, piece: int) -> NDArray[np.int64]:
-        """Runs of rows of one station in a piece, (2, k): the first slot of each run, and how many rows it has.
+    def runs(self, bucket: int) -> NDArray[np.int64]:
+        """Runs of rows of one station in a bucket, (2, k): the first slot of each run, and how many rows it has.
 
         Slots count through all stations in the order of the lines, and at each through the ``cycle``.
 
@@ -54,21 +54,21 @@ class RegularCheck:
         NotRegular : it has to be looked at row by row
         """
         width = self.cycle.size
-        first = sum(self.rows[:piece])
+        first = sum(self.rows[:bucket])
         found = [np.zeros((2, 0), dtype=np.int64)]
         rows = 0
         try:
-            for batch in self.batches(piece, ROWS_AT_ONCE):
+            for batch in self.batches(bucket, ROWS_AT_ONCE):
                 found.append(self._runs(batch, (first + rows) % width))
                 rows += batch.num_rows
         except DAMAGE:
             raise NotRegular from None
-        if rows != self.rows[piece]:
+        if rows != self.rows[bucket]:
             raise NotRegular
         return np.concatenate(found, axis=1)
 
     def covers(self, runs: Sequence[NDArray[np.int64]]) -> bool:
-        """Whether the runs of all pieces fill every slot exactly once."""
+        """Whether the runs of all buckets fill every slot exactly once."""
         slot, rows = np.concatenate(runs, axis=1)
         if np.any(slot[1:] < slot[:-1]):
             order = np.argsort(slot)
@@ -143,10 +143,10 @@ def regular_check(
     return RegularCheck(source.batches, source.rows, welds, lines, cycle, np.resize(cycle, cycle.size + ROWS_AT_ONCE))
 
 
-def _first_modes(batches: Batches, pieces: int, rows: int) -> NDArray[np.int64]:
+def _first_modes(batches: Batches, buckets: int, rows: int) -> NDArray[np.int64]:
     """Modes of so many rows at the beginning; ``pa.ArrowInvalid`` where one is missing."""
     found = np.zeros(0, dtype=np.int64)
-    for batch in (batch for piece in range(pieces) for batch in batches(piece, rows)):
+    for batch in (batch for bucket in range(buckets) for batch in batches(bucket, rows)):
         found = np.append(found, batch.column("mode").to_numpy().astype(np.int64))
         if found.size >= rows:
             break

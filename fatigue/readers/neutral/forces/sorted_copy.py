@@ -88,8 +88,8 @@ def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: Wel
         with pa.OSFile(str(files[bucket])) as stored:
             return pa.ipc.open_file(stored).read_all().combine_chunks()
 
-    pieces = tuple((int(bucket),) if size[bucket] else () for bucket in bucket_of_group)
-    return Source(header, tuple(size.tolist()), pieces, read, numbered.schema.empty_table())
+    buckets_of_group = tuple((int(bucket),) if size[bucket] else () for bucket in bucket_of_group)
+    return Source(header, tuple(size.tolist()), buckets_of_group, read, numbered.schema.empty_table())
 
 
 def _parquet_batches(path: Path, columns: Mapping[str, str]) -> Iterator[pa.Table]:
@@ -104,4 +104,4 @@ def _parquet_batches(path: Path, columns: Mapping[str, str]) -> Iterator[pa.Tabl
 
 
 def _unread(position: int) -> pa.ChunkedArray:
-    raise NotImplementedError(f"column {position} of a file that is read in pieces")
+    raise NotImplementedError(f"column {position} of a file that is read in batches")

@@ -1,4 +1,4 @@
-"""A table of nodal forces in pieces that are decoded one by one: row groups of a Parquet file, or buckets of a copy."""
+"""A table of nodal forces in buckets of rows that are decoded together: row groups of a file, or files of a copy."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -14,28 +14,28 @@ from fatigue.readers.neutral.tables import Table
 Rows = TypeVar("Rows", pa.Table, pa.RecordBatch)
 Batches: TypeAlias = Callable[[int, int], Iterator[pa.RecordBatch]]
 
-CODE, ROW = "weld among all", "row of the file"  # columns of a piece; no names of the neutral format
+CODE, ROW = "weld among all", "row of the file"  # columns of a bucket; no names of the neutral format
 KINDS = {"weld": pa.string(), "node": pa.int64(), "mode": pa.int64()} | dict.fromkeys(COMPONENTS, pa.float64())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Source:
-    """A table of forces in pieces that are decoded one by one.
+    """A table of forces in buckets, which are decoded one by one.
 
     Attributes
     ----------
     header : path, names and types of the columns
-    rows : number of rows in each piece
-    pieces : the pieces in which each group has rows
-    read : decodes a piece: its columns by trimmed name, the weld as ``CODE``, and the row in the file as ``ROW``
+    rows : number of rows in each bucket
+    buckets : the buckets in which each group has rows
+    read : decodes a bucket: its columns by trimmed name, the weld as ``CODE``, and the row in the file as ``ROW``
     nothing : the same columns without rows
-    batches : decodes the columns of a piece as they are in the file, so many rows at a time, by several threads at
+    batches : decodes the columns of a bucket as they are in the file, so many rows at a time, by several threads at
         once; without it the rows are not in the order of the file
     """
 
     header: Table
     rows: tuple[int, ...]
-    pieces: tuple[tuple[int, ...], ...]
+    buckets: tuple[tuple[int, ...], ...]
     read: Callable[[int], pa.Table]
     nothing: pa.Table
     batches: Batches | None = None

@@ -21,7 +21,7 @@ class UnknownWelds:
         self.numbers: list[NDArray[np.int64]] = []
 
     def look(self, weld: pa.ChunkedArray, code: NDArray[np.int32], first: int) -> None:
-        """Note the rows of a piece that begins at row ``first`` of the file."""
+        """Note those of neighbouring rows of the file, from row ``first``."""
         rows = np.flatnonzero(code == -1)
         if rows.size and sum(map(len, self.numbers)) < MOST_ROWS:
             name = weld.take(rows)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.neutral.body import SURFACES
+from fatigue.readers.neutral.body.welds import SURFACES
 from fatigue.readers.neutral.register.weld_register import STATUSES, Register, RegisterRow
 from fatigue.readers.text.flags import WORDS_BY_HAND, flag_of
 from fatigue.readers.text.rows import read_rows

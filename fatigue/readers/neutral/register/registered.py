@@ -13,7 +13,7 @@ from typing import cast
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.neutral.body import Surface, Weld
+from fatigue.readers.neutral.body.welds import Surface, Weld
 from fatigue.readers.neutral.register.conversion import ConvertRecord
 from fatigue.readers.neutral.register.weld_register import Register, RegisterRow, contradictions, description_of
 

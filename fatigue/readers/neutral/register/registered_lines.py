@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.neutral.body import Weld
+from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.register.registered import Registered
 from fatigue.weld.element_forces import ElementForces, elements_around
 from fatigue.weld.join import Joint, fan, joined, joined_elements

@@ -13,7 +13,7 @@ from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
 from fatigue.readers.foreign.nastran.results.op2 import read_op2
-from fatigue.readers.neutral.body import read_modes
+from fatigue.readers.neutral.body.modes import read_modes
 from tests.readers.op2_files import ROW
 from tests.readers.op2_writer import OPTISTRUCT, Op2Writer, modal_op2, modal_tables
 from tests.readers.tee_model import bulk, tee

@@ -5,7 +5,7 @@ import pyarrow as pa
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.body import Weld
+from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
 from tests.readers.neutral_tables import changed, small_body, without, write

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
-from fatigue.readers.neutral.body import read_modes, read_welds
+from fatigue.readers.neutral.body.modes import read_modes
+from fatigue.readers.neutral.body.welds import read_welds
 from fatigue.readers.neutral.forces import nodal_forces as module
 from fatigue.readers.neutral.forces import placement
 from fatigue.readers.neutral.forces.convention import COMPONENTS

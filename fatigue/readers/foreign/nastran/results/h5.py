@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, FatigueError, Problem
-from fatigue.readers.foreign.fe.assembly import assemble
+from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.force_rows import sharing_rows
 from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.foreign.fe.results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock
@@ -80,7 +80,7 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
             )
             for row in read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
         ]
-    return assemble(str(path), "MSC Nastran", forces, shapes, summary, stated, subcase, unusable, interface)
+    return assemble(FileBlocks(str(path), "MSC Nastran", forces, shapes, summary, stated, unusable), subcase, interface)
 
 
 def read_h5_model(path: Path) -> FeModel:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.foreign.fe.assembly import assemble
+from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.force_rows import sharing_rows
 from fatigue.readers.foreign.fe.results import (
     REQUEST,
@@ -78,7 +78,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
         summary = [line for t in tables for pair in blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
     if not forces and not unusable:
         raise _without_forces(op2)
-    results = assemble(str(path), op2.label, forces, shapes, summary, stated, subcase, unusable, interface)
+    results = assemble(FileBlocks(str(path), op2.label, forces, shapes, summary, stated, unusable), subcase, interface)
     return results if op2.is_closed else replace(results, warnings=(*results.warnings, _unclosed(op2)))
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.foreign.fe.assembly import assemble
+from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults, ForceBlock
-from fatigue.readers.neutral.body import LOWEST_HZ
+from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
@@ -50,7 +50,7 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
         raise _bad(path, stray, f"a row of forces stands in a block that does not begin with {_HEADING}")
     stated: dict[tuple[int, int], list[float]] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
-    results = assemble(str(path), "", blocks, [], [], stated, subcase, (), interface)
+    results = assemble(FileBlocks(str(path), "", blocks, [], [], stated), subcase, interface)
     highest = float(np.max(results.frequency, initial=0.0, where=results.frequency > LOWEST_HZ))
     if 0 < highest < _PERHAPS_BUCKLING_HZ:
         return replace(results, warnings=(*results.warnings, _perhaps_buckling(path, highest)))

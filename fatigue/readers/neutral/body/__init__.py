@@ -1,0 +1,1 @@
+"""The flexible body in the neutral format: ``modes``, ``welds`` and their ``lines``, and the ``mesh`` around them."""
