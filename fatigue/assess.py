@@ -17,7 +17,7 @@ from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
-from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import Counted, Work, input_paths, inputs_of, key_of, open_work

@@ -9,7 +9,7 @@ from typing import Any
 
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
-from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.trial import JobTime, job_time
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group

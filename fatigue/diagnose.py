@@ -14,7 +14,8 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
-from fatigue.pipeline.mission.events import event_loads, mission_plan
+from fatigue.pipeline.mission.events import event_loads
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import locked, settle_folder
 from fatigue.pipeline.solve.body import Body, conversion_file, read_body, register_file
 from fatigue.pipeline.solve.weld_groups import weld_groups

@@ -13,7 +13,8 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
-from fatigue.pipeline.mission.events import event_load, mission_plan
+from fatigue.pipeline.mission.events import event_load
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.model import read_model
 from fatigue.results import json_ready
 from fatigue.spectrum.bands import third_octaves

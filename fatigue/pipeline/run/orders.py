@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.count.result import arrays_of
-from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.work import Counted, Work, inputs_of, key_of, open_work
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.weld_groups import weld_groups

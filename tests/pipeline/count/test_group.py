@@ -7,7 +7,7 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.pipeline.count.result import GroupResult, arrays_of
-from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.work import Counted, open_work
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.weld_groups import one_group

@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from fatigue.case import load_case
-from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.trial import CELL, CYCLE, DETAIL, PAGE, START, job_time
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
