@@ -1,4 +1,10 @@
-"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables."""
+"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables.
+
+The small files of the case are read and checked, and its welds are cut into groups, so that memory does not grow with
+the body. Group after group, the forces become the stress that one unit of each mode makes, and the records of the
+events turn this stress into cycles, damage and life. What is finished lies beside the result until everything is; then
+it is put in place in one step, so that a folder never holds half a result.
+"""
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,7 +24,7 @@ from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
+from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import Counted, Work, input_paths, inputs_of, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
@@ -34,6 +40,7 @@ from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
 from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
 from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
@@ -146,7 +153,7 @@ def assess(
             warnings = done.warnings.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
-            write_list(unpublished, write_documents(unpublished, case, verification) if report else [], key)
+            write_list(unpublished, write_page_and_picture(unpublished, case, verification) if report else [], key)
             stage("putting the result in place")
             refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on
             publish(unpublished, folder, stale_files(folder, own))
@@ -165,8 +172,8 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
 
 
-def write_documents(folder: Path, case: Case, verification: Verification) -> list[Path]:
-    """Write picture and page beside the tables of a result that is not published yet, and return their paths."""
+def write_page_and_picture(folder: Path, case: Case, verification: Verification) -> list[Path]:
+    """Write page and picture beside the tables of a result that is not published yet, and return their paths."""
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]

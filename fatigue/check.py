@@ -1,4 +1,9 @@
-"""A dry run: read and check everything, and say how large the job is, before anything is counted."""
+"""The dry run as a story: read and check everything, and say how large the job is, before anything is counted.
+
+Every file is read as an assessment reads it, and all welds are solved, so that whatever an assessment would refuse is
+refused here. What is there is added up to numbers of welds, stations and stress samples. One group of the welds is
+counted under a chunk of one record, and from its time follows the time of the whole job.
+"""
 
 import os
 import time

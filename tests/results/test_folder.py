@@ -11,11 +11,11 @@ import pytest
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import DataError
-from fatigue.pipeline.run.checkpoint import settle_folder
 from fatigue.report.files.export import write_csv
 from fatigue.report.files.vtp import write_vtp
 from fatigue.results import JOURNAL, read_provenance, strangers
 from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.lock import settle_folder
 from fatigue.results.publish import publish
 from tests.small_case import sine_only
 
