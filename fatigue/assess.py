@@ -227,9 +227,8 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
 
 def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:
     """The worst points of a group whose cycles go into ``cycles.parquet``."""
-    stations, curve_of_weld, used_up = group.model.stations, group.model.curve_of_weld, group.result.mission.utilisation
-    matter = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
-    return [kept_point(stations, curve_of_weld, point) for point in matter]
+    used_up = group.result.mission.utilisation
+    return [kept_point(group.model, p) for p in worst if used_up[p.station, p.face] >= work.kept_from]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

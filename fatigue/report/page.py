@@ -15,7 +15,7 @@ from fatigue.errors import DataError, Problem, given_path
 from fatigue.report import figures, wording
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.inputs import FoundInputs, find_inputs
-from fatigue.report.result import Result, read_result
+from fatigue.report.result import ShownResult, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
@@ -142,7 +142,9 @@ def _environment() -> jinja2.Environment:
     return environment
 
 
-def _details(result: Result, inputs: FoundInputs, missing: list[Problem]) -> tuple[dict[str, Detail], dict[str, float]]:
+def _details(
+    result: ShownResult, inputs: FoundInputs, missing: list[Problem]
+) -> tuple[dict[str, Detail], dict[str, float]]:
     """What the records say of each detailed weld, and the step of each record; or a note why not."""
     try:
         return weld_details(result, inputs)
@@ -161,7 +163,7 @@ def _body(inputs: FoundInputs, missing: list[Problem]) -> BodyOutline | None:
     return None if mesh is None else figures.body_outline(mesh.node, mesh.xyz, mesh.corners[:, :4])
 
 
-def _head(result: Result) -> dict[str, Any]:
+def _head(result: ShownResult) -> dict[str, Any]:
     """What the first lines of the page say."""
     welds = result.assessed
     mission = result.record["mission"]
@@ -181,7 +183,7 @@ def _head(result: Result) -> dict[str, Any]:
     }
 
 
-def _listed(result: Result) -> pd.DataFrame:
+def _listed(result: ShownResult) -> pd.DataFrame:
     """Welds of the register that have a row: the worst, and those that are not assessed."""
     listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
     return result.welds[listed]

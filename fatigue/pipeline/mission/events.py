@@ -13,7 +13,7 @@ from fatigue.case import Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import ModalHistory, kept
-from fatigue.pipeline.mission.event_load import EventLoad, prepare_event
+from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, prepare_event
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
@@ -91,17 +91,8 @@ def load_of(
     """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
     try:
         with np.errstate(over="raise"):
-            spectra = event_spectra(body, history)
-            return prepare_event(
-                history,
-                body.case.residue(event),
-                event.stress_factor,
-                upsample,
-                spectra,
-                top_mode_hz(body),
-                single=single,
-                scratch=scratch,
-            )
+            how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
+            return prepare_event(history, how, event_spectra(body, history), top_mode_hz(body), scratch)
     except FloatingPointError:
         problem = Problem(
             "overflow",

@@ -54,7 +54,7 @@ class Work:
     def group(self, number: int) -> tuple[Model, GroupResult]:
         """One group of welds, solved, and its result."""
         model = solve_group(self.groups, number)
-        return model, assess_group(model.stations, model.curve_of_weld, self.loads, self.plan, self.screening)
+        return model, assess_group(model, self.loads, self.plan, self.screening)
 
 
 def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, threads: int | None) -> Work:
