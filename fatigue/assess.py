@@ -26,7 +26,7 @@ from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order
-from fatigue.pipeline.run.work import Counted, Work, input_paths, inputs_of, key_of, open_work
+from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, inputs_of, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
@@ -117,8 +117,8 @@ def assess(
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body, threads)
     inputs = hashed()
-    counted = Counted(share, proves_worst)
-    key = key_of(inputs, counted)
+    options = ScreeningOptions(share, proves_worst)
+    key = key_of(inputs, options)
 
     claim = claimed(folder, force=force, case_file=case.path, inputs=own)  # another run may have been there meanwhile
     with claim, one_blas_thread(), Checkpoint(folder, key) as state:
@@ -128,12 +128,12 @@ def assess(
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
             stage("preparing the records of the events (%d)", len(plan.passes))
-            work = open_work(groups, plan, counted, state.folder, threads)
+            work = open_work(groups, plan, options, state.folder, threads)
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
-                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
+                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, options, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             done.warnings.add((*body.warnings, *record_warnings))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)

@@ -106,7 +106,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
-        estimate = job_time(body, plan, sample, stations, read_s, Path(scratch))
+        estimate = job_time(plan, sample, stations, read_s, Path(scratch))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,

@@ -2,8 +2,8 @@
 
 Of a finished result the points that matter are chosen and solved again, from inputs that may not have changed. Their
 cycles are counted once more, and the damage of each cycle is shared out to the modes, frequency bands and places that
-make it. Where that leaves a doubt, something is counted again: with smaller modes, to see what they buy, and on
-Gaussian records, to see why Dirlik and rainflow differ.
+make it. What that leaves open is counted again: with smaller modes, to see what they buy, and on Gaussian records, to
+see why Dirlik and rainflow differ.
 """
 
 import logging

@@ -42,6 +42,8 @@ def write_report(
 ) -> Path:
     """Write ``report.html`` beside the tables of a finished result, and log what had to be left out.
 
+    The same result and inputs give the same bytes.
+
     Parameters
     ----------
     folder : where the tables and ``provenance.json`` are
@@ -51,8 +53,6 @@ def write_report(
     verification : checks of the installed program to be shown, each with ``topic, case, quantity, unit, expected,
         found, difference, tolerance, source, passed``
     into : another folder to write to; the page is not listed among the documents of the result then
-
-    The same result and inputs give the same bytes.
 
     Raises
     ------

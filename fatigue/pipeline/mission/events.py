@@ -21,6 +21,7 @@ from fatigue.readers.neutral.history import read_history
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import (
     Spectra,
+    default_upper_hz,
     has_spectrum,
     moment_matrices,
     point_moments,
@@ -118,11 +119,10 @@ def top_mode_hz(body: Body) -> float | None:
 
 
 def upper_hz(body: Body, history: ModalHistory) -> float:
-    """Upper frequency of the spectra [Hz]: as given, else the lower of 0.4 f_s and 1.5 x the highest normal mode."""
+    """Upper frequency of the spectra of a record [Hz]: as given, else by ``default_upper_hz``."""
     if body.case.spectrum.upper_hz is not None:
         return body.case.spectrum.upper_hz
-    top = top_mode_hz(body)
-    return 0.4 / history.step if top is None else min(0.4 / history.step, 1.5 * top)
+    return default_upper_hz(history.step, top_mode_hz(body))
 
 
 def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:

@@ -96,17 +96,18 @@ class _Trial:
         return replace(self.plan, passes=(alone,))
 
 
-def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
+def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
     """Processor time of ``fatigue assess`` with its default options, as estimated; compiling is left out.
 
     Parameters
     ----------
-    body, plan : the job
-    model : one group of its welds, solved
+    plan : the mission of the job
+    model : one group of the welds of its body, solved
     stations : of all welds
     read_s : processor time that reading and checking the case took [s]
     scratch : a folder for what memory cannot hold
     """
+    body = model.body
     longest = int(np.argmax([one.samples for one in plan.passes]))
     event, one = body.case.mission.event[longest], plan.passes[longest]
     samples = min(one.samples, max(SHORTEST_TRIAL, min(LONGEST_TRIAL, int(TRIAL_SAMPLES / len(model.stations)))))

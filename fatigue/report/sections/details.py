@@ -11,6 +11,7 @@ from fatigue.report import stress
 from fatigue.report.inputs import FoundInputs
 from fatigue.report.result import ShownResult
 from fatigue.report.stress import Envelope, EventRecord, Excerpt, StressSpectrum
+from fatigue.spectrum.moments import default_upper_hz
 
 COMPONENTS = {
     "membrane": "membrane_MPa",
@@ -80,7 +81,7 @@ def upper_hz(result: ShownResult, inputs: FoundInputs, step: float) -> float:
         return inputs.case.spectrum.upper_hz
     modes = result.record["modes"]
     normal = [f for f, kind in zip(modes["frequency_hz"], modes["kind"], strict=True) if kind == "normal"]
-    return float(min(0.4 / step, 1.5 * max(normal, default=np.inf)))
+    return default_upper_hz(step, max(normal, default=None))
 
 
 def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> None:

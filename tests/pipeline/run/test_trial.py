@@ -20,7 +20,7 @@ def needed(case, folder, stations=None):
     plan, _ = mission_plan(body)
     with TemporaryDirectory() as scratch:
         model = solve_group(weld_groups(body, Path(scratch)), 0)
-        return job_time(body, plan, model, stations or len(model.stations), 0.5, Path(scratch))
+        return job_time(plan, model, stations or len(model.stations), 0.5, Path(scratch))
 
 
 def test_the_parts_add_up(tmp_path):
