@@ -1,4 +1,10 @@
-"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables."""
+"""The assessment as a story: files, modal stress, cycles and spectra, damage, kilometres, tables.
+
+The small files of the case are read and checked, and its welds are cut into groups, so that memory does not grow with
+the body. Group after group, the forces become the stress that one unit of each mode makes, and the records of the
+events turn this stress into cycles, damage and life. What is finished lies beside the result until everything is; then
+it is put in place in one step, so that a folder never holds half a result.
+"""
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,10 +23,10 @@ from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
-from fatigue.pipeline.mission.events import mission_plan
-from fatigue.pipeline.run.checkpoint import Checkpoint, claimed, settle_folder
+from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order
-from fatigue.pipeline.run.work import Counted, Work, input_paths, inputs_of, key_of, open_work
+from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, inputs_of, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
@@ -34,6 +40,7 @@ from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
 from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
+from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
 from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
@@ -110,8 +117,8 @@ def assess(
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body, threads)
     inputs = hashed()
-    counted = Counted(share, proves_worst)
-    key = key_of(inputs, counted)
+    options = ScreeningOptions(share, proves_worst)
+    key = key_of(inputs, options)
 
     claim = claimed(folder, force=force, case_file=case.path, inputs=own)  # another run may have been there meanwhile
     with claim, one_blas_thread(), Checkpoint(folder, key) as state:
@@ -121,12 +128,12 @@ def assess(
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
             stage("preparing the records of the events (%d)", len(plan.passes))
-            work = open_work(groups, plan, counted, state.folder, threads)
+            work = open_work(groups, plan, options, state.folder, threads)
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
-                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, counted, key, 0))
+                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, options, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             done.warnings.add((*body.warnings, *record_warnings))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
@@ -146,7 +153,7 @@ def assess(
             warnings = done.warnings.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
-            write_list(unpublished, write_documents(unpublished, case, verification) if report else [], key)
+            write_list(unpublished, write_page_and_picture(unpublished, case, verification) if report else [], key)
             stage("putting the result in place")
             refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on
             publish(unpublished, folder, stale_files(folder, own))
@@ -165,8 +172,8 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
 
 
-def write_documents(folder: Path, case: Case, verification: Verification) -> list[Path]:
-    """Write picture and page beside the tables of a result that is not published yet, and return their paths."""
+def write_page_and_picture(folder: Path, case: Case, verification: Verification) -> list[Path]:
+    """Write page and picture beside the tables of a result that is not published yet, and return their paths."""
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]
@@ -220,9 +227,8 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
 
 def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:
     """The worst points of a group whose cycles go into ``cycles.parquet``."""
-    stations, curve_of_weld, used_up = group.model.stations, group.model.curve_of_weld, group.result.mission.utilisation
-    matter = [point for point in worst if used_up[point.station, point.face] >= work.kept_from]
-    return [kept_point(stations, curve_of_weld, point) for point in matter]
+    used_up = group.result.mission.utilisation
+    return [kept_point(group.model, p) for p in worst if used_up[p.station, p.face] >= work.kept_from]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

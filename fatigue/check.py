@@ -1,4 +1,9 @@
-"""A dry run: read and check everything, and say how large the job is, before anything is counted."""
+"""The dry run as a story: read and check everything, and say how large the job is, before anything is counted.
+
+Every file is read as an assessment reads it, and all welds are solved, so that whatever an assessment would refuse is
+refused here. What is there is added up to numbers of welds, stations and stress samples. One group of the welds is
+counted under a chunk of one record, and from its time follows the time of the whole job.
+"""
 
 import os
 import time
@@ -9,7 +14,7 @@ from typing import Any
 
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
-from fatigue.pipeline.mission.events import mission_plan
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.trial import JobTime, job_time
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
@@ -101,7 +106,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
-        estimate = job_time(body, plan, sample, stations, read_s, Path(scratch))
+        estimate = job_time(plan, sample, stations, read_s, Path(scratch))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,

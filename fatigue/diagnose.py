@@ -1,4 +1,10 @@
-"""The diagnosis as a story: a finished result, its records once more, and what makes the damage, where and when."""
+"""The diagnosis as a story: a finished result, its records once more, and what makes the damage, where and when.
+
+Of a finished result the points that matter are chosen and solved again, from inputs that may not have changed. Their
+cycles are counted once more, and the damage of each cycle is shared out to the modes, frequency bands and places that
+make it. What that leaves open is counted again: with smaller modes, to see what they buy, and on Gaussian records, to
+see why Dirlik and rainflow differ.
+"""
 
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -14,8 +20,8 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
-from fatigue.pipeline.mission.events import event_loads, mission_plan
-from fatigue.pipeline.run.checkpoint import locked, settle_folder
+from fatigue.pipeline.mission.events import event_loads
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.body import Body, conversion_file, read_body, register_file
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
@@ -31,14 +37,16 @@ from fatigue.results import (
     table_writer,
 )
 from fatigue.results.folder import result_log
+from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
-from fatigue.why.attribute import Attribution, EventAttribution, attribute_event, numbers_of_point
+from fatigue.why.attribute import Attribution, Bins, EventAttribution, attribute_event, numbers_of_point
+from fatigue.why.evidence import Evidence
 from fatigue.why.findings import Diagnosis, findings
-from fatigue.why.levers import Levers, best_levers
+from fatigue.why.levers import best_levers
 from fatigue.why.points import choose_points, gather_points
-from fatigue.why.rows import attribution_rows, diagnosis_rows, lever_rows, track_rows
+from fatigue.why.rows import rows_of_tables
 from fatigue.why.verdicts import EventVerdicts, event_verdicts
 
 log = logging.getLogger(__name__)
@@ -46,7 +54,6 @@ log = logging.getLogger(__name__)
 Progress = Callable[[str, int, int], None]
 
 SHARE_OF_LIMIT = 0.1  # utilisation from which a point is shared out when not all points are
-POINTS_AT_ONCE = 1000  # whose rows are written
 BIN_KM = 0.1  # about one second at 350 km/h
 
 
@@ -84,7 +91,7 @@ def diagnose(
     refuse_mixed(folder, record, ASSESSED)
     body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
-    edges = third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64)
+    bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
     with (
         locked(folder),
         result_log(folder),
@@ -92,7 +99,7 @@ def diagnose(
         staging_in(folder) as staging,
     ):
         _refuse_another(folder, record)
-        numbers = numbers_of_point(plan, body.modes, edges, bin_km)
+        numbers = numbers_of_point(plan, body.modes, bins)
         chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
         stage("preparing the records of the events (%d)", len(plan.passes))
@@ -105,40 +112,25 @@ def diagnose(
         events: list[EventAttribution] = []
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))
-            events.append(attribute_event(points, load, one_pass, body.modes, edges, bin_km))
+            events.append(attribute_event(points, load, one_pass, body.modes, bins))
         attribution = Attribution(points, tuple(events))
         governing = attribution.event_share[worst].argmax(axis=1)
         verdicts: list[EventVerdicts] = []
         for number, (load, event, said) in enumerate(zip(loads, events, assessed, strict=True)):
             verdicts.append(event_verdicts(body, load, points, event, said, worst[governing == number]))
         levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
+        evidence = Evidence(body, plan, attribution, levers, tuple(verdicts))
         progress("diagnosis", len(loads), len(loads))
 
         stage("writing tables")
         finished = staging / "tables"
         finished.mkdir()
-        for name, blocks in _tables(body, plan, attribution, levers, verdicts).items():
+        for name, blocks in rows_of_tables(evidence).items():
             with table_writer(finished, name, record.get("result", "")) as table:
                 for rows in blocks:
                     table.write(rows)
         publish(finished, folder)
-    return findings(body, plan, attribution, levers, verdicts, chosen.what)
-
-
-def _tables(
-    body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts]
-) -> dict[str, Iterator[dict[str, Any]]]:
-    """Rows of all tables by name, event by event, within an event block by block of points."""
-    events = range(len(plan.passes))
-    firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
-    some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
-    blocks = [(attribution.of(few), [verdict.of(few) for verdict in verdicts]) for few in some]
-    return {
-        "attribution": (attribution_rows(body.modes, block, block.events[e]) for e in events for block, _ in blocks),
-        "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
-        "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
-        "levers": iter([lever_rows(body.modes, plan, attribution, levers)]),
-    }
+    return findings(evidence, chosen.what)
 
 
 def _senseless(edges_hz: Sequence[float] | None, bin_km: float, share_of_limit: float) -> Iterator[Problem]:

@@ -1,4 +1,9 @@
-"""The documents of a finished result as a story: page, picture, print, workbook and CSV, put in place together."""
+"""The documents of a finished result as a story: page, picture, print, workbook and CSV, put in place together.
+
+Nothing is counted again: a document shows the tables of the result, and what it needs of the inputs. Files in the way
+are refused before the first is written, and what cannot be written here is named while the others are. All that are
+written lie aside until the last is finished, and replace the old ones in one step.
+"""
 
 import logging
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -7,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.pipeline.run.checkpoint import locked, settle_folder
 from fatigue.report.files.export import refuse_without_xlsxwriter, write_csv, write_xlsx
 from fatigue.report.files.pdf import find_browser, print_pdf
 from fatigue.report.files.vtp import write_vtp
@@ -28,6 +32,7 @@ from fatigue.results import (
     refuse_mixed,
     write_list,
 )
+from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
 from fatigue.stages import stage
 

@@ -13,11 +13,12 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
-from fatigue.pipeline.mission.events import event_load, mission_plan
+from fatigue.pipeline.mission.events import event_load
+from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.model import read_model
 from fatigue.results import json_ready
 from fatigue.spectrum.bands import third_octaves
-from fatigue.why.attribute import Attribution, attribute_event
+from fatigue.why.attribute import Attribution, Bins, attribute_event
 from fatigue.why.findings import Diagnosis
 from fatigue.why.points import points_of
 from tests.conftest import EXAMPLE
@@ -287,7 +288,7 @@ def test_too_many_worst_points_leave_those_with_the_shortest_lives(tmp_path, mon
 def test_pieces_of_points_write_the_same_tables(tmp_path, monkeypatch):
     """Some points at a time: the same rows in the same order."""
     found = run(small_case(seconds=6.0), tmp_path)
-    monkeypatch.setattr("fatigue.diagnose.POINTS_AT_ONCE", 5)
+    monkeypatch.setattr("fatigue.why.rows.POINTS_AT_ONCE", 5)
     diagnose(found.folder)
     for name in TABLES:
         pd.testing.assert_frame_equal(pd.read_parquet(found.folder / f"{name}.parquet"), found.tables[name])
@@ -411,7 +412,7 @@ def test_what_the_example_says_at_a_hanger_and_at_the_roof_bracket(example_resul
     found = Attribution(
         points,
         tuple(
-            attribute_event(points, event_load(model.body, event, 1), one, model.modes, third_octaves(), 0.1)
+            attribute_event(points, event_load(model.body, event, 1), one, model.modes, Bins(third_octaves(), 0.1))
             for event, one in zip(model.case.mission.event, plan.passes, strict=True)
         ),
     )

@@ -17,7 +17,7 @@ def refuse_missing_case(path: Path) -> None:
 def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
     """Refuse a folder without result, or a missing case file named for it; complete a publication that was cut off."""
     if (folder / ".fatigue-publish").exists():
-        from fatigue.pipeline.run.checkpoint import settle_folder
+        from fatigue.results.lock import settle_folder
 
         settle_folder(folder)
     if not (folder / "provenance.json").exists():

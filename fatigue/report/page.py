@@ -15,7 +15,7 @@ from fatigue.errors import DataError, Problem, given_path
 from fatigue.report import figures, wording
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.inputs import FoundInputs, find_inputs
-from fatigue.report.result import Result, read_result
+from fatigue.report.result import ShownResult, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
@@ -42,6 +42,8 @@ def write_report(
 ) -> Path:
     """Write ``report.html`` beside the tables of a finished result, and log what had to be left out.
 
+    The same result and inputs give the same bytes.
+
     Parameters
     ----------
     folder : where the tables and ``provenance.json`` are
@@ -51,8 +53,6 @@ def write_report(
     verification : checks of the installed program to be shown, each with ``topic, case, quantity, unit, expected,
         found, difference, tolerance, source, passed``
     into : another folder to write to; the page is not listed among the documents of the result then
-
-    The same result and inputs give the same bytes.
 
     Raises
     ------
@@ -142,7 +142,9 @@ def _environment() -> jinja2.Environment:
     return environment
 
 
-def _details(result: Result, inputs: FoundInputs, missing: list[Problem]) -> tuple[dict[str, Detail], dict[str, float]]:
+def _details(
+    result: ShownResult, inputs: FoundInputs, missing: list[Problem]
+) -> tuple[dict[str, Detail], dict[str, float]]:
     """What the records say of each detailed weld, and the step of each record; or a note why not."""
     try:
         return weld_details(result, inputs)
@@ -161,7 +163,7 @@ def _body(inputs: FoundInputs, missing: list[Problem]) -> BodyOutline | None:
     return None if mesh is None else figures.body_outline(mesh.node, mesh.xyz, mesh.corners[:, :4])
 
 
-def _head(result: Result) -> dict[str, Any]:
+def _head(result: ShownResult) -> dict[str, Any]:
     """What the first lines of the page say."""
     welds = result.assessed
     mission = result.record["mission"]
@@ -181,7 +183,7 @@ def _head(result: Result) -> dict[str, Any]:
     }
 
 
-def _listed(result: Result) -> pd.DataFrame:
+def _listed(result: ShownResult) -> pd.DataFrame:
     """Welds of the register that have a row: the worst, and those that are not assessed."""
     listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
     return result.welds[listed]

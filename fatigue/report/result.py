@@ -27,7 +27,7 @@ _OF_CYCLE = ("event", "range_MPa", "mean_MPa", "count", "bending_ratio", "equiva
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Result:
+class ShownResult:
     """What a report needs of a result folder: never all points of a train.
 
     Attributes
@@ -104,7 +104,7 @@ class Result:
         return rows[at & (rows["surface"] == row["worst_surface"])]
 
 
-def read_result(folder: Path, most_detailed: int, most_stations: int, worst_points: int) -> Result:
+def read_result(folder: Path, most_detailed: int, most_stations: int, worst_points: int) -> ShownResult:
     """Read a result folder.
 
     Parameters
@@ -127,7 +127,7 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     detailed = tuple(rows["weld"].head(most_detailed))
     fitting = int(np.searchsorted(rows["nodes"].cumsum(), most_stations, side="right"))
     drawn = tuple(rows["weld"].head(max(fitting, most_detailed)))
-    return Result(
+    return ShownResult(
         record=record,
         welds=welds,
         assessed=rows,

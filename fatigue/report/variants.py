@@ -1,6 +1,6 @@
 """The same cycles under other assumptions: what survival level, thickness rule, knee or bending ratio do to a life."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -93,7 +93,7 @@ def variants(
     return pd.DataFrame(rows, columns=["assumption", "choice", "used", "damage_factor"])
 
 
-def _curve_variants(used: Assumptions, factor: Any) -> Iterator[tuple[str, str, bool, float]]:
+def _curve_variants(used: Assumptions, factor: Callable[..., float]) -> Iterator[tuple[str, str, bool, float]]:
     for level in used.curve.reference_range:
         yield "survival", level, level == used.survival, factor(replace(used, survival=level))
     if not used.curve.knees_cycles:
@@ -103,7 +103,7 @@ def _curve_variants(used: Assumptions, factor: Any) -> Iterator[tuple[str, str, 
 
 
 def _stress_variants(
-    point: pd.Series, cycles: pd.DataFrame, used: Assumptions, factor: Any
+    point: pd.Series, cycles: pd.DataFrame, used: Assumptions, factor: Callable[..., float]
 ) -> Iterator[tuple[str, str, bool, float]]:
     if used.curve.applies != "dS":
         return

@@ -2,8 +2,8 @@
 
 ``columns`` says what every column is; ``tables`` writes and reads whole tables, ``rows`` some of their rows,
 ``weld_table`` the welds. ``provenance`` is what a result rests on, ``origin`` leads back to its case, ``belonging``
-tells what is of one result. ``folder`` guards what is in the folder, ``publish`` puts a finished result there;
-``summary`` is what the command line prints of it.
+tells what is of one result. ``folder`` guards what is in the folder, ``lock`` lets one run at a time write there,
+``publish`` puts a finished result there; ``summary`` is what the command line prints of it.
 """
 
 from fatigue.results.belonging import (

@@ -108,6 +108,15 @@ def samples_per_segment(step: float, segment_s: float) -> int:
     return round(segment_s / step)
 
 
+def default_upper_hz(step: float, top_mode_hz: float | None) -> float:
+    """Upper frequency of the spectra [Hz]: the lower of 0.4 f_s and 1.5 x the highest normal mode, if there is one.
+
+    >>> default_upper_hz(0.004, 40.0), default_upper_hz(0.01, 40.0), default_upper_hz(0.01, None)
+    (60.0, 40.0, 40.0)
+    """
+    return 0.4 / step if top_mode_hz is None else min(0.4 / step, 1.5 * top_mode_hz)
+
+
 def has_spectrum(history: ModalHistory, segment_s: float) -> bool:
     """Whether the record holds at least one segment of at least four samples."""
     return segment_count(history.q.shape[1], history.step, segment_s) > 0

@@ -5,7 +5,6 @@ result; ``fatigue.life.attribution`` has the method. Everything is weighted with
 the sum over the events is the ``damage_per_km`` of a point.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Self
 
@@ -27,6 +26,18 @@ Floats = NDArray[np.float64]
 TIME_BINS = 40  # of an event that has no distance
 _OTHER_NUMBERS = 50  # of a point and event: damage, slopes, what the verdict says
 _SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a block of points: 8 MB
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bins:
+    """What the damage of an event is sorted into.
+
+    ``edges_hz`` (b - 1,) are the ascending edges between the frequency bands [Hz], ``length_km`` is the length of a bin
+    of the track [km].
+    """
+
+    edges_hz: Floats
+    length_km: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -132,25 +143,20 @@ class Attribution:
         return self.share(np.column_stack([np.asarray(sum(resolved)), short] if resolved else [short]))
 
 
-def numbers_of_point(plan: Plan, modes: Modes, edges_hz: Floats, bin_km: float) -> int:
+def numbers_of_point(plan: Plan, modes: Modes, bins: Bins) -> int:
     """How many numbers are held of one point for all events."""
-    places = sum(TIME_BINS if one.length is None else int(one.length / bin_km) + 1 for one in plan.passes)
-    return places + len(plan.passes) * (3 * len(modes.mode) + 2 * len(edges_hz) + _OTHER_NUMBERS)
+    places = sum(TIME_BINS if one.length is None else int(one.length / bins.length_km) + 1 for one in plan.passes)
+    return places + len(plan.passes) * (3 * len(modes.mode) + 2 * len(bins.edges_hz) + _OTHER_NUMBERS)
 
 
-def attribute_event(
-    points: Points, load: EventLoad, one_pass: Pass, modes: Modes, edges_hz: Sequence[float] | Floats, bin_km: float
-) -> EventAttribution:
-    """Damage of one event at some points, shared out.
-
-    ``edges_hz`` are ascending edges between frequency bands, ``bin_km`` the length of a bin of the track [km].
-    """
+def attribute_event(points: Points, load: EventLoad, one_pass: Pass, modes: Modes, bins: Bins) -> EventAttribution:
+    """Damage of one event at some points, shared out."""
     q, residue = np.asarray(load.counted.q), load.residue
     frequency = coefficient_frequencies(q.shape[1], load.counted.step, residue)
-    inner = np.asarray(edges_hz if load.moments is not None else (), dtype=np.float64)
+    inner = bins.edges_hz if load.moments is not None else np.zeros(0)
     bands = band_slices(frequency, inner)
     Q = coefficients(q, residue)
-    place_s, place_km = _place_edges(load, one_pass, bin_km)
+    place_s, place_km = _place_edges(load, one_pass, bins.length_km)
     time = load.counted.start + load.counted.step * np.arange(q.shape[1])
     bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
 

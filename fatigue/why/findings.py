@@ -1,20 +1,19 @@
 """What a diagnosis says in words: at each weld's worst point event, band, modes, place and lever."""
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.mission import Plan, life_km
+from fatigue.life.mission import life_km
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.tables.rows import FACES
-from fatigue.readers.neutral.body.modes import Modes
 from fatigue.why.attribute import Attribution
-from fatigue.why.levers import SMALLER, Levers
-from fatigue.why.verdicts import EventVerdicts
+from fatigue.why.evidence import Evidence
+from fatigue.why.levers import SMALLER
 
 LONGEST_LIFE_KM = 1e12
 WIDTH = 110
@@ -139,27 +138,25 @@ class Diagnosis:
         )
 
 
-def findings(
-    body: Body, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], points: str
-) -> Diagnosis:
-    """Summary of a diagnosis, with a finding for every point the levers were sought at."""
-    found = [_finding(body.modes, plan, attribution, levers, verdicts, row) for row in range(len(levers.point))]
+def findings(evidence: Evidence, points: str) -> Diagnosis:
+    """Summary of a diagnosis, with a finding for every point the levers were sought at; ``points`` says which."""
+    found = [_finding(evidence, row) for row in range(len(evidence.levers.point))]
     return Diagnosis(
-        title=body.case.title,
+        title=evidence.body.case.title,
         points=points,
         findings=tuple(sorted(found, key=lambda finding: finding.life_km)),
-        notes=tuple(_notes(body, attribution)),
+        notes=tuple(_notes(evidence.body, evidence.attribution)),
     )
 
 
-def _finding(
-    modes: Modes, plan: Plan, attribution: Attribution, levers: Levers, verdicts: Sequence[EventVerdicts], row: int
-) -> Finding:
+def _finding(evidence: Evidence, row: int) -> Finding:
+    """Finding at the point of one row of the levers."""
+    modes, levers = evidence.body.modes, evidence.levers
     point = int(levers.point[row])
-    own = attribution.of(slice(point, point + 1))
+    own = evidence.attribution.of(slice(point, point + 1))
     points, event_share, exponent = own.points, own.event_share[0], own.mode_exponent[0]
     governing = int(event_share.argmax())
-    event, verdict = own.events[governing], verdicts[governing]
+    event, verdict = own.events[governing], evidence.verdicts[governing]
     share, resonant = own.mode_share[0], own.resonant_share[0]
     intensity = event.place[0] / event.damage[0] / event.place_length
     hottest = int(intensity.argmax())
@@ -169,7 +166,7 @@ def _finding(
         order=int(points.order[0]),
         node=int(points.node[0]),
         surface=FACES[points.face[0]],
-        life_km=float(life_km(own.damage, plan.damage_limit)[0]),
+        life_km=float(life_km(own.damage, evidence.plan.damage_limit)[0]),
         event=event.event,
         event_share=float(event_share.max()),
         modes=tuple(

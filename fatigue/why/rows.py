@@ -1,16 +1,34 @@
 """Rows of the tables that say what makes the damage and whether the frequency domain may be trusted."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from fatigue.life.mission import Plan, life_km
+from fatigue.life.mission import life_km
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.why.attribute import Attribution, EventAttribution
-from fatigue.why.levers import Levers
+from fatigue.why.evidence import Evidence
 from fatigue.why.points import Points
 from fatigue.why.verdicts import EventVerdicts
+
+POINTS_AT_ONCE = 1000  # whose rows are made at a time
+
+
+def rows_of_tables(evidence: Evidence) -> dict[str, Iterator[dict[str, Any]]]:
+    """Rows of all tables by name, event by event, within an event block by block of points."""
+    attribution, modes = evidence.attribution, evidence.body.modes
+    events = range(len(evidence.plan.passes))
+    firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
+    some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
+    blocks = [(attribution.of(few), [verdict.of(few) for verdict in evidence.verdicts]) for few in some]
+    return {
+        "attribution": (attribution_rows(modes, block, block.events[e]) for e in events for block, _ in blocks),
+        "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
+        "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
+        "levers": iter([lever_rows(evidence)]),
+    }
 
 
 def attribution_rows(modes: Modes, attribution: Attribution, event: EventAttribution) -> dict[str, Any]:
@@ -82,11 +100,12 @@ def diagnosis_rows(points: Points, of: EventVerdicts) -> dict[str, Any]:
     }
 
 
-def lever_rows(modes: Modes, plan: Plan, attribution: Attribution, levers: Levers) -> dict[str, Any]:
+def lever_rows(evidence: Evidence) -> dict[str, Any]:
     """Rows of ``levers.parquet``: the modes whose reduction buys most, at the worst point of every weld."""
+    modes, attribution, levers = evidence.body.modes, evidence.attribution, evidence.levers
     ranks = levers.mode.shape[1]
     mode = levers.mode.ravel()
-    life = np.repeat(life_km(attribution.damage[levers.point], plan.damage_limit), ranks)
+    life = np.repeat(life_km(attribution.damage[levers.point], evidence.plan.damage_limit), ranks)
     return {
         **point_columns(attribution.points.of(levers.point), ranks),
         "rank": np.tile(np.arange(1, ranks + 1), len(levers.point)),

@@ -14,7 +14,7 @@ from fatigue.report.figures.cycles import cumulative
 from fatigue.report.figures.lines import _end_zones, _unrolled
 from fatigue.report.figures.records import _thinned
 from fatigue.report.figures.style import life_axis, life_scale
-from fatigue.report.signals import Envelope, Excerpt, StressSpectrum
+from fatigue.report.stress import Envelope, Excerpt, StressSpectrum
 
 
 @pytest.fixture(scope="module")

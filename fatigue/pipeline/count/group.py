@@ -11,23 +11,18 @@ from fatigue.pipeline.count.bounds import Screening
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.settle import settle
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import Stations, modal_stress
 
 
-def assess_group(
-    stations: Stations,
-    curve_of_weld: Sequence[RatedCurve],
-    loads: Sequence[EventLoad],
-    plan: Plan,
-    screening: Screening | None,
-) -> GroupResult:
+def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening: Screening | None) -> GroupResult:
     """Result of a group of welds: every event counted at every station, or at the stations that screening leaves.
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
+    stations, curve_of_weld = model.stations, model.curve_of_weld
     result = GroupResult.empty(len(loads), len(stations))
     curve_of = np.array([rated.curve.name for rated in curve_of_weld])[stations.weld]
     for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():

@@ -60,32 +60,43 @@ class EventLoad:
         return None if self.is_upsampled else (self.mean, self.covariance)
 
 
+@dataclass(frozen=True, slots=True)
+class HowCounted:
+    """How the record of an event is to be counted.
+
+    ``residue`` and ``stress_factor`` are the same as of ``EventLoad``; ``upsample`` is how many samples one becomes;
+    ``single``: by the kernel in single precision.
+    """
+
+    residue: Residue
+    stress_factor: float = 1.0
+    upsample: int = 1
+    single: bool = False
+
+
 def prepare_event(
     history: ModalHistory,
-    residue: Residue,
-    stress_factor: float,
-    upsample: int,
+    how: HowCounted,
     spectra: Spectra | None,
     top_mode_hz: float | None,
-    *,
-    single: bool = False,
     scratch: Path | None = None,
 ) -> EventLoad:
     """What all stations share of an event, from its kept record.
 
-    ``single``: for the fast kernel; ``scratch``: folder for whatever is as large as the record, None: in memory.
+    ``scratch``: folder for whatever is as large as the record, None: in memory.
     """
     trust = None if spectra is None else trust_matrices(history, spectra)
     if trust is None:
         moments, (mean, covariance) = None, mean_and_covariance(history.q)
     else:
         moments, mean, covariance = trust.moments, trust.record.mean, trust.record.covariance
-    counted = upsampled(history, upsample, residue, scratch and scratch / "upsampled")
+    counted = upsampled(history, how.upsample, how.residue, scratch and scratch / "upsampled")
+    known = (mean, covariance) if counted is history else None
     return EventLoad(
         counted=counted,
-        single=fast_record(counted.q, scratch, (mean, covariance) if counted is history else None) if single else None,
-        residue=residue,
-        stress_factor=stress_factor,
+        single=fast_record(counted.q, scratch, known) if how.single else None,
+        residue=how.residue,
+        stress_factor=how.stress_factor,
         duration=history.duration,
         mean=mean,
         covariance=covariance,

@@ -1,4 +1,4 @@
-"""The events of a mission: their records read, cut and checked, and what each brings to every station."""
+"""The records of the events, read and prepared: what each event brings to every station, in memory or on disk."""
 
 import logging
 import math
@@ -9,53 +9,32 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Case, Event, check_distance, event_length_km
-from fatigue.errors import CaseError, DataError, FatigueError, NumericalError, Problem, refuse
-from fatigue.life.mission import Pass, Plan
-from fatigue.life.records.history import ModalHistory, first_kept, kept
-from fatigue.pipeline.mission.event_load import EventLoad, prepare_event
-from fatigue.pipeline.mission.record_units import step_problems, step_warnings
+from fatigue.case import Event
+from fatigue.errors import NumericalError, Problem
+from fatigue.life.mission import Plan
+from fatigue.life.records.history import ModalHistory, kept
+from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, prepare_event
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
-from fatigue.readers.neutral.history import TimeGrid, check_history, read_history
+from fatigue.readers.neutral.history import read_history
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import (
     Spectra,
+    default_upper_hz,
     has_spectrum,
     moment_matrices,
     point_moments,
-    segment_count,
     segment_spectra,
 )
 
 log = logging.getLogger(__name__)
 
-FEW_SEGMENTS = 8  # below, the spectrum is an estimate from too little
 SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
 LARGEST_UPSAMPLE = 64
 DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (1e-7 of damage)
 RECORD = "record"  # file of the samples as they were read
 HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
-
-
-def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
-    """The mission in numbers, and the warnings about its records, each of which is read and checked.
-
-    The records are read on some threads, by default one per processor core, and a column of each is in memory.
-    """
-    mission = body.case.mission
-    warnings: list[Problem] = []
-    problems: list[Problem] = []
-    passes: list[Pass] = []
-    for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
-        if isinstance(checked, FatigueError):
-            problems += checked.problems
-        else:
-            passes.append(checked[0])
-            warnings += checked[1]
-    refuse(DataError, problems)
-    return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
 def event_loads(
@@ -113,17 +92,8 @@ def load_of(
     """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
     try:
         with np.errstate(over="raise"):
-            spectra = event_spectra(body, history)
-            return prepare_event(
-                history,
-                body.case.residue(event),
-                event.stress_factor,
-                upsample,
-                spectra,
-                top_mode_hz(body),
-                single=single,
-                scratch=scratch,
-            )
+            how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
+            return prepare_event(history, how, event_spectra(body, history), top_mode_hz(body), scratch)
     except FloatingPointError:
         problem = Problem(
             "overflow",
@@ -149,11 +119,10 @@ def top_mode_hz(body: Body) -> float | None:
 
 
 def upper_hz(body: Body, history: ModalHistory) -> float:
-    """Upper frequency of the spectra [Hz]: as given, else the lower of 0.4 f_s and 1.5 x the highest normal mode."""
+    """Upper frequency of the spectra of a record [Hz]: as given, else by ``default_upper_hz``."""
     if body.case.spectrum.upper_hz is not None:
         return body.case.spectrum.upper_hz
-    top = top_mode_hz(body)
-    return 0.4 / history.step if top is None else min(0.4 / history.step, 1.5 * top)
+    return default_upper_hz(history.step, top_mode_hz(body))
 
 
 def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
@@ -168,71 +137,6 @@ def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
         scratch=scratch and scratch / RECORD,
     )
     return kept(whole, event.start_s)
-
-
-def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
-    """The passes of an event and the warnings about its record, or what is wrong with the record."""
-    case = body.case
-    path = case.resolve(event.history)
-    try:
-        grid, warnings = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
-        refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
-        samples = _kept_samples(case, event, grid)
-    except FatigueError as error:
-        return error
-    one = Pass(
-        event=event.name,
-        samples=samples,
-        length=event_length_km(event, samples * grid.step),
-        share=event.share,
-        per_1000_km=event.per_1000_km,
-    )
-    warnings += step_warnings(grid, body.modes, path.name, event.name)
-    return one, warnings + _record_warnings(body, event, samples, grid.step)
-
-
-def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
-    """Number of samples behind the start-up of a record, whose length is checked."""
-    where = f"{case.path.name}: mission.event '{event.name}'"
-    samples = max(0, grid.samples - first_kept(grid.step, event.start_s))
-    if samples < 2:
-        raise CaseError(
-            Problem(
-                "short_record",
-                f"{where}: start_s",
-                f"start_s = {event.start_s:g} leaves {samples} samples of {case.resolve(event.history).name}, which "
-                f"lasts {grid.samples * grid.step:g} s",
-                "Cut less, or record longer",
-            )
-        )
-    check_distance(event, samples * grid.step, where)
-    return samples
-
-
-def _record_warnings(body: Body, event: Event, samples: int, step: float) -> list[Problem]:
-    where = f"event '{event.name}'"
-    segment_s = body.case.spectrum.segment_s
-    segments = segment_count(samples, step, segment_s)
-    if segments == 0:
-        return [
-            Problem(
-                "no_spectrum",
-                where,
-                f"the record of {samples * step:g} s has no spectral segment of {segment_s:g} s (at least four "
-                "samples), so there is no frequency-domain estimate",
-                "Record longer or shorten segment_s if you need one",
-            )
-        ]
-    if segments < FEW_SEGMENTS:
-        return [
-            Problem(
-                "few_segments",
-                where,
-                f"the spectrum is an average of {segments} segments of {segment_s:g} s",
-                f"Record longer, or shorten segment_s to get {FEW_SEGMENTS} segments or more",
-            )
-        ]
-    return []
 
 
 def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | None]:

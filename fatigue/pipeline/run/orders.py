@@ -13,8 +13,8 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.count.result import arrays_of
-from fatigue.pipeline.mission.events import mission_plan
-from fatigue.pipeline.run.work import Counted, Work, inputs_of, key_of, open_work
+from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.run.work import ScreeningOptions, Work, inputs_of, key_of, open_work
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 
@@ -28,7 +28,7 @@ class Order:
 
     case: str
     strict: bool
-    counted: Counted
+    options: ScreeningOptions
     key: str
     group: int
 
@@ -41,7 +41,7 @@ def fulfil(order: Order) -> dict[str, NDArray[Any]]:
     DataError : this process sees other inputs, or is another version of the program
     """
     with _OPENING:  # the first thread reads, the others wait for it
-        work, _ = _opened(order.case, order.strict, order.counted, order.key)
+        work, _ = _opened(order.case, order.strict, order.options, order.key)
     _, result = work.group(order.group)
     return arrays_of(result)
 
@@ -50,11 +50,11 @@ _OPENING = Lock()
 
 
 @lru_cache(maxsize=1)
-def _opened(path: str, strict: bool, counted: Counted, key: str) -> tuple[Work, TemporaryDirectory[str]]:
+def _opened(path: str, strict: bool, options: ScreeningOptions, key: str) -> tuple[Work, TemporaryDirectory[str]]:
     """The work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
     threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
     case = load_case(Path(path))
-    if key_of(inputs_of(case), counted) != key:
+    if key_of(inputs_of(case), options) != key:
         raise DataError(
             Problem(
                 "other_inputs",
@@ -67,4 +67,4 @@ def _opened(path: str, strict: bool, counted: Counted, key: str) -> tuple[Work, 
     plan, _ = mission_plan(body, threads=1)
     folder = TemporaryDirectory(prefix="fatigue-")
     scratch = Path(folder.name)
-    return open_work(weld_groups(body, scratch / "forces"), plan, counted, scratch, threads=1), folder
+    return open_work(weld_groups(body, scratch / "forces"), plan, options, scratch, threads=1), folder

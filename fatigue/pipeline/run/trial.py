@@ -1,7 +1,7 @@
 """What a job will take: its own pipeline, timed on one group of its welds under the first chunk of one record."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -26,7 +26,6 @@ from fatigue.pipeline.mission.events import (
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import Stations
 
 Result = TypeVar("Result")
@@ -77,19 +76,18 @@ class JobTime:
 class _Trial:
     """A group of welds under a mission of nothing but a chunk of one pass, as often as it takes for the pass."""
 
-    stations: Stations
-    curve_of_weld: Sequence[RatedCurve]
+    model: Model
     one: Pass
     plan: Plan
 
     def counted(self, chunk: EventLoad) -> GroupResult:
         """The result with every point counted."""
-        return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), None)
+        return assess_group(self.model, [chunk], self._plan_of(chunk), None)
 
     def screened(self, chunk: EventLoad, scratch: Path) -> GroupResult:
         """The result where bounds settle what they can; ``scratch`` is a folder for what memory cannot hold."""
         screening = screening_of(SHARE, True, [chunk], scratch, threads=1)
-        return assess_group(self.stations, self.curve_of_weld, [chunk], self._plan_of(chunk), screening)
+        return assess_group(self.model, [chunk], self._plan_of(chunk), screening)
 
     def _plan_of(self, chunk: EventLoad) -> Plan:
         chunks = self.one.samples * chunk.counted.step / max(chunk.duration, chunk.counted.step)  # in the pass
@@ -98,24 +96,25 @@ class _Trial:
         return replace(self.plan, passes=(alone,))
 
 
-def job_time(body: Body, plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
+def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
     """Processor time of ``fatigue assess`` with its default options, as estimated; compiling is left out.
 
     Parameters
     ----------
-    body, plan : the job
-    model : one group of its welds, solved
+    plan : the mission of the job
+    model : one group of the welds of its body, solved
     stations : of all welds
     read_s : processor time that reading and checking the case took [s]
     scratch : a folder for what memory cannot hold
     """
+    body = model.body
     longest = int(np.argmax([one.samples for one in plan.passes]))
     event, one = body.case.mission.event[longest], plan.passes[longest]
     samples = min(one.samples, max(SHORTEST_TRIAL, min(LONGEST_TRIAL, int(TRIAL_SAMPLES / len(model.stations)))))
     record = shortened_record(body, event, samples, scratch)
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
     with threadpool_limits(limits=1, user_api="blas"):
-        trial = _Trial(model.stations, model.curve_of_weld, one, plan)
+        trial = _Trial(model, one, plan)
         factor = _factor(body, event, record, trial)
         upsampled = factor * sum(p.samples for p in plan.passes)
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES

@@ -26,8 +26,8 @@ SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten ti
 
 
 @dataclass(frozen=True, slots=True)
-class Counted:
-    """Which points are to be counted.
+class ScreeningOptions:
+    """Which points may go without counting, as the user asks for it.
 
     A proven bound below ``share`` of the damage limit is enough. 0: every point is counted. None: ``SHARE`` for a job
     that is large enough for the kernel in single precision, else 0. ``proves_worst``: see ``bounds.Screening``.
@@ -54,26 +54,26 @@ class Work:
     def group(self, number: int) -> tuple[Model, GroupResult]:
         """One group of welds, solved, and its result."""
         model = solve_group(self.groups, number)
-        return model, assess_group(model.stations, model.curve_of_weld, self.loads, self.plan, self.screening)
+        return model, assess_group(model, self.loads, self.plan, self.screening)
 
 
-def open_work(groups: WeldGroups, plan: Plan, counted: Counted, scratch: Path, threads: int | None) -> Work:
+def open_work(groups: WeldGroups, plan: Plan, options: ScreeningOptions, scratch: Path, threads: int | None) -> Work:
     """The work of a job, with the records of its events read and its screening prepared.
 
     ``scratch`` is a folder for what memory cannot hold; ``threads`` are by default one per processor core.
     """
     loads = event_loads(groups, plan, scratch / "histories", threads)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
-    share = large if counted.share is None else counted.share
+    share = large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
-    screening = None if share == 0.0 else screening_of(share, counted.proves_worst, loads, scratch, threads)
+    screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
     return Work(groups, loads, plan, screening, kept_from=large)
 
 
 def screening_of(
     share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path, threads: int | None
 ) -> Screening:
-    """What settles points without counting, prepared on some threads; see ``Counted`` and ``open_work``."""
+    """What settles points without counting, prepared on some threads; see ``ScreeningOptions`` and ``open_work``."""
     return Screening(
         share=share,
         proves_worst=proves_worst,
@@ -95,9 +95,9 @@ def inputs_of(case: Case) -> list[dict[str, str]]:
     return input_register(input_paths(case), case.path.parent)
 
 
-def key_of(inputs: Sequence[dict[str, str]], counted: Counted) -> str:
+def key_of(inputs: Sequence[dict[str, str]], options: ScreeningOptions) -> str:
     """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
     cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP, BLOCK)
     return state_key(
-        {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(counted)}
+        {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(options)}
     )

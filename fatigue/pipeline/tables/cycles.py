@@ -12,8 +12,8 @@ from fatigue.life.records.history import stress_history
 from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
-from fatigue.pipeline.solve.stations import Stations
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
 
@@ -65,9 +65,10 @@ class CycleWriter:
                 self._table.write(rows)
 
 
-def kept_point(stations: Stations, curve_of_weld: Sequence[RatedCurve], point: WorstPoint) -> KeptPoint:
+def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
     """What the cycles of a point need of the stations of its group of welds."""
-    treated, at = stations.treated, point.station
+    stations, at = model.stations, point.station
+    treated = stations.treated
     return KeptPoint(
         weld=stations.welds[point.weld].name,
         part=int(stations.part[at]),
@@ -77,7 +78,7 @@ def kept_point(stations: Stations, curve_of_weld: Sequence[RatedCurve], point: W
         thickness=float(stations.thickness[at]),
         membrane=treated.membrane[at].copy(),
         bending=treated.bending[at].copy(),
-        rated=curve_of_weld[point.weld],
+        rated=model.curve_of_weld[point.weld],
     )
 
 

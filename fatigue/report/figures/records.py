@@ -20,7 +20,7 @@ from fatigue.report.figures.style import (
     single,
     upright,
 )
-from fatigue.report.signals import Envelope, Excerpt, StressSpectrum
+from fatigue.report.stress import Envelope, Excerpt, StressSpectrum
 from fatigue.report.wording import in_figure, number, share
 
 PSD_POINTS = 400

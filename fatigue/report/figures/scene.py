@@ -65,10 +65,10 @@ def worst_faces(nodes: ResultTable) -> pd.DataFrame:
 def line_rows(stations: ResultTable, closed: frozenset[str]) -> NDArray[np.int64]:
     """Rows of the stations in drawing order: -1 between the lines, the first repeated at the end of a closed line."""
     stations = frame_of(stations, "stations", ("weld", "part"))
-    pieces: list[ArrayLike] = []
+    drawn: list[ArrayLike] = []
     for (weld, _), rows in stations.groupby(["weld", "part"], sort=False).indices.items():
-        pieces += [rows, rows[:1] if weld in closed else rows[:0], [-1]]
-    return np.concatenate(pieces).astype(np.int64)
+        drawn += [rows, rows[:1] if weld in closed else rows[:0], [-1]]
+    return np.concatenate(drawn).astype(np.int64)
 
 
 def scene(

@@ -105,14 +105,14 @@ _FORMATS = {
 _LARGE = ("life_km", "life_km_dirlik", "life_km_tb", "life_km_same_ratio", "life_km_raw_end", "life_years")
 
 
-def _write_sheet(sheet, pieces: Iterable[pa.Table], columns: tuple[Column, ...], formats) -> None:  # type: ignore[no-untyped-def]
+def _write_sheet(sheet, groups: Iterable[pa.Table], columns: tuple[Column, ...], formats) -> None:  # type: ignore[no-untyped-def]
     for i, column in enumerate(columns):
         unit = f"\n[{column.unit}]" if column.unit != "-" else ""
         sheet.write_string(0, i, f"{column.name}{unit}", formats["head"])
         sheet.set_column(i, i, 24 if column.type == "text" else 13)
     looks = [formats[_look(column)] for column in columns]
     row = 0
-    for row, values in enumerate(_rows(pieces, columns), start=1):
+    for row, values in enumerate(_rows(groups, columns), start=1):
         for i, value in enumerate(values):
             if value is None:
                 continue
@@ -128,10 +128,10 @@ def _write_sheet(sheet, pieces: Iterable[pa.Table], columns: tuple[Column, ...],
     sheet.autofilter(0, 0, row, len(columns) - 1)
 
 
-def _rows(pieces: Iterable[pa.Table], columns: tuple[Column, ...]) -> Iterator[tuple[str | bool | float | None, ...]]:
-    """Cells of a table row by row."""
-    for piece in pieces:
-        frame = piece.to_pandas()
+def _rows(groups: Iterable[pa.Table], columns: tuple[Column, ...]) -> Iterator[tuple[str | bool | float | None, ...]]:
+    """Cells of a table row by row, from its row groups."""
+    for group in groups:
+        frame = group.to_pandas()
         yield from zip(*(_cells(frame[column.name], column) for column in columns), strict=True)
 
 
@@ -182,8 +182,8 @@ def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
         texts = [column.name for column in TABLES[name] if column.type == "text"]
         paths.append((into or folder) / f"{name}.csv")
         with paths[-1].open("w", encoding="utf-8", newline="") as file:
-            for number, piece in enumerate(row_groups(folder, name)):
-                frame = piece.to_pandas(types_mapper={pa.int64(): pd.Int64Dtype()}.get)  # "33", not "33.0", beside none
+            for number, group in enumerate(row_groups(folder, name)):
+                frame = group.to_pandas(types_mapper={pa.int64(): pd.Int64Dtype()}.get)  # "33", not "33.0", beside none
                 for text in texts:
                     frame[text] = frame[text].map(_harmless, na_action="ignore")
                 frame.to_csv(file, index=False, header=number == 0, lineterminator="\n")

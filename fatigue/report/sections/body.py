@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.report import figures, wording
 from fatigue.report.figures.scene import BodyOutline
-from fatigue.report.result import Result
+from fatigue.report.result import ShownResult
 from fatigue.report.sections.embed import Figures, Shown, embedded, packed
 from fatigue.report.sections.why import Why, band_shares
 
@@ -18,14 +18,14 @@ WELDS_DRAWN, STRIPS_DRAWN, CAUSES_DRAWN = 30, 60, 20
 PROBED = ("arc_length_mm", "life_km", "load_factor", "dirlik_ratio", "max_range_MPa")
 
 
-def lives(result: Result, figs: Figures) -> Shown:
+def lives(result: ShownResult, figs: Figures) -> Shown:
     """Draw the lives of the welds against the target."""
     fig = figures.weld_lives(result.assessed, result.target_km, WELDS_DRAWN)
     caption = "Life of the worst point of each weld against the target" + _those_drawn(result, WELDS_DRAWN)
     return figs.add("lives", fig, caption)
 
 
-def where(result: Result, body: BodyOutline | None, links: Mapping[str, str], figs: Figures) -> dict[str, Any]:
+def where(result: ShownResult, body: BodyOutline | None, links: Mapping[str, str], figs: Figures) -> dict[str, Any]:
     """Draw the weld lines in space, on paper and unrolled; with the data behind a click in space."""
     stations = figures.worst_faces(result.nodes)
     welds = result.assessed
@@ -45,7 +45,7 @@ def where(result: Result, body: BodyOutline | None, links: Mapping[str, str], fi
     }
 
 
-def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, links: Mapping[str, str]) -> Markup:
+def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: ShownResult, links: Mapping[str, str]) -> Markup:
     """What a click in the scene shows and what its lines can be coloured by, packed in the order of drawing."""
     drawn = stations.iloc[np.maximum(rows, 0)]  # nobody asks for what stands at the gaps between the lines
     welds, events = list(result.assessed["weld"]), [event["event"] for event in result.events]
@@ -71,7 +71,7 @@ def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: Result, link
     )
 
 
-def causes(result: Result, why: Why | None, figs: Figures) -> dict[str, Shown | None]:
+def causes(result: ShownResult, why: Why | None, figs: Figures) -> dict[str, Shown | None]:
     """Draw the events that damage the worst points and, after a diagnosis, the frequency bands."""
     shares = event_shares(result).head(CAUSES_DRAWN)
     weights = {
@@ -95,7 +95,7 @@ def causes(result: Result, why: Why | None, figs: Figures) -> dict[str, Shown | 
     return {"events_figure": events, "bands": figs.add("bands", fig, caption)}
 
 
-def event_shares(result: Result) -> pd.DataFrame:
+def event_shares(result: ShownResult) -> pd.DataFrame:
     """Share of each event in the damage of each detailed weld's worst point, welds worst first; damaged ones only."""
     weighted = result.damage["damage_per_pass"] * result.damage["event"].map(result.passes_per_km)
     table = result.damage.assign(weighted=weighted).pivot_table(index="weld", columns="event", values="weighted")
@@ -104,7 +104,7 @@ def event_shares(result: Result) -> pd.DataFrame:
     return table[total > 0.0].div(total[total > 0.0], axis=0)
 
 
-def domains(result: Result, figs: Figures) -> dict[str, Any]:
+def domains(result: ShownResult, figs: Figures) -> dict[str, Any]:
     """Compare time and frequency domain at all points; nothing where no event has a spectrum."""
     ratio, drawn = result.domains.ratio, result.domains.drawn
     if not len(ratio):
@@ -132,7 +132,7 @@ def domains(result: Result, figs: Figures) -> dict[str, Any]:
     }
 
 
-def _those_drawn(result: Result, drawn: int) -> str:
+def _those_drawn(result: ShownResult, drawn: int) -> str:
     """Words for a caption where only the worst welds are drawn."""
     total = len(result.assessed)
     return f", the {drawn} worst of {total} welds" if total > drawn else ""

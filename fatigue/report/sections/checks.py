@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fatigue.report.result import Result
+from fatigue.report.result import ShownResult
 from fatigue.report.variants import assumptions_of, damage_per_km, how_often
 
 AGREES = 1e-6
@@ -21,7 +21,7 @@ class Recomputed:
         return self.difference <= AGREES
 
 
-def recomputed(result: Result) -> list[Recomputed]:
+def recomputed(result: ShownResult) -> list[Recomputed]:
     """Damage of every detailed weld's worst point, recomputed from its cycles and from the damage of its events."""
     from_cycles, from_events = [0.0], [0.0]
     welds = result.assessed.set_index("weld")

@@ -7,10 +7,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.report import signals
+from fatigue.report import stress
 from fatigue.report.inputs import FoundInputs
-from fatigue.report.result import Result
-from fatigue.report.signals import Envelope, EventRecord, Excerpt, StressSpectrum
+from fatigue.report.result import ShownResult
+from fatigue.report.stress import Envelope, EventRecord, Excerpt, StressSpectrum
+from fatigue.spectrum.moments import default_upper_hz
 
 COMPONENTS = {
     "membrane": "membrane_MPa",
@@ -51,7 +52,7 @@ class _DetailedWeld:
     largest: tuple[float, float] | None
 
 
-def weld_details(result: Result, inputs: FoundInputs) -> tuple[dict[str, Detail], dict[str, float]]:
+def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, Detail], dict[str, float]]:
     """Details of each weld shown in detail, and the time step of each record [s]; one event is in memory at a time.
 
     Raises
@@ -62,11 +63,11 @@ def weld_details(result: Result, inputs: FoundInputs) -> tuple[dict[str, Detail]
     details = {weld: Detail() for weld in welds}
     steps = {}
     for event in inputs.case.mission.event:
-        record = signals.prepared(inputs.history(event), event.stress_factor)
+        record = stress.event_record(inputs.history(event), event.stress_factor)
         steps[event.name] = record.history.step
         upper = upper_hz(result, inputs, record.history.step)
         for name, weld in welds.items():
-            spectrum = signals.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
+            spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
             if spectrum is not None:
                 details[name].spectra.append(spectrum)
             if weld.governing_event == event.name:
@@ -74,26 +75,26 @@ def weld_details(result: Result, inputs: FoundInputs) -> tuple[dict[str, Detail]
     return details, steps
 
 
-def upper_hz(result: Result, inputs: FoundInputs, step: float) -> float:
+def upper_hz(result: ShownResult, inputs: FoundInputs, step: float) -> float:
     """Upper frequency of the spectra [Hz], by the rule of the assessment."""
     if inputs.case.spectrum.upper_hz is not None:
         return inputs.case.spectrum.upper_hz
     modes = result.record["modes"]
     normal = [f for f, kind in zip(modes["frequency_hz"], modes["kind"], strict=True) if kind == "normal"]
-    return float(min(0.4 / step, 1.5 * max(normal, default=np.inf)))
+    return default_upper_hz(step, max(normal, default=None))
 
 
 def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> None:
     """Add what is shown of the governing event: stresses along the line, the share of the modes, the history."""
-    detail.deviation = {name: signals.deviations(record, modal_stress) for name, modal_stress in weld.stations.items()}
-    detail.variance_share = signals.variance_shares(record, weld.worst)
-    detail.envelope = signals.envelope(record, weld.worst)
-    dominant = np.argsort(-np.abs(detail.variance_share), kind="stable")[: signals.DOMINANT_MODES]
+    detail.deviation = {name: stress.deviations(record, modal_stress) for name, modal_stress in weld.stations.items()}
+    detail.variance_share = stress.variance_shares(record, weld.worst)
+    detail.envelope = stress.envelope(record, weld.worst)
+    dominant = np.argsort(-np.abs(detail.variance_share), kind="stable")[: stress.DOMINANT_MODES]
     if weld.largest is not None:
-        detail.excerpts = signals.excerpts(record, weld.worst, *weld.largest, dominant.tolist())
+        detail.excerpts = stress.excerpts(record, weld.worst, *weld.largest, dominant.tolist())
 
 
-def _welds(result: Result) -> dict[str, _DetailedWeld]:
+def _welds(result: ShownResult) -> dict[str, _DetailedWeld]:
     governing = result.assessed.set_index("weld")["governing_event"]
     welds = {}
     for name, (stations, modal_stress) in result.modal_stress(list(COMPONENTS.values())).items():

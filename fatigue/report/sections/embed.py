@@ -25,16 +25,21 @@ class Shown:
 
 @dataclass(slots=True)
 class Figures:
-    """Numbers the figures of a page in the order in which they are added."""
+    """Numbers the figures of a page in the order in which they are added; their ids begin with ``prefix``."""
 
     shown: list[Shown] = field(default_factory=list)
+    prefix: str = ""
+
+    def under(self, prefix: str) -> "Figures":
+        """The same figures, numbered on; the ids of those to come begin with the prefix."""
+        return Figures(self.shown, prefix)
 
     def add(self, id_: str, fig: go.Figure, caption: str, *, wide: bool = False) -> Shown:
         """Figure as the page shows it; the template that all share is in the page once and not in each."""
         content = json.loads(fig.to_json(remove_uids=True))
         content["layout"].pop("template")
         height = int(content["layout"].pop("height"))
-        shown = Shown(id_, len(self.shown) + 1, caption, height, embedded(content), wide)
+        shown = Shown(self.prefix + id_, len(self.shown) + 1, caption, height, embedded(content), wide)
         self.shown.append(shown)
         return shown
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
-from fatigue.report.result import Result
+from fatigue.report.result import ShownResult
 from fatigue.report.sections import weld_tables
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.details import Detail
@@ -42,7 +42,9 @@ class WeldPage:
     bounded: int
 
 
-def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str) -> WeldPage:
+def weld_page(
+    result: ShownResult, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str
+) -> WeldPage:
     """All that is shown of one weld; ``detail`` is None where the records were not found."""
     row = result.assessed.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
@@ -51,17 +53,18 @@ def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None,
     event = None if pd.isna(row["governing_event"]) else str(row["governing_event"])
     why = None if why is None else why.of_weld(weld)
 
+    figs = figs.under(f"{id_}-")
     points = result.nodes[result.nodes["weld"] == weld]
     stress = detail.deviation if detail is not None and detail.deviation else None
     line = figures.along_weld(points, result.target_km, stress, wording.in_figure(event or ""))
-    along = figs.add(f"{id_}-along", line, f"{wording.short(weld)}: life, load factor and stress along the weld")
+    along = figs.add("along", line, f"{wording.short(weld)}: life, load factor and stress along the weld")
     shown: list[Shown] = []
     if len(cycles) and cycles["range_MPa"].max() > 0.0:
-        shown += _cycle_figures(result, weld, cycles, used, figs, id_)
+        shown += _cycle_figures(result, weld, cycles, used, figs)
     if detail is not None:
-        shown += _record_figures(result, detail, event, figs, id_, modes_too=why is None)
+        shown += _record_figures(result, detail, event, figs, modes_too=why is None)
     if why is not None and event is not None:
-        shown += _why_figures(result, why, event, figs, id_)
+        shown += _why_figures(result, why, event, figs)
     return WeldPage(
         id=id_,
         name=weld,
@@ -87,7 +90,7 @@ def weld_page(result: Result, weld: str, detail: Detail | None, why: Why | None,
 
 
 def _cycle_figures(
-    result: Result, weld: str, cycles: pd.DataFrame, used: Assumptions, figs: Figures, id_: str
+    result: ShownResult, weld: str, cycles: pd.DataFrame, used: Assumptions, figs: Figures
 ) -> list[Shown]:
     per_km = how_often(cycles, result.passes_per_km)
     laws = {
@@ -105,20 +108,18 @@ def _cycle_figures(
     of_target = f"{name}: S-N curve and the cycles of {wording.km(result.target_km)}"
     return [
         figs.add(
-            f"{id_}-matrix",
+            "matrix",
             figures.rainflow_matrices(cycles, per_km),
             f"{name}: rainflow matrix and damage matrix",
             wide=True,
         ),
-        figs.add(
-            f"{id_}-exceedance", figures.exceedance(cycles, result.passes_per_km), f"{name}: stress ranges in 1e6 km"
-        ),
-        figs.add(f"{id_}-sn", spectrum, of_target),
+        figs.add("exceedance", figures.exceedance(cycles, result.passes_per_km), f"{name}: stress ranges in 1e6 km"),
+        figs.add("sn", spectrum, of_target),
     ]
 
 
 def _record_figures(
-    result: Result, detail: Detail, event: str | None, figs: Figures, id_: str, *, modes_too: bool
+    result: ShownResult, detail: Detail, event: str | None, figs: Figures, *, modes_too: bool
 ) -> list[Shown]:
     """Figures of the records, none where nothing damages; with the modes' shares of the variance if asked."""
     if event is None or detail.envelope is None or detail.variance_share is None:
@@ -128,39 +129,39 @@ def _record_figures(
     history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
     close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
     caption = f"Stress in event {wording.short(event)}{close_by}"
-    shown = [figs.add(f"{id_}-history", history, caption, wide=True)]
+    shown = [figs.add("history", history, caption, wide=True)]
     leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
     parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}
     if modes_too:
         title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
         bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
-        shown.append(figs.add(f"{id_}-modes", bars, "Modes in the stress of the worst point"))
+        shown.append(figs.add("modes", bars, "Modes in the stress of the worst point"))
     if detail.spectra:
         drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
         marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
         spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:MODES_MARKED]), event)
         caption = "Stress spectrum, the leading normal modes, and where the variance lies"
-        shown.append(figs.add(f"{id_}-psd", spectrum, caption))
+        shown.append(figs.add("psd", spectrum, caption))
     return shown
 
 
-def _why_figures(result: Result, why: Why, event: str, figs: Figures, id_: str) -> list[Shown]:
+def _why_figures(result: ShownResult, why: Why, event: str, figs: Figures) -> list[Shown]:
     """Figures of the modes, frequency bands and places that make the damage of a weld's worst point."""
     names, natural = _mode_names(result.record["modes"])
     shown = []
     modes = mode_shares(why).head(MODES_DRAWN)
     title = "share of the damage, all events [%]"
     bars = figures.shares([names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), title)
-    shown.append(figs.add(f"{id_}-damage-modes", bars, "Damage by mode; a negative share relieves"))
+    shown.append(figs.add("damage-modes", bars, "Damage by mode; a negative share relieves"))
     bands = band_shares(why)
     if len(bands) > 1:
         marked = [natural[mode] for mode in modes["mode"][:MODES_MARKED] if mode in natural]
         caption = "Damage by frequency band; dotted: the leading normal modes"
-        shown.append(figs.add(f"{id_}-damage-bands", figures.damage_by_band(bands, marked), caption))
+        shown.append(figs.add("damage-bands", figures.damage_by_band(bands, marked), caption))
     track = why.track[why.track["event"] == event]
     if len(track) > 1:
         caption = f"Where in event {wording.short(event)} the damage is made"
-        shown.append(figs.add(f"{id_}-track", figures.damage_on_track(track), caption))
+        shown.append(figs.add("track", figures.damage_on_track(track), caption))
     return shown
 
 

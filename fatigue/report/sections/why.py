@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fatigue.report.result import Result, rows_of_worst_points
+from fatigue.report.result import ShownResult, rows_of_worst_points
 
 TABLES = ("attribution", "track", "diagnosis", "levers")
 
@@ -34,7 +34,7 @@ class Why:
         return [(str(event), str(verdict), str(reason)) for event, verdict, reason in rows.itertuples(index=False)]
 
 
-def read_why(folder: Path, result: Result) -> Why | None:
+def read_why(folder: Path, result: ShownResult) -> Why | None:
     """Tables of a diagnosis, read; None where the result was not diagnosed."""
     if not all((folder / f"{name}.parquet").is_file() for name in TABLES):
         return None

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.rule import CycleRule, ratio_factor
-from fatigue.pipeline.mission.event_load import prepare_event
+from fatigue.pipeline.mission.event_load import HowCounted, prepare_event
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.spectrum.methods import dirlik_damage_rate
 from fatigue.spectrum.moments import segment_spectra
@@ -40,7 +40,7 @@ def modal_stress(seed=1, stations=3, modes=4, rule=ALUMINIUM):
 
 def load(history, residue="repeat", stress_factor=1.0, segment_s=1.0):
     """Prepare an event with its spectrum."""
-    return prepare_event(history, residue, stress_factor, 1, segment_spectra(history, segment_s, 100.0), 40.0)
+    return prepare_event(history, HowCounted(residue, stress_factor), segment_spectra(history, segment_s, 100.0), 40.0)
 
 
 def test_statistics_are_those_of_the_recovered_stress():
@@ -166,7 +166,7 @@ def test_a_constant_record_does_nothing():
 def test_a_record_without_spectrum_has_no_estimate():
     """Shorter than a segment: NaN, not zero."""
     history = record(samples=50)
-    found = assess_event_block(modal_stress(), prepare_event(history, "half", 1.0, 1, None, None))
+    found = assess_event_block(modal_stress(), prepare_event(history, HowCounted("half"), None, None))
     assert np.isnan(found.estimate.dirlik).all()
     assert np.isnan(found.estimate.peaks_per_s).all()
     assert (found.count.damage > 0.0).all()
@@ -191,7 +191,9 @@ def test_the_kernel_of_large_jobs_gives_the_same_block(residue):
     S = modal_stress(stations=40, rule=CycleRule(LAW, uses_bending_ratio=True, yield_MPa=300.0))
     spectra = segment_spectra(history, 1.0, 100.0)
     double, single = (
-        numbers_of(assess_event_block(S, prepare_event(history, residue, 1.2, 1, spectra, 40.0, single=single)))
+        numbers_of(
+            assess_event_block(S, prepare_event(history, HowCounted(residue, 1.2, single=single), spectra, 40.0))
+        )
         for single in (False, True)
     )
     for name, expected in double.items():

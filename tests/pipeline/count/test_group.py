@@ -7,8 +7,8 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.pipeline.count.result import GroupResult, arrays_of
-from fatigue.pipeline.mission.events import mission_plan
-from fatigue.pipeline.run.work import Counted, open_work
+from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.run.work import ScreeningOptions, open_work
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.weld_groups import one_group
 from tests.small_case import small_case
@@ -22,7 +22,7 @@ def result_with(curves, folder):
     case.welds = case.welds.assign(curve=curves)
     body = read_body(load_case(case.write(folder)), strict=False)
     plan, _ = mission_plan(body)
-    work = open_work(one_group(body, folder), plan, Counted(0.0), folder, threads=1)
+    work = open_work(one_group(body, folder), plan, ScreeningOptions(0.0), folder, threads=1)
     return work.group(0)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.pipeline.count.result import GroupResult, arrays_of
-from fatigue.pipeline.run.checkpoint import Checkpoint, locked, replacing, state_key
+from fatigue.pipeline.run.checkpoint import Checkpoint, replacing, state_key
 
 
 def finished(value=1.0):
@@ -93,22 +93,3 @@ def test_replacing_is_all_or_nothing(tmp_path):
         raise ValueError("stop")
     assert [p.name for p in tmp_path.iterdir()] == ["x"]
     assert final.read_text() == "old"
-
-
-def test_lock_is_exclusive_and_goes_away(tmp_path):
-    """One run at a time; the folder is free again afterwards, and gone if it was made for nothing."""
-    folder = tmp_path / "result"
-    with locked(folder), pytest.raises(DataError, match="another run is writing to this folder"), locked(folder):
-        pass
-    assert not folder.exists()
-    folder.mkdir()
-    with locked(folder):
-        pass
-    assert folder.exists()
-
-
-def test_a_folder_that_cannot_be_made_is_named(tmp_path):
-    """The parent is a file."""
-    (tmp_path / "file").write_text("")
-    with pytest.raises(DataError, match="cannot be written"), locked(tmp_path / "file" / "result"):
-        pass

@@ -18,7 +18,7 @@ POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
 
 def kept(model):
     """What the cycles of the points need."""
-    return [cycles.kept_point(model.stations, model.curve_of_weld, point) for point in POINTS]
+    return [cycles.kept_point(model, point) for point in POINTS]
 
 
 class OnlySlices:

@@ -4,9 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fatigue.report import figures
 from fatigue.report.page import report_page
 from fatigue.report.result import read_result
-from fatigue.report.sections.why import band_shares, exponents, mode_shares, read_why
+from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares, read_why
 from tests.report.reading import Page, values
 from tests.report.tiny_result import MODES, write_result
 
@@ -126,3 +127,19 @@ def test_reasons_are_words_and_no_markup(diagnosed_page):
     """The verdict of each event with its reason, as text."""
     assert "tangent : non stationary" in diagnosed_page.words
     assert REASON in diagnosed_page.words
+
+
+def test_events_without_bands_stay_out_of_the_picture():
+    """A two-sample event has one band without ends: it is no bar, and the others keep their shares."""
+    attribution = pd.DataFrame(
+        {
+            "kind": ["band"] * 4,
+            "event": ["noise"] * 3 + ["load"],
+            "low_hz": [0.0, 5.0, 20.0, 0.0],
+            "high_hz": [5.0, 20.0, None, None],
+            "share": [0.2, 0.5, 0.2, 0.1],
+        }
+    )
+    bands = band_shares(Why(**dict.fromkeys(Why.__dataclass_fields__, attribution)))
+    assert bands["share"].tolist() == pytest.approx([0.2, 0.5, 0.2])
+    assert len(figures.damage_by_band(bands).data[0].x) == 3

@@ -56,8 +56,8 @@ class Envelope:
     high: NDArray[np.float64]
 
 
-def prepared(history: ModalHistory, stress_factor: float) -> EventRecord:
-    """Record with its stress factor, and the mean and covariance of its modal coordinates."""
+def event_record(history: ModalHistory, stress_factor: float) -> EventRecord:
+    """Record of an event with its stress factor, and the mean and covariance of its modal coordinates."""
     mean, covariance = mean_and_covariance(history.q)
     return EventRecord(history, stress_factor, mean, stress_factor**2 * covariance)
 

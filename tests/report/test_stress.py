@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import welch
 
 from fatigue.life.records.history import ModalHistory
-from fatigue.report import signals
+from fatigue.report import stress
 
 STEP = 0.004
 
@@ -18,13 +18,13 @@ def history():
     return ModalHistory("run", np.array([3, 5, 8]), q, STEP, 10.0)
 
 
-SHAPE = np.array([2.0, 4.0, 1.0])
+MODAL_STRESS = np.array([2.0, 4.0, 1.0])
 
 
 def test_the_spectrum_is_that_of_the_stress(history):
     """Welch's method on the recovered stress gives the same density."""
-    found = signals.spectrum(signals.prepared(history, 1.5), SHAPE, 2.0, 100.0)
-    frequency, density = welch(1.5 * SHAPE @ history.q, 1 / STEP, nperseg=500, detrend="constant")
+    found = stress.spectrum(stress.event_record(history, 1.5), MODAL_STRESS, 2.0, 100.0)
+    frequency, density = welch(1.5 * MODAL_STRESS @ history.q, 1 / STEP, nperseg=500, detrend="constant")
     kept = frequency <= 100.0
     np.testing.assert_allclose(found.frequency, frequency[kept])
     np.testing.assert_allclose(found.density, density[kept], rtol=1e-9, atol=1e-12)
@@ -32,48 +32,48 @@ def test_the_spectrum_is_that_of_the_stress(history):
 
 def test_a_short_record_has_no_spectrum(history):
     """Shorter than one segment: none, and no error."""
-    assert signals.spectrum(signals.prepared(history, 1.0), SHAPE, 30.0, 100.0) is None
+    assert stress.spectrum(stress.event_record(history, 1.0), MODAL_STRESS, 30.0, 100.0) is None
 
 
 def test_shares_of_the_variance_sum_to_one(history):
     """Two sines share as their squares; what stands still has no share."""
-    shares = signals.variance_shares(signals.prepared(history, 2.0), SHAPE)
+    shares = stress.variance_shares(stress.event_record(history, 2.0), MODAL_STRESS)
     assert shares.sum() == pytest.approx(1.0)
     np.testing.assert_allclose(shares, [0.5, 0.5, 0.0], atol=2e-3)
 
 
 def test_shares_of_nothing_are_not_numbers(history):
     """A point whose stress does not vary has no shares."""
-    assert np.isnan(signals.variance_shares(signals.prepared(history, 1.0), np.array([0.0, 0.0, 1.0]))).all()
+    assert np.isnan(stress.variance_shares(stress.event_record(history, 1.0), np.array([0.0, 0.0, 1.0]))).all()
 
 
 def test_deviations_are_those_of_the_stress(history):
     """Standard deviation along the line from the covariance of the modes."""
-    shapes = np.array([SHAPE, 0.5 * SHAPE, [0.0, 0.0, 1.0]])
-    found = signals.deviations(signals.prepared(history, 1.0), shapes)
-    np.testing.assert_allclose(found, (shapes @ history.q).std(axis=1), atol=1e-12)
+    modal_stress = np.array([MODAL_STRESS, 0.5 * MODAL_STRESS, [0.0, 0.0, 1.0]])
+    found = stress.deviations(stress.event_record(history, 1.0), modal_stress)
+    np.testing.assert_allclose(found, (modal_stress @ history.q).std(axis=1), atol=1e-12)
 
 
 def test_a_short_cycle_has_one_close_up(history):
     """Both instants in one window, at their file times, with the stress there."""
-    record = signals.prepared(history, 1.0)
-    (found,) = signals.excerpts(record, SHAPE, 12.0, 12.2, [0, 1])
+    record = stress.event_record(history, 1.0)
+    (found,) = stress.excerpts(record, MODAL_STRESS, 12.0, 12.2, [0, 1])
     np.testing.assert_allclose(found.instants, [12.0, 12.2])
-    np.testing.assert_allclose(found.stress, (SHAPE @ history.q)[425:626])
+    np.testing.assert_allclose(found.stress, (MODAL_STRESS @ history.q)[425:626])
     np.testing.assert_allclose(found.time[[0, -1]], [11.7, 12.5])
     assert list(found.parts) == [3, 5]
 
 
 def test_a_long_or_wrapped_cycle_has_two_close_ups(history):
     """One around each instant, the earlier first, cut at the ends of the record."""
-    found = signals.excerpts(signals.prepared(history, 1.0), SHAPE, 29.99, 10.0, [0])
+    found = stress.excerpts(stress.event_record(history, 1.0), MODAL_STRESS, 29.99, 10.0, [0])
     assert [round(e.instants[0], 3) for e in found] == [10.0, 29.988]
     assert [len(e.time) for e in found] == [76, 78]
 
 
 def test_the_envelope_holds_every_extreme(history):
     """The largest and smallest stress of the record are in it."""
-    found = signals.envelope(signals.prepared(history, 1.0), SHAPE)
-    stress = SHAPE @ history.q
+    found = stress.envelope(stress.event_record(history, 1.0), MODAL_STRESS)
+    whole = MODAL_STRESS @ history.q
     assert len(found.time) == 600
-    assert (found.low.min(), found.high.max()) == (stress.min(), stress.max())
+    assert (found.low.min(), found.high.max()) == (whole.min(), whole.max())

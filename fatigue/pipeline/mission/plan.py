@@ -1,0 +1,97 @@
+"""The mission in numbers: how long each record is and how often it is passed, once every record has been checked."""
+
+from fatigue.case import Case, Event, check_distance, event_length_km
+from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
+from fatigue.life.mission import Pass, Plan
+from fatigue.life.records.history import first_kept
+from fatigue.pipeline.mission.record_units import step_problems, step_warnings
+from fatigue.pipeline.solve.body import Body
+from fatigue.readers.neutral.history import TimeGrid, check_history
+from fatigue.side_by_side import in_order
+from fatigue.spectrum.moments import segment_count
+
+FEW_SEGMENTS = 8  # below, the spectrum is an estimate from too little
+
+
+def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
+    """The mission in numbers, and the warnings about its records, each of which is read and checked.
+
+    The records are read on some threads, by default one per processor core, and a column of each is in memory.
+    """
+    mission = body.case.mission
+    warnings: list[Problem] = []
+    problems: list[Problem] = []
+    passes: list[Pass] = []
+    for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
+        if isinstance(checked, FatigueError):
+            problems += checked.problems
+        else:
+            passes.append(checked[0])
+            warnings += checked[1]
+    refuse(DataError, problems)
+    return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
+
+
+def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
+    """The passes of an event and the warnings about its record, or what is wrong with the record."""
+    case = body.case
+    path = case.resolve(event.history)
+    try:
+        grid, warnings = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
+        refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
+        samples = _kept_samples(case, event, grid)
+    except FatigueError as error:
+        return error
+    one = Pass(
+        event=event.name,
+        samples=samples,
+        length=event_length_km(event, samples * grid.step),
+        share=event.share,
+        per_1000_km=event.per_1000_km,
+    )
+    warnings += step_warnings(grid, body.modes, path.name, event.name)
+    return one, warnings + _record_warnings(body, event, samples, grid.step)
+
+
+def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
+    """Number of samples behind the start-up of a record, whose length is checked."""
+    where = f"{case.path.name}: mission.event '{event.name}'"
+    samples = max(0, grid.samples - first_kept(grid.step, event.start_s))
+    if samples < 2:
+        raise CaseError(
+            Problem(
+                "short_record",
+                f"{where}: start_s",
+                f"start_s = {event.start_s:g} leaves {samples} samples of {case.resolve(event.history).name}, which "
+                f"lasts {grid.samples * grid.step:g} s",
+                "Cut less, or record longer",
+            )
+        )
+    check_distance(event, samples * grid.step, where)
+    return samples
+
+
+def _record_warnings(body: Body, event: Event, samples: int, step: float) -> list[Problem]:
+    where = f"event '{event.name}'"
+    segment_s = body.case.spectrum.segment_s
+    segments = segment_count(samples, step, segment_s)
+    if segments == 0:
+        return [
+            Problem(
+                "no_spectrum",
+                where,
+                f"the record of {samples * step:g} s has no spectral segment of {segment_s:g} s (at least four "
+                "samples), so there is no frequency-domain estimate",
+                "Record longer or shorten segment_s if you need one",
+            )
+        ]
+    if segments < FEW_SEGMENTS:
+        return [
+            Problem(
+                "few_segments",
+                where,
+                f"the spectrum is an average of {segments} segments of {segment_s:g} s",
+                f"Record longer, or shorten segment_s to get {FEW_SEGMENTS} segments or more",
+            )
+        ]
+    return []
