@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.pipeline.run.checkpoint import settle_folder
 from fatigue.results import JOURNAL, read_provenance, strangers
 from fatigue.results.folder import stale_files
+from fatigue.results.lock import settle_folder
 from fatigue.results.publish import publish
 
 
