@@ -12,7 +12,7 @@ r is its bending ratio, f_M its mean-stress factor, C and h belong to the materi
 Other S-N curves have the same form: a factor of the thickness, no I(r), and several segments d = x^k / A, k = 1 / h.
 
 Functions that take numbers as well as arrays are also compiled as they stand, for the counters. After a change here the
-counters are to be compiled anew, see ``fatigue.compiled``.
+counters are compiled anew, see ``fatigue.compiled``.
 """
 
 from dataclasses import dataclass

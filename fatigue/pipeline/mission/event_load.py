@@ -94,7 +94,7 @@ def prepare_event(
     known = (mean, covariance) if counted is history else None
     return EventLoad(
         counted=counted,
-        single=fast_record(counted.q, scratch, known) if how.single else None,
+        single=kept_single_record(counted.q, scratch, known) if how.single else None,
         residue=how.residue,
         stress_factor=how.stress_factor,
         duration=history.duration,
@@ -108,7 +108,7 @@ def prepare_event(
     )
 
 
-def fast_record(
+def kept_single_record(
     q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
 ) -> SingleRecord:
     """Modal coordinates prepared for the kernel in single precision.

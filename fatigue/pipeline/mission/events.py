@@ -32,7 +32,7 @@ log = logging.getLogger(__name__)
 
 SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
 LARGEST_UPSAMPLE = 64
-DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (1e-7 of damage)
+DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (3e-7 of damage)
 RECORD = "record"  # file of the samples as they were read
 HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
 

@@ -11,7 +11,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.bounds import Screening
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
-from fatigue.pipeline.mission.event_load import EventLoad, fast_record
+from fatigue.pipeline.mission.event_load import EventLoad, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.run.checkpoint import state_key
 from fatigue.pipeline.solve.body import conversion_file, register_file
@@ -79,7 +79,7 @@ def screening_of(
         proves_worst=proves_worst,
         extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue, load.known), loads, threads)),
         records=tuple(
-            in_order(lambda load: load.single or fast_record(load.counted.q, scratch, load.known), loads, threads)
+            in_order(lambda load: load.single or kept_single_record(load.counted.q, scratch, load.known), loads, threads)
         ),
     )
 

@@ -7,7 +7,8 @@ from fatigue.readers.text.layout import TableLayout
 
 _SUFFIXES = ("s", "mm", "n", "nmm", "hz", "mpa", "km")
 _SPELLINGS = {"sec": "s", "second": "s", "seconds": "s", "sek": "s", "newton": "n", "millimeter": "mm"}
-_COORDINATE = ("mm", "mm*sqrt(t)", "mm*t^0.5", "sqrt(t)*mm", "t^0.5*mm", "t^0.5mm", "mmsqrt(t)")
+_ROOTS = ("sqrt(t)", "√t", "√(t)", "t^0.5", "t^(1/2)", "t^1/2", "t½")  # of the mass in t
+_COORDINATE = ("mm", *(f"mm{root}" for root in _ROOTS), *(f"{root}mm" for root in _ROOTS))
 
 
 def column_unit(name: str) -> str:
@@ -42,7 +43,7 @@ def stated_unit_problem(where: str, column: str, unit: str) -> Problem | None:
 
     None where they agree.
     """
-    stated = re.sub(r"[\s.·]", "", unit.strip("[]()<> ")).lower()
+    stated = _plain(unit)
     stated = _SPELLINGS.get(stated, stated)
     own = column_unit(column)
     is_coordinate = re.fullmatch(r"\s*q_-?\d+\s*", column) is not None
@@ -53,3 +54,13 @@ def stated_unit_problem(where: str, column: str, unit: str) -> Problem | None:
         remedy = f"Convert the values to {own or 'the units N, mm, t, s'}, or bring them in by `fatigue convert`"
         return Problem("unit", where, f"the unit is {unit}, and the column is one of {means}", remedy)
     return Problem("unit_unused", where, f"the unit {unit} is not used", "Remove it, or check the values")
+
+
+def _plain(unit: str) -> str:
+    """The unit in small letters without outer brackets, blanks, signs of multiplication and dots of abbreviations."""
+    plain = re.sub(r"[\s*·⋅]|(?<!\d)\.|\.(?!\d)", "", unit.lower().replace("**", "^")).strip("[]<>")
+    if plain.count("(") != plain.count(")"):
+        plain = plain.strip("()")
+    while plain.startswith("(") and plain.endswith(")"):
+        plain = plain[1:-1]
+    return plain

@@ -70,7 +70,7 @@ def test_automatic_upsampling_reaches_twenty_samples_per_peak(tmp_path):
 
 @pytest.mark.parametrize("upsample", [1, 2, "auto"])
 def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypatch, upsample):
-    """Statistics, spectra and trust to 1e-12, for the fast kernel too; the counted samples exactly."""
+    """Statistics, spectra and trust to 1e-12, in single precision too; the counted samples exactly."""
     case = small_case()
     case.counting["upsample"] = upsample
     body = body_of(case, tmp_path / "case")
