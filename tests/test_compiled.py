@@ -27,13 +27,52 @@ for kernel, samples in (("single", 0.0), ("double", 1e12)):
         print(kernel, table, hashlib.sha256((folder / kernel / f"{table}.parquet").read_bytes()).hexdigest())
 """
 
+SUMS = """
+import hashlib
+import numpy as np
+from fatigue.life.bounds.forms import FormPair, part_forms
+from fatigue.life.bounds.screening import _of_modal_stresses
+from fatigue.life.bounds.weld_sums import combined, room_for_histories, sums_in_time
+from fatigue.life.counting.block import BlockStress
+from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.single.count import count_single
+from fatigue.life.counting.single.kernels.power import add_up
+from fatigue.life.counting.single.prepare import single_record
+from fatigue.life.curves import catalogue, damage_law
+from fatigue.life.rule import CycleRule
+from fatigue.weld.edge_type import _dots
 
-def test_the_process_that_compiles_writes_the_same_bytes_as_those_after_it(tmp_path):
-    """Counting in single and in double precision, with bounds; the second process reads compiled code from disk."""
+rng = np.random.default_rng(7)
+n, m, t = 50, 13, 2011
+q, (S_m, S_b) = rng.normal(size=(m, t)), rng.normal(size=(2, n, m))
+record = CountedRecord(q, "repeat", single_record(q))
+rule = CycleRule(damage_law(catalogue()["master-steel"], "mean-2sigma", "none", 1e7), uses_bending_ratio=True)
+count = count_single(BlockStress(S_m, S_b, np.ones(n), np.zeros((n, 2))), record, rule)
+welds = combined([rng.normal(size=(h, m)) for h in (3, 5)], [rng.normal(size=(30, h)) for h in (3, 5)])
+dots = np.empty((3, n))
+_dots(S_m, np.roll(np.arange(n), 1), np.roll(np.arange(n), -1), dots)
+sums = {
+    "count": [count.damage, count.power_sum],
+    "weld sums": sums_in_time(welds, record.single.q, t, room_for_histories(8), recurs=True),
+    "forms": [part_forms(S_m, S_b, FormPair(rng.normal(size=(m, m)), rng.random((m, 2)), np.ones(m), np.ones(2)))],
+    "sizes": [_of_modal_stresses(S_m, S_b, rng.random((4, m)))],
+    "dots": [dots],
+}
+for precision in (np.float32, np.float64):
+    power, damage = rng.lognormal(size=(2, 1024)).astype(precision)
+    sums[f"add_up {precision.__name__}"] = [np.array(add_up(power, damage, k)) for k in range(1000)]
+for name, found in sums.items():
+    print(name, hashlib.sha256(b"".join(np.asarray(a).tobytes() for a in found)).hexdigest())
+"""
+
+
+@pytest.mark.parametrize(("script", "lines"), [(SCRIPT, 10), (SUMS, 7)], ids=["tables", "sums"])
+def test_the_process_that_compiles_writes_the_same_bytes_as_those_after_it(tmp_path, script, lines):
+    """Tables of both counters, with bounds; sums one by one; the second process reads compiled code from disk."""
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "machine-code")}
     first, second = (
         subprocess.run(
-            [sys.executable, "-c", SCRIPT, str(tmp_path / name)],
+            [sys.executable, "-c", script, str(tmp_path / name)],
             env=environment,
             capture_output=True,
             text=True,
@@ -41,7 +80,7 @@ def test_the_process_that_compiles_writes_the_same_bytes_as_those_after_it(tmp_p
         ).stdout
         for name in ("first", "second")
     )
-    assert len(first.splitlines()) == 10
+    assert len(first.splitlines()) == lines
     assert first == second
 
 

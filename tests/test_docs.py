@@ -175,6 +175,15 @@ def test_equations_are_numbered_and_cited():
     assert cited <= set(numbers)
 
 
+def test_a_formula_cites_its_equation_where_it_stands():
+    """The docstring of the function that an equation names has the number of the equation."""
+    named = re.findall(r"^\*\*Eq\. (\d+), [^*]+\*\* \(`([\w.]+)`\)", read(THEORY), re.MULTILINE)
+    assert len(named) > 15
+    for number, place in named:
+        text = found(place).__doc__
+        assert re.search(rf"\bEq\. {number}\b", text), (number, place)
+
+
 def test_symbols_stand_where_the_notation_says():
     """Each code name is a member, a parameter or a word of the thing that its row names."""
     rows = re.findall(r"^\|.*\| `(\w+)` \|[^|]*\|[^|]*\| `([\w.]+)` \|$", read(NOTATION), re.MULTILINE)

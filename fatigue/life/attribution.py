@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.counting.rainflow import Cycles
 from fatigue.life.rule import (
     M_SS,
     CycleRule,
@@ -55,28 +56,18 @@ class Credit:
     by_bending: Floats
 
 
-def credit(
-    start: Indices,
-    end: Indices,
-    count: Floats,
-    membrane: Floats,
-    bending: Floats,
-    side: float,
-    size: float,
-    rule: CycleRule,
-) -> Credit:
-    """Lay the damage of every cycle on its two instants.
+def credit(cycles: Cycles, membrane: Floats, bending: Floats, side: float, size: float, rule: CycleRule) -> Credit:
+    """Lay the damage of every cycle on its two instants (Eq. 23).
 
     Parameters
     ----------
-    start, end, count : (c,) sample indices of the two reversals of each cycle of ``membrane + side * bending``, and 1
-        or 0.5; ranges are above 0; a cycle that runs across the end of the record has two instants like any other
+    cycles : of ``membrane + side * bending``, ranges above 0; one across the end of the record has two instants, too
     membrane, bending : (t,) membrane stress, and bending stress of the top face [MPa]
     side : +1 top face, -1 bottom face
     size : factor of the thickness on the range
     rule : from the range to its damage
     """
-    samples = len(membrane)
+    start, end, samples = cycles.start, cycles.end, len(membrane)
     dm, db = membrane[end] - membrane[start], bending[end] - bending[start]
     stress = membrane + side * bending
     ds = stress[end] - stress[start]
@@ -89,7 +80,7 @@ def credit(
     by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)  # d ln x / d ln S, as f_M = (S / maximum)**(1/m)
     by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)  # d ln x / d maximum
 
-    damage = count * cycle_damage(x, rule.law)
+    damage = cycles.count * cycle_damage(x, rule.law)
     slope = damage * local_slope(x, rule.law)
     by_stress = _on_instants(start, end, slope * by_range / ds, samples)
     by_stress += np.bincount(peak, slope * by_peak, samples)

@@ -46,7 +46,7 @@ class Plan:
 
 
 def mission_sum(per_pass: NDArray[np.float64], passes: Sequence[Pass]) -> NDArray[np.float64]:
-    """Sum a quantity counted per pass over the mission: (event, ...) -> (...) [1/km].
+    """Sum a quantity counted per pass over the mission, Eq. 14: (event, ...) -> (...) [1/km].
 
     >>> tangent = Pass("tangent", samples=1000, length=2.5, share=1.0, per_1000_km=None)
     >>> loading = Pass("load and unload", samples=2, length=None, share=None, per_1000_km=4.0)
@@ -58,7 +58,7 @@ def mission_sum(per_pass: NDArray[np.float64], passes: Sequence[Pass]) -> NDArra
 
 
 def life_km(damage_per_km: NDArray[np.float64], damage_limit: float) -> NDArray[np.float64]:
-    """Distance at which the Miner sum reaches its limit [km]; +inf where nothing damages.
+    """Distance at which the Miner sum reaches its limit [km], Eq. 15; +inf where nothing damages.
 
     >>> life_km(np.array([1e-7, 0.0]), 0.5)
     array([5000000.,      inf])
@@ -67,7 +67,7 @@ def life_km(damage_per_km: NDArray[np.float64], damage_limit: float) -> NDArray[
 
 
 def straight_load_factor(utilisation: NDArray[np.float64], slope: float) -> NDArray[np.float64]:
-    """Scale on all stresses that just meets the target on a straight curve, ``utilisation^(-1/k)``; +inf undamaged.
+    """Scale on all stresses that just meets the target on one slope, ``utilisation^(-1/k)`` (Eq. 16); +inf undamaged.
 
     >>> straight_load_factor(np.array([8.0]), 3.0)
     array([0.5])
@@ -117,7 +117,7 @@ def load_factor(
 
 
 def range_at_2e6(power_sum_per_km: NDArray[np.float64], slope: float, target_km: float) -> NDArray[np.float64]:
-    """Constant range [MPa] that does the same in 2e6 cycles over the target: ``(sum n S^k / 2e6)^(1/k)``.
+    """Constant range [MPa] that does the same in 2e6 cycles over the target: ``(sum n S^k / 2e6)^(1/k)`` (Eq. 17).
 
     >>> range_at_2e6(np.array([4.0 * 30.0**3]), 3.0, 5e5).round(9)
     array([30.])

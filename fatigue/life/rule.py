@@ -11,8 +11,7 @@ and the life and the damage
 r is its bending ratio, f_M its mean-stress factor, C and h belong to the material (ASME VIII-2 5.5.5.2; Dong, 2001).
 Other S-N curves have the same form: a factor of the thickness, no I(r), and several segments d = x^k / A, k = 1 / h.
 
-Functions that take numbers as well as arrays are also compiled as they stand, for the counters. After a change here the
-counters are compiled anew, see ``fatigue.compiled``.
+Functions that take numbers as well as arrays are also compiled as they stand, for the counters.
 """
 
 from dataclasses import dataclass
@@ -78,7 +77,7 @@ class CycleRule:
 
 
 def bending_ratio(membrane_range: Floats, bending_range: Floats) -> Floats:
-    """``r = |d sigma_b| / (|d sigma_m| + |d sigma_b|)`` of ranges of equal shape [MPa]; 0 where both are 0.
+    """``r = |d sigma_b| / (|d sigma_m| + |d sigma_b|)`` of ranges of equal shape [MPa]; 0 where both are 0 (Eq. 7).
 
     >>> bending_ratio(np.array([60.0]), np.array([-40.0]))
     array([0.4])
@@ -91,7 +90,7 @@ def bending_ratio(membrane_range: Floats, bending_range: Floats) -> Floats:
 def ratio_factor(r: Numbers) -> Numbers:
     """``I(r)^(1/m)`` of the load-controlled edge crack, 1.221 in pure membrane to 1.331 in pure bending.
 
-    Source: ASME VIII-2 5.5.5.2.
+    Eq. 9; source: ASME VIII-2 5.5.5.2.
 
     >>> round(ratio_factor(0.5), 7)
     1.2421248
@@ -156,7 +155,7 @@ def factor_of_stress_ratio(R: Numbers) -> Numbers:
 
 
 def mean_stress_factor(minimum: Floats, maximum: Floats, yield_MPa: float) -> Floats:
-    """``f_M = (1 - R)^(1/m)`` where ``has_mean_stress`` says so, else 1; the range is divided by it.
+    """``f_M = (1 - R)^(1/m)`` where ``has_mean_stress`` says so, else 1; the range is divided by it (Eq. 10).
 
     ``minimum`` and ``maximum`` are the structural stresses at the two reversals, dead load included [MPa].
 
@@ -169,7 +168,7 @@ def mean_stress_factor(minimum: Floats, maximum: Floats, yield_MPa: float) -> Fl
 
 
 def equivalent_range(S: Numbers, size: Numbers, ratio_factor: Numbers, f_M: Numbers) -> Numbers:
-    """``dS = dsigma_s t^((m-2)/(2m)) / (I(r)^(1/m) f_M)``, the factors already evaluated.
+    """``dS = dsigma_s t^((m-2)/(2m)) / (I(r)^(1/m) f_M)`` (Eq. 8), the factors already evaluated.
 
     >>> round(equivalent_range(100.0, 20.0**SIZE_EXPONENT, ratio_factor(0.4), 1.0), 5)
     157.57788
@@ -186,7 +185,7 @@ def segment(x: Numbers, knees: Floats) -> Numbers:
 
 
 def damage_on_segment(x: Numbers, k: Numbers, log_A: Numbers) -> Numbers:
-    """``d = x^k / A`` of equivalent ranges above 0 on a segment of the slope k.
+    """``d = x^k / A`` of equivalent ranges above 0 on a segment of the slope k (Eq. 11).
 
     >>> round(2e6 * float(damage_on_segment(60.0, 3.0, np.log(2e6 * 90.0**3))), 6)
     0.296296
@@ -195,7 +194,7 @@ def damage_on_segment(x: Numbers, k: Numbers, log_A: Numbers) -> Numbers:
 
 
 def cycle_damage(x: Floats, law: DamageLaw) -> Floats:
-    """Damage d = 1 / N of one cycle of each equivalent range x; 0 below the cut-off (Palmgren-Miner: damages add).
+    """Damage ``d = 1 / N`` of one cycle of each equivalent range x, Eq. 11; 0 below the cut-off.
 
     >>> from fatigue.life.curves import catalogue, damage_law
     >>> steel = damage_law(catalogue()["master-steel"], "mean-2sigma", "none", 1e7)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 def shear_factor(
     variance: NDArray[np.float64], shear_variance: NDArray[np.float64], covariance: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Factor on the equivalent range if shear were counted with the normal stress, from their covariance [MPa^2].
+    """Factor on the equivalent range if shear counted with the normal stress, from their covariance [MPa^2] (Eq. 13).
 
     ASME VIII-2 5.5.5.3 combines ``sqrt(dS^2 + 3 dT^2) / F(delta)`` for a harmonic path with phase delta. In the plane
     of (sigma, sqrt(3) tau) its F is ``sqrt(l1 / (l1 + l2))`` with the principal variances l1 >= l2. It needs no phase

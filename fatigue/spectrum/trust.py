@@ -56,9 +56,7 @@ NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, of a mode with 3 
 KURTOSIS_OFF = 0.5  # from what the modulation found explains
 RATIO_BAND = {4.0: (0.80, 1.25), 5.0: (0.65, 1.35)}  # of Dirlik / rainflow on Gaussian records, by slope k
 CONFIDENT = 0.25  # coefficient of variation of the damage from one record to the next
-RATIO_SCATTER = (
-    0.5  # scatter of ln(Dirlik / rainflow) over the scatter of each damage (Monte Carlo): one record, common errors
-)
+RATIO_SCATTER = 0.5  # of ln(Dirlik / rainflow) over the scatter of each damage (Monte Carlo): errors are common
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -127,7 +127,6 @@ def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
     median = np.partition(block, (half - 1, half), axis=2)[:, :, half - 1 : half + 1].mean(axis=2)
     median = np.concatenate([median[:, :1], median, median[:, -1:]], axis=1)
     around = np.maximum(np.maximum(median[:, :-2], median[:, 1:-1]), median[:, 2:])
-    of_bin = np.minimum(
-        np.arange(power.shape[1]) // LINE_BLOCK, blocks - 1
-    )  # an incomplete last block joins the one before
+    # An incomplete last block joins the one before it.
+    of_bin = np.minimum(np.arange(power.shape[1]) // LINE_BLOCK, blocks - 1)
     return np.asarray(power > LINE_OVER_MEDIAN * around[:, of_bin])

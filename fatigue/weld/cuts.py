@@ -8,7 +8,7 @@ forces; at an open end the elements ahead that lie on the same side of the line 
 
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -264,17 +264,9 @@ def _named(cuts: Iterable[WeldCut]) -> list[WeldCut]:
     named = []
     for stem, group in groups.items():
         for number, cut in enumerate(sorted(group, key=lambda c: tuple(c.elements.tolist()))):
-            named.append(_renamed(cut, stem + _letters(number)))
+            name = stem + _letters(number)
+            named.append(replace(cut, name=name, line=replace(cut.line, weld=name)))
     return sorted(named, key=lambda c: c.name)
-
-
-def _renamed(cut: WeldCut, name: str) -> WeldCut:
-    line = cut.line
-    renamed = WeldLine(
-        name, line.part, line.order, line.node, line.xyz, line.thickness, line.normal, line.outward, line.edge_mid,
-        line.closed, line.end_length,
-    )  # fmt: skip
-    return WeldCut(name, cut.kind, cut.pids, cut.pid, renamed, cut.elements)
 
 
 def _letters(number: int) -> str:

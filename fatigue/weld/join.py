@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.weld.detection import SMOOTH_DEG
 from fatigue.weld.line import NODE_COLUMNS, Vectors, WeldLine
 from fatigue.weld.line_geometry import tangents, unit
 
-SMOOTH = np.cos(np.radians(30.0))  # of the angle up to which two plates are one, as in the search for welds
+SMOOTH = np.cos(np.radians(SMOOTH_DEG))
 
 
 @dataclass(frozen=True, slots=True)

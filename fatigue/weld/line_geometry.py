@@ -6,11 +6,12 @@ its chord: one set of formulas serves linear, parabolic and mixed lines, one at 
 
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.weld.line import Lines, Vectors, WeldLine, is_closed, line_of_node, neighbours, once
+from fatigue.weld.line import NODE_COLUMNS, Lines, Vectors, WeldLine, is_closed, line_of_node, neighbours, once
 
 KINK_LIMIT = 30.0  # [deg] above it the traction may jump at the node, so the line is split there
 KINK_TOLERANCE = 1e-6  # [deg] a regular 12-gon, whose corners turn by 30 degrees, is a smooth ring
@@ -139,20 +140,8 @@ def split_at_kinks(line: WeldLine) -> tuple[WeldLine, ...]:
 
 def _part(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: bool, corner_end: bool) -> WeldLine:
     """Open part of a line with the nodes ``at``."""
-    return replace(
-        line,
-        part=part,
-        order=line.order[at],
-        node=line.node[at],
-        xyz=line.xyz[at],
-        thickness=line.thickness[at],
-        normal=line.normal[at],
-        outward=line.outward[at],
-        edge_mid=line.edge_mid[at],
-        closed=False,
-        corner_start=corner_start,
-        corner_end=corner_end,
-    )
+    columns: dict[str, Any] = {name: getattr(line, name)[at] for name in NODE_COLUMNS}
+    return replace(line, part=part, **columns, closed=False, corner_start=corner_start, corner_end=corner_end)
 
 
 def unit(vectors: Vectors) -> Vectors:

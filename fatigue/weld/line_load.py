@@ -128,9 +128,7 @@ def treat_ends(line: Lines, load: NDArray[np.float64]) -> EndTreatment:
     treated: NDArray[np.bool_] = np.logical_or(*zones)
     taken, node = np.nonzero(zones[:, treated])
     share = 1.0 / zones[:, treated].sum(axis=0)[node]
-    number = (
-        taken * len(given) + owner[treated][node]
-    )  # of the mean: first the means at first ends, then those at last ends
+    number = taken * len(given) + owner[treated][node]  # of the mean: those at first ends, then those at last ends
     to_nodes = csr_array((share, (node, number)), (np.count_nonzero(treated), 2 * len(given)))
     mean = to_nodes @ (vstack(of_means) @ load.reshape(line.node.size, -1))
     return EndTreatment(

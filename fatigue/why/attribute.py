@@ -209,7 +209,7 @@ def count_credit(
 ) -> Credit:
     """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles."""
     cycles = rainflow(sigma_m + side * sigma_b, residue)
-    return credit(cycles.start, cycles.end, cycles.count, sigma_m, sigma_b, side, size, rule)
+    return credit(cycles, sigma_m, sigma_b, side, size, rule)
 
 
 def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:

@@ -37,7 +37,7 @@ def record(modes=5, samples=600, seed=3):
 def count(membrane, bending, side, rule, residue):
     """Count and lay out the damage of one face."""
     cycles = rainflow(membrane + side * bending, residue)
-    return credit(cycles.start, cycles.end, cycles.count, membrane, bending, side, SIZE, rule)
+    return credit(cycles, membrane, bending, side, SIZE, rule)
 
 
 def damage(membrane, bending, side, rule, residue):

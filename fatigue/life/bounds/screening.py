@@ -134,7 +134,7 @@ def size_bound(S_m: Floats, S_b: Floats, extent: ModalExtent) -> tuple[Floats, F
 
 
 def damage_bound(stress_range: Floats, power_sums: PowerSums, size: Floats, rule: CycleRule) -> tuple[Floats, Floats]:
-    """Bound the damage of one pass and the largest equivalent range of some points, arrays of any one shape.
+    """Bound the damage of one pass (Eq. 22) and the largest equivalent range of some points, arrays of any one shape.
 
     ``stress_range`` [MPa] and ``power_sums`` bound range and sum n S^q; ``size``, of a shape that fits, is as in
     ``BlockStress``. The bound of the damage is infinite for a law with a slope below every q: there is none

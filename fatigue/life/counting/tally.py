@@ -107,8 +107,8 @@ def tally(
 ) -> None:
     """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
 
-    A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` and
-    ``dS = S size / (I(r)^(1/m) f_M)``.
+    A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` (Eq. 7) and
+    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8); the damage is their Miner sum (Eq. 12).
     """
     membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rule.slopes[0]

@@ -56,7 +56,8 @@ def kept(history: ModalHistory, start_s: float) -> ModalHistory:
 def stress_history(modal_stress: NDArray[np.float64], q: Samples) -> NDArray[np.float64]:
     """Recover stress histories (..., t) [MPa] from modal stress (..., m) [MPa per unit modal coordinate].
 
-    Takes the modal coordinates (m, t) a bounded number of samples at a time, whatever their precision.
+    The superposition of Eq. 5. It takes the modal coordinates (m, t) a bounded number of samples at a time, whatever
+    their precision.
     """
     stress = np.empty((*modal_stress.shape[:-1], q.shape[1]))
     first = 0

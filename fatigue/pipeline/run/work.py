@@ -79,7 +79,9 @@ def screening_of(
         proves_worst=proves_worst,
         extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue, load.known), loads, threads)),
         records=tuple(
-            in_order(lambda load: load.single or kept_single_record(load.counted.q, scratch, load.known), loads, threads)
+            in_order(
+                lambda load: load.single or kept_single_record(load.counted.q, scratch, load.known), loads, threads
+            )
         ),
     )
 

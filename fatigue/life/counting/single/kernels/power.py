@@ -23,6 +23,7 @@ Numbers = NDArray[np.floating]
 
 RATIO_DEGREE = 10
 LANES = 16  # single precision numbers in the widest vectors: loops over a multiple of them need no remainder
+DEPTH = 4  # numbers of a lane that are added up in one go, in double precision
 SUMMED = 256  # numbers summed up in single precision
 
 
@@ -130,15 +131,30 @@ def raise_to_slope(S: Numbers, dm: Numbers, n: int, law: PowerLaw) -> None:
         dm[i] = power * polynomial(law.ratio_power, r - _HALF)
 
 
-@compiled("reassoc", "nsz", "nnan", "contract")
+@compiled("nsz", "nnan", "contract")
 def add_up(power: Numbers, damage: Numbers, n: int) -> tuple[float, float, np.floating]:
-    """``sum power``, ``sum damage`` and ``max damage`` of the first n."""
+    """``sum power``, ``sum damage`` and ``max damage`` of the first n, summed in the order of ``add_powers``."""
     widest_vectors()
+    sums = np.zeros((2, LANES))
+    whole = n - n % (LANES * DEPTH)
+    for first in range(0, whole, LANES * DEPTH):
+        for lane in range(LANES):
+            power_sum = damage_sum = 0.0
+            for row in range(DEPTH):
+                i = first + LANES * row + lane
+                power_sum += power[i]
+                damage_sum += damage[i]
+            sums[0, lane] += power_sum
+            sums[1, lane] += damage_sum
+    for i in range(whole, n):
+        sums[0, i % LANES] += power[i]
+        sums[1, i % LANES] += damage[i]
     power_sum = damage_sum = 0.0
+    for lane in range(LANES):
+        power_sum += sums[0, lane]
+        damage_sum += sums[1, lane]
     largest = _ZERO
     for i in range(n):
-        power_sum += power[i]
-        damage_sum += damage[i]
         largest = max(largest, damage[i])
     return power_sum, damage_sum, largest
 
