@@ -21,9 +21,11 @@ SAMPLE_LINES = 200
 _KEYS = ("weld", "mode", "node", "element", "column", "time_s")  # of the tables of the neutral format
 HEADER_LINES = 100  # within which names are broken over several lines
 
+_ROOT_OF_MASS = r"(?:sqrt\((?:k?g|t)\)|(?:k?g|t)(?:\^|\*\*)0\.5)"  # of coordinates of modes of unit mass
 _UNIT = re.compile(
     r"(?:[\[(<].*[\])>]|-|s|sec|sek|ms|msec|us|µs|min|h|k?Hz|rad/s|mm|cm|m|in|inch|ft"
-    r"|k?N(?:[.* ]?m?m)?|lbf?|[MG]?Pa|psi|k?g|t)\Z",
+    r"|k?N(?:[.* ]?m?m)?|lbf?|[MG]?Pa|psi|k?g|t"
+    rf"|m?m[*· ]?{_ROOT_OF_MASS}|{_ROOT_OF_MASS}[*· ]?m?m)\Z",
     re.IGNORECASE,
 )
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+")

@@ -20,6 +20,7 @@ from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
 from fatigue.readers.neutral.forces.source import CODE, KINDS, Source, coded, force_columns, trimmed
 from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds
 from fatigue.readers.neutral.forces.weld_codes import WeldCodes
+from fatigue.readers.neutral.table_units import units_row_warnings
 from fatigue.readers.neutral.tables import Table, named
 from fatigue.readers.text.layout import table_layout
 
@@ -35,7 +36,7 @@ def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
 
     Raises
     ------
-    DataError : the file is no table, has no column ``weld`` or an unknown weld in it
+    DataError : the file is no table, has no column ``weld``, a unit that contradicts a column, or an unknown weld
     """
     if path.suffix.lower() != ".csv":
         header = open_nodal_forces(path)
@@ -43,7 +44,7 @@ def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
     refuse(DataError, filter(None, [misplaced(path, path.name, text=False)]))
     layout = table_layout(path, ("weld",))
     kinds = tuple(KINDS.get(name.strip(), pa.string()) for name in layout.names)
-    header = named(path, Columns(layout.names, kinds, 0, _unread))
+    header = named(path, Columns(layout.names, kinds, 0, _unread, warnings=units_row_warnings(path.name, layout)))
     columns = force_columns(header)
     try:
         batches = csv_batches(path, layout, {name: KINDS[name] for name in columns.values()})

@@ -239,3 +239,16 @@ def test_a_packed_file_is_named(tmp_path):
     path.write_bytes(gzip.compress(forces().to_csv(index=False).encode()))
     with pytest.raises(DataError, match=r"forces\.csv: this is a gzip archive"):
         ForcesByGroup(path, GROUPS, tmp_path / "scratch")
+
+
+@pytest.mark.parametrize("shuffled", [False, True])
+def test_a_row_of_units_is_compared_where_forces_are_dealt_out(tmp_path, shuffled):
+    """Units of the names pass, others are refused before a row is read."""
+    for unit, problem in (("N", None), ("kN", "f.csv: column fx_N, row of units: the unit is kN")):
+        names, *rows = forces(shuffled=shuffled).to_csv(index=False).splitlines()
+        (tmp_path / "f.csv").write_text("\n".join([names, f",,{unit}", *rows]))
+        if problem is None:
+            assert sum(len(value) for *_, value, _ in groups_of(tmp_path / "f.csv", tmp_path / unit)) == len(rows)
+            continue
+        with pytest.raises(DataError, match=problem):
+            list(groups_of(tmp_path / "f.csv", tmp_path / unit))
