@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.spool import Samples, create_spool
-from fatigue.readers.neutral.table_units import stated_unit_problem
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.readers.units.channel_names import channel
 
@@ -86,11 +85,7 @@ def _open(
 
 
 def _check_statements(table: Table) -> None:
-    """Note where names or metadata of columns contradict the neutral format: time in s, q in N, mm, t, s."""
-    for name, unit in zip(table.columns.names, table.columns.units or (), strict=False):
-        problem = stated_unit_problem(table.where(name.strip()), name, unit) if unit else None
-        if problem is not None and problem.code == "unit":
-            table.problems.append(problem)
+    """Note where names of columns contradict the neutral format: time in s, q in N, mm, t, s."""
     for name in table.position:
         own = channel(name)
         if own.is_time and name != "time_s" and "time_s" not in table.position:

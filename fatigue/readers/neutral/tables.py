@@ -29,6 +29,7 @@ from fatigue.readers.neutral.column_values import (
 )
 from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.files import open_columns, other_format
+from fatigue.readers.neutral.table_units import stated_unit_problem
 from fatigue.readers.text.flags import WORDS_OF_PROGRAMS, flag_of
 
 LARGEST = 2**63 - 1  # id
@@ -290,8 +291,12 @@ def open_table(path: Path, *, texts: Collection[str] = ()) -> Table:
 
 
 def named(path: Path, columns: Columns) -> Table:
-    """Make a table of columns that are open; two of one name are refused."""
-    return Table(path, columns, positions_of(path.name, columns), warnings=list(columns.warnings))
+    """Make a table of columns that are open; two of one name are refused, and units that contradict the names."""
+    table = Table(path, columns, positions_of(path.name, columns), warnings=list(columns.warnings))
+    stated = ((name, unit) for name, unit in zip(columns.names, columns.units, strict=False) if unit)
+    found = (stated_unit_problem(table.where(name.strip()), name, unit) for name, unit in stated)
+    refuse(DataError, (problem for problem in found if problem is not None and problem.code == "unit"))
+    return table
 
 
 def _first(values: NDArray[Any], bad: NDArray[np.bool_]) -> float:

@@ -1,12 +1,14 @@
 """Forces by group: sorted or not, Parquet or CSV, a group of welds gets its rows, numbered as in the file."""
 
 import gzip
+import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -250,5 +252,19 @@ def test_a_row_of_units_is_compared_where_forces_are_dealt_out(tmp_path, shuffle
         if problem is None:
             assert sum(len(value) for *_, value, _ in groups_of(tmp_path / "f.csv", tmp_path / unit)) == len(rows)
             continue
-        with pytest.raises(DataError, match=problem):
+        with pytest.raises(DataError, match=re.escape(problem)):
             list(groups_of(tmp_path / "f.csv", tmp_path / unit))
+
+
+def test_units_in_the_metadata_of_forces(tmp_path):
+    """What a Parquet file says of its columns beside their names has to agree with them, however it is read."""
+    columns = {name: pa.array(values) for name, values in forces().items()}
+    for unit, agrees in (("N", True), ("kN", False)):
+        stated = {name: {"unit": unit if name == "fx_N" else ""} for name in columns}
+        fields = [pa.field(name, columns[name].type, metadata=stated[name]) for name in columns]
+        pq.write_table(pa.table(list(columns.values()), pa.schema(fields)), tmp_path / "f.parquet")
+        if agrees:
+            assert len(list(groups_of(tmp_path / "f.parquet", tmp_path / unit))) == len(GROUPS)
+            continue
+        with pytest.raises(DataError, match=r"f\.parquet: column fx_N: the unit is kN, and the column is one of N"):
+            list(groups_of(tmp_path / "f.parquet", tmp_path / unit))
