@@ -171,32 +171,42 @@ def damage_law(curve: SNCurve, survival: Survival | None, extension: Extension, 
     """Turn a curve at one survival level, with its extension, into the damage of a cycle.
 
     Knees stay at their number of cycles and move in stress with the survival level. ``haibach`` continues below the
-    stress at ``knee_cycles`` with slope 2 k - 1 (Haibach 1970); ``cutoff`` ends damage there.
+    stress at ``knee_cycles`` with slope 2 k - 1 (Haibach 1970); ``cutoff`` ends damage there. Cycles above that stress
+    have the damage that they have without extension, on whichever side of the knee the reference cycles lie.
 
     Raises
     ------
     CaseError : survival level without scatter, or an extension of a curve that has its own knees
     """
     level = survival_level(curve, survival)
-    knees_cycles, slopes = curve.knees_cycles, curve.slopes
-    if extension != "none":
-        if knees_cycles:
-            raise CaseError(
-                Problem(
-                    "extension",
-                    "curve.extension",
-                    f"'{extension}' is asked of curve '{curve.name}', which has its own knee at "
-                    f"{knees_cycles[0]:g} cycles",
-                    'Set extension = "none", or give the curve without knees',
-                )
+    law = _law_of(curve, level)
+    if extension == "none":
+        return law
+    if curve.knees_cycles:
+        raise CaseError(
+            Problem(
+                "extension",
+                "curve.extension",
+                f"'{extension}' is asked of curve '{curve.name}', which has its own knee at "
+                f"{curve.knees_cycles[0]:g} cycles",
+                'Set extension = "none", or give the curve without knees',
             )
-        knees_cycles = (knee_cycles,)
-        slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
+        )
+    (k,), (log_a,), log_knee = law.slopes, law.log_constants, np.log(knee_cycles)
+    knee = np.exp((log_a - log_knee) / k)
+    if extension == "cutoff":
+        return DamageLaw(law.slopes, law.log_constants, law.knees, float(knee))
+    k_below = 2.0 * k - 1.0
+    log_a_below = log_knee + k_below * (log_a - log_knee) / k
+    return DamageLaw(np.array([k, k_below]), np.array([log_a, log_a_below]), np.array([knee]), 0.0)
 
-    log_knees = np.log(np.asarray(knees_cycles, dtype=np.float64))
-    k = np.asarray(slopes, dtype=np.float64)
+
+def _law_of(curve: SNCurve, level: str) -> DamageLaw:
+    """Damage law of a curve as it is given: from the segment that holds the reference cycles to the others."""
+    log_knees = np.log(np.asarray(curve.knees_cycles, dtype=np.float64))
+    k = np.asarray(curve.slopes, dtype=np.float64)
     log_a = np.empty(len(k))
-    reference = _segment(knees_cycles, len(k), curve.reference_cycles)
+    reference = _segment(curve.knees_cycles, len(k), curve.reference_cycles)
     log_a[reference] = np.log(curve.reference_range[level] ** k[reference]) + np.log(curve.reference_cycles)
     for j in range(reference, len(k) - 1):  # continuity at each knee: ln A_j - k_j ln S = ln N_knee on both sides
         log_a[j + 1] = log_knees[j] + k[j + 1] * (log_a[j] - log_knees[j]) / k[j]

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.errors import CaseError
-from fatigue.life.curves import TABULATED, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.curves import SIGMAS_BELOW_MEAN, TABULATED, catalogue, damage_law, survival_level, user_curve
 from fatigue.life.rule import cycle_damage
 
 
@@ -103,6 +103,43 @@ def test_haibach_and_cutoff_of_the_master_curve():
         assert cut.cutoff == pytest.approx(knee, rel=1e-12)
         assert cycle_damage(np.array([knee * 0.999]), cut)[0] == 0.0
         assert cycle_damage(np.array([knee * 1.001]), cut)[0] > 0.0
+
+
+@settings(deadline=None, max_examples=100)
+@given(
+    slope=st.floats(2.0, 15.0),
+    strength=st.floats(5.0, 300.0),
+    knee_cycles=st.floats(1e2, 1e10),
+    scatter=st.none() | st.floats(0.05, 0.4),
+    survival=st.sampled_from(list(SIGMAS_BELOW_MEAN)),
+)
+def test_an_extension_leaves_the_finite_life_line_where_it_is(slope, strength, knee_cycles, scatter, survival):
+    """On whichever side of 2e6 the knee lies: above it nothing changes, at it nothing jumps, a cut-off ends damage."""
+    curve = user_curve("own", (slope,), (), strength, "structural", "test", log10_scatter=scatter)
+    level = None if scatter is None else survival
+    plain, haibach, cutoff = (damage_law(curve, level, e, knee_cycles) for e in ("none", "haibach", "cutoff"))
+    knee = float(haibach.knees[0])
+    assert cutoff.cutoff == knee
+    assert 1.0 / cycle_damage(np.array([knee]), plain)[0] == pytest.approx(knee_cycles, rel=1e-9)
+    above = knee * np.geomspace(1.0 + 1e-9, 100.0, 30)
+    for law in (haibach, cutoff):
+        np.testing.assert_allclose(cycle_damage(above, law), cycle_damage(above, plain), rtol=1e-12)
+    below = knee * np.geomspace(0.01, 1.0 - 1e-9, 30)
+    expected = (below / knee) ** (2.0 * slope - 1.0) / knee_cycles
+    np.testing.assert_allclose(cycle_damage(below, haibach), expected, rtol=1e-9)
+    assert not cycle_damage(below, cutoff).any()
+    at_2e6 = curve.reference_range[survival_level(curve, level)]
+    if at_2e6 > knee:
+        assert 1.0 / cycle_damage(np.array([at_2e6]), haibach)[0] == pytest.approx(2e6, rel=1e-9)
+
+
+def test_a_knee_before_the_reference_cycles_by_hand():
+    """180 MPa at 2e6 cycles, slope 5, knee at 1e6: 180 x 2^(1/5) MPa there, and slope 9 below."""
+    curve = user_curve("own", (5.0,), (), 180.0, "structural", "test")
+    law = damage_law(curve, None, "haibach", 1e6)
+    assert law.knees[0] == pytest.approx(180.0 * 2.0**0.2, rel=1e-12)
+    assert cycles_to_failure(curve, None, 250.0, "haibach", 1e6) == pytest.approx(2e6 * (180 / 250) ** 5, rel=1e-12)
+    assert cycles_to_failure(curve, None, 100.0, "haibach", 1e6) == pytest.approx(1e6 * (law.knees[0] / 100) ** 9)
 
 
 def test_extension_of_a_curve_with_its_own_knee_is_refused():

@@ -104,18 +104,24 @@ def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -
         given = _own(own)
     else:
         given = _listed(record["curves"][name])
-    slopes, knees_cycles = given.slopes, given.knees_cycles
     level = asked.get("survival", "mean-2sigma") if len(given.ranges) > 1 else next(iter(given.ranges))
+    points, knees = _through(given.ranges[level], given.reference_cycles, given.slopes, given.knees_cycles)
+    slopes, cutoff = given.slopes, knees[-1] if len(knees) == len(given.slopes) else 0.0
     extension = asked.get("extension", "none")
-    if extension != "none":
-        knees_cycles = (asked.get("knee_cycles", 1e7),)
-        slopes = (slopes[0], 2.0 * slopes[0] - 1.0) if extension == "haibach" else slopes
-    points, knees = _through(given.ranges[level], given.reference_cycles, slopes, knees_cycles)
+    if extension != "none":  # of a curve of one slope: the others are refused
+        (k,), ((log_n, log_s),) = slopes, points
+        log_knee = np.log(asked.get("knee_cycles", 1e7))
+        log_range = log_s - (log_knee - log_n) / k
+        if extension == "haibach":
+            slopes, points = (k, 2.0 * k - 1.0), ((log_n, log_s), (log_knee, log_range))
+            knees = (float(np.exp(log_range)),)
+        else:
+            cutoff = float(np.exp(log_range))
     return RecountCurve(
         slopes=slopes,
         points=points,
         knees=knees[: len(slopes) - 1],
-        cutoff=knees[-1] if len(knees) == len(slopes) else 0.0,
+        cutoff=cutoff,
         on_equivalent=given.applies == "dS",
         thickness_reference=given.thickness_reference,
         thickness_exponent=given.thickness_exponent,

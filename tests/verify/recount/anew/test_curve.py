@@ -4,8 +4,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.integrate import quad
 
+from fatigue.life.curves import damage_law, user_curve
+from fatigue.life.rule import cycle_damage
 from fatigue.verify.recount.anew.curve import curve_named
 
 
@@ -40,3 +44,27 @@ def test_mean_damage_is_the_integral_over_the_density():
         )
         assert curve.mean_damage(scale, shape) == pytest.approx(expected, rel=1e-8)
     assert curve.mean_damage(0.0, 2.0) == 0.0
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    slopes=st.lists(st.floats(2.0, 9.0), min_size=1, max_size=3),
+    start=st.floats(1e3, 1e9),
+    strength=st.floats(5.0, 200.0),
+    scatter=st.none() | st.floats(0.05, 0.4),
+    extension=st.sampled_from(["none", "haibach", "cutoff"]),
+    knee_cycles=st.floats(1e3, 1e9),
+)
+def test_damage_is_that_of_the_assessment(slopes, start, strength, scatter, extension, knee_cycles):
+    """Two ways along one curve, wherever 2e6 cycles, its knees and the knee of its extension lie."""
+    knees = [start * 10.0**j for j in range(len(slopes) - 1)]
+    extension = "none" if knees else extension
+    own = {"slopes": slopes, "knees_cycles": knees, "range_at_2e6_MPa": strength, "applies": "structural"}
+    own |= {} if scatter is None else {"log10_scatter": scatter}
+    asked = {"name": "own", "extension": extension, "knee_cycles": knee_cycles}
+    curve = curve_named("own", {"curve": asked, "curves": {"own": own}}, {})
+    given_curve = user_curve("own", tuple(slopes), tuple(knees), strength, "structural", "test", scatter)
+    law = damage_law(given_curve, None, extension, knee_cycles)
+    x = np.geomspace(0.1, 3000.0, 200)
+    x = x[np.abs(x / (law.cutoff or 1.0) - 1.0) > 1e-9]  # at a cut-off rounding decides
+    np.testing.assert_allclose(curve.damage(x), cycle_damage(x, law), rtol=1e-9)
