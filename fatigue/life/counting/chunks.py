@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.factors import Trials, no_trials, tally_trials
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles
 from fatigue.life.counting.tally import (
@@ -62,12 +63,13 @@ class _State(NamedTuple):
 
 
 class _Block(NamedTuple):
-    """What is its own of each point, and what is counted: totals (n, 2) and histogram (n, 2, b, 2)."""
+    """What is its own of each point, and what is counted: totals (n, 2) and histogram (n, 2, b, 2); or trials."""
 
     size: Floats
     same_ratio: Floats
     totals: NDArray[np.void]
     histogram: Floats
+    trials: Trials
 
 
 class _Room(NamedTuple):
@@ -96,13 +98,32 @@ def count_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, ch
     ------
     NumericalError : a stress is not finite
     """
-    compiled_form = compiled_rule(rule)
-    totals, histogram = nothing_counted(len(stress), rule.law)
+    counted = nothing_counted(len(stress), rule.law)
+    _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk)
+    return block_count(*counted, rule)
+
+
+def try_chunks(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK
+) -> None:
+    """Add the damage of one pass of a block under factors on its stress to the trials."""
+    _count_points(stress, record, rule, (*nothing_counted(len(stress), rule.law), tried), chunk)
+
+
+def _count_points(
+    stress: BlockStress,
+    record: CountedRecord,
+    rule: CycleRule,
+    counted: tuple[NDArray[np.void], Floats, Trials],
+    chunk: int,
+) -> None:
+    """Count a block some points at a time."""
+    totals, histogram, trials = counted
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
-        block = _Block(plain(stress.size)[some], plain(stress.same_ratio)[some], totals[some], histogram[some])
-        _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_form, chunk)
-    return block_count(totals, histogram, rule)
+        own = plain(stress.size)[some], plain(stress.same_ratio)[some]
+        block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
+        _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_rule(rule), chunk)
 
 
 def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule: CompiledRule, chunk: int) -> None:
@@ -334,7 +355,11 @@ def count_chunk(
         else:
             cycles, left = close_open(room.s, state.waiting[row, surface], n, stage.recurs, room.buffers)
         point = Surface(room.m, room.b, side, block.size[row], block.same_ratio[row, surface])
-        tally(point, block.totals[row, surface], block.histogram[row, surface], rule, room.buffers, cycles)
+        if block.trials.damage.shape[2] > 0:
+            at_first, step = block.trials.first[row, surface], block.trials.step[row, surface]
+            tally_trials(point, at_first, step, block.trials.damage[row, surface], rule, room.buffers, cycles)
+        else:
+            tally(point, block.totals[row, surface], block.histogram[row, surface], rule, room.buffers, cycles)
 
         state.waiting[row, surface] = left
         for k in range(left):

@@ -1,9 +1,13 @@
-"""The one call that counts: which counter serves a rule and a record."""
+"""The one call that counts, as the stress is or under factors on it: which counter serves a rule and a record."""
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.life.counting.block import BlockCount, BlockStress
-from fatigue.life.counting.chunks import count_chunks
+from fatigue.life.counting.chunks import count_chunks, try_chunks
+from fatigue.life.counting.factors import trials
 from fatigue.life.counting.record import CountedRecord
-from fatigue.life.counting.rows import count_rows
+from fatigue.life.counting.rows import count_rows, try_rows
 from fatigue.life.counting.single.count import count_single, is_single
 from fatigue.life.records.spool import Spool
 from fatigue.life.rule import CycleRule
@@ -22,6 +26,30 @@ def count(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockC
     """
     if is_single(record, rule):
         return count_single(stress, record, rule)
-    if isinstance(record.q, Spool) or record.q.shape[1] > LONGEST_ROW:
-        return count_chunks(stress, record, rule)
-    return count_rows(stress, record, rule)
+    return count_chunks(stress, record, rule) if _is_long(record) else count_rows(stress, record, rule)
+
+
+def count_at_factors(
+    stress: BlockStress,
+    record: CountedRecord,
+    rule: CycleRule,
+    first: NDArray[np.float64],
+    step: NDArray[np.float64],
+    factors: int,
+) -> NDArray[np.float64]:
+    """Damage (n, 2, g) of one pass of a block with all stresses times ``first exp(i step)``, i < g ``factors``.
+
+    ``first`` and ``step`` (n, 2) are of each surface; where ``first`` is 0 the damage is not wanted, and 0. In double
+    precision; the mean-stress factor applies to a cycle as it does at each of the factors.
+
+    Raises
+    ------
+    NumericalError : a stress is not finite
+    """
+    tried = trials(first, step, factors)
+    (try_chunks if _is_long(record) else try_rows)(stress, record, rule, tried)
+    return tried.damage
+
+
+def _is_long(record: CountedRecord) -> bool:
+    return isinstance(record.q, Spool) or record.q.shape[1] > LONGEST_ROW

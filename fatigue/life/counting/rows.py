@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.factors import Trials, no_trials, tally_trials
 from fatigue.life.counting.moments import mean_and_kurtosis
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.reversals import Buffers, buffers_for, find_cycles
@@ -35,7 +36,7 @@ SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before 
 
 
 class _Histories(NamedTuple):
-    """Stresses of a block and, per point and surface, what is counted: see ``nothing_counted``."""
+    """Stresses of a block and, per point and surface, what is counted: see ``nothing_counted``; or damage of trials."""
 
     membrane: Floats
     bending: Floats
@@ -43,17 +44,38 @@ class _Histories(NamedTuple):
     same_ratio: Floats
     totals: NDArray[np.void]
     histogram: Floats
+    trials: Trials
 
 
 def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
     """Count a block as ``count`` does: the histories of a few points at a time."""
-    rows = max(1, SAMPLES_AT_ONCE // record.q.shape[1])  # of the record only: the bytes do not depend on the machine
+    rows = _rows_at_once(record)
     counts = []
     for first in range(0, len(stress), rows):
         some = stress.at(slice(first, first + rows))
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
         counts.append(count_histories(membrane, bending, some.size, some.same_ratio, record.residue, rule))
     return BlockCount(*(np.concatenate([getattr(count, f.name) for count in counts]) for f in fields(BlockCount)))
+
+
+def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials) -> None:
+    """Add the damage of one pass of a block under factors on its stress to the trials."""
+    rows = _rows_at_once(record)
+    for first in range(0, len(stress), rows):
+        at = slice(first, first + rows)
+        some = stress.at(at)
+        membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
+        refuse_not_finite(membrane, bending)
+        totals, histogram = nothing_counted(len(membrane), rule.law)
+        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio)
+        trials = Trials(*(part[at] for part in tried))
+        block = _Histories(*of_points, totals, histogram, trials)
+        _count(block, record.recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
+
+
+def _rows_at_once(record: CountedRecord) -> int:
+    """How many points at a time: of the record only, so that the bytes do not depend on the machine."""
+    return max(1, SAMPLES_AT_ONCE // record.q.shape[1])
 
 
 def count_histories(
@@ -67,8 +89,9 @@ def count_histories(
     """
     refuse_not_finite(membrane, bending)
     totals, histogram = nothing_counted(len(membrane), rule.law)
+    of_points = plain(membrane), plain(bending), plain(size), plain(same_ratio)
     _count(
-        _Histories(plain(membrane), plain(bending), plain(size), plain(same_ratio), totals, histogram),
+        _Histories(*of_points, totals, histogram, no_trials(len(membrane))),
         residue == "repeat",
         compiled_rule(rule),
         buffers_for(membrane.shape[1]),
@@ -86,8 +109,13 @@ def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
-            total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
-            total["r_largest"] = math.nan
             same_ratio = block.same_ratio[row, surface]
             point = Surface(block.membrane[row], block.bending[row], side, block.size[row], same_ratio)
-            tally(point, total, histogram, rule, buffers, find_cycles(s, recurs, buffers))
+            cycles = find_cycles(s, recurs, buffers)
+            if block.trials.damage.shape[2] > 0:
+                first, step = block.trials.first[row, surface], block.trials.step[row, surface]
+                tally_trials(point, first, step, block.trials.damage[row, surface], rule, buffers, cycles)
+                continue
+            total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
+            total["r_largest"] = math.nan
+            tally(point, total, histogram, rule, buffers, cycles)
