@@ -1,7 +1,7 @@
 """A block of stations under all events of the mission: counted, counted as far as it is needed, or bounded."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.bounds import Bound, Bounds
 from fatigue.pipeline.count.estimate import Estimate, estimate_event, member_variances
 from fatigue.pipeline.count.event_block import EventBlock, bounded_event, count_event, judged
+from fatigue.pipeline.count.load_factor import bounded_load_factor, counted_load_factor
 from fatigue.pipeline.count.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.count.overflow import no_overflow
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -116,8 +117,15 @@ class Block:
 
     def _settled(self, rows: NDArray[np.intp], events: Sequence[EventBlock], tier: int) -> Settled:
         """Some stations, their events weighted with the mission; only the weighting needs the histograms."""
-        mission = mission_block(events, self.plan, self.stress.rule.law)
-        return Settled(rows, tuple(event.without_histogram() for event in events), mission, tier)
+        stress = self.stress.at(rows)
+        mission = mission_block(events, self.plan, stress.rule.law)
+        if tier:
+            factor = bounded_load_factor(stress.rule, self.plan, events, mission.utilisation)
+        else:
+            with no_overflow("mission", self.welds):
+                factor = counted_load_factor(stress, self.loads, self.plan, events, mission.load_factor)
+        without = tuple(event.without_histogram() for event in events)
+        return Settled(rows, without, replace(mission, load_factor=factor), tier)
 
     def _at_once(self, rows: NDArray[np.intp]) -> Iterator[NDArray[np.intp]]:
         """All rows at once, unless their histograms would be large."""
