@@ -221,7 +221,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))
         tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
-    tables["welds"].write(weld_rows(model, plan, result.mission, worst))
+    tables["welds"].write(weld_rows(model, plan, result, worst))
     return worst
 
 

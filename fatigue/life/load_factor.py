@@ -24,6 +24,7 @@ Floats = NDArray[np.float64]
 UtilisationAt = Callable[[NDArray[np.intp], Floats, Floats, int], Floats]
 
 FACTORS = 512  # tried at once
+MOST_COUNTS = 50  # after which a factor that meets the target is good enough
 CLOSE = 2e-4  # relative distance of the two neighbours in the end
 WIDE = np.log(16.0)  # of ln(factor), where little is known before
 LARGEST, SMALLEST = 1e250, 1e-250  # factors beyond these are none
@@ -38,7 +39,8 @@ def load_factor_of_counts(
     Parameters
     ----------
     utilisation_at : utilisation (r, 2, g) of some rows with their stresses times ``first exp(i step)``, i < g, from the
-        rows (r,), ``first`` and ``step`` (r, 2) and g; where ``first`` is 0 nothing is wanted
+        rows (r,), ``first`` and ``step`` (r, 2) and g; where ``first`` is 0 nothing is wanted. None is below the
+        utilisation anywhere between its factor and the one before
     low : (n, 2) a factor that is likely to be close below; NaN: not wanted
     width : (n, 2) of ln(factor) from ``low`` up, in which the factor is likely to be
     law : its slopes
@@ -51,8 +53,10 @@ def load_factor_of_counts(
     found = np.full(low.shape, np.nan)
     first, step = np.where(np.isnan(low), 0.0, low), width / (FACTORS - 1)
     k_min = float(law.slopes.min())
-    while (first > 0.0).any():
+    for _ in range(MOST_COUNTS):
         rows = np.flatnonzero((first > 0.0).any(axis=1))
+        if not rows.size:
+            break
         utilisation = utilisation_at(rows, first[rows], step[rows], FACTORS)
         for row, face in np.argwhere(first[rows] > 0.0):
             at = rows[row], face
@@ -74,7 +78,7 @@ def load_factor_of_counts(
                     first[at], step[at] = lower, h / (FACTORS - 1)
                 else:
                     first[at], found[at] = 0.0, lower * _beyond(u[i], u[i + 1], h, k_min, jumps=jumps)
-    return found
+    return np.where(first > 0.0, first, found)
 
 
 def _beyond(lower: float, upper: float, h: float, k_min: float, *, jumps: bool) -> float:

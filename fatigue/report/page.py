@@ -176,6 +176,7 @@ def _head(result: ShownResult) -> dict[str, Any]:
         "has_candidates": any(map(tables.is_candidate, result.welds["reason"])),
         "points": result.toes,
         "worst": welds.iloc[0],
+        "load_factor": welds["load_factor"].min(),
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),
         "target_km": mission["target_km"],
         "target_years": mission["target_km"] / mission["km_per_year"],

@@ -41,7 +41,8 @@ NODES = (
         "load_factor",
         "float",
         "-",
-        "scale on all stresses that just meets the target, at unchanged mean-stress factors",
+        "largest factor on all stresses, dead load included, up to which the target is met; infinite where nothing "
+        "damages; a lower bound where a bound stands for counting",
     ),
     Column(
         "life_km_dirlik",
@@ -65,7 +66,8 @@ NODES = (
         "equivalent_range_2e6_MPa",
         "float",
         "MPa",
-        "structural stress range that does the same in 2e6 cycles over target_km",
+        "(sum n S^k / 2e6)^(1/k) over target_km, k the first slope: the constant structural stress range that does the "
+        "same in 2e6 cycles on one slope, knees, mean stress and scatter of the bending ratio left out",
     ),
     Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress in the governing event"),
     Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all events"),
@@ -73,7 +75,7 @@ NODES = (
         "damage_factor_if_mean_stress",
         "float",
         "-",
-        "damage with the ASME mean-stress factor / without; 1 where it is on",
+        "damage with the ASME mean-stress factor / without; 1 where it is on, empty on curves that it does not belong to",
     ),
     Column("shear_ratio", "float", "-", "rms shear stress / rms structural stress in the governing event"),
     Column("damage_factor_if_shear", "float", "-", "damage with shear combined as in ASME VIII-2 5.5.5.3 / without"),
@@ -187,7 +189,13 @@ WELDS = (
     Column("life_years", "float", "a", "the same in years"),
     Column("utilisation", "float", "-", "largest utilisation of the weld's toe points"),
     Column("fulfilled", "flag", "-", "every toe point meets the target"),
-    Column("load_factor", "float", "-", "load factor of the worst point"),
+    Column(
+        "load_factor",
+        "float",
+        "-",
+        "smallest load factor of the weld's counted toe points: of the worst one, or of one that is the first to come to "
+        "a knee or to high mean tension",
+    ),
     Column(
         "worst_is_proven",
         "flag",

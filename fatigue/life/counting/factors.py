@@ -8,6 +8,9 @@ at the factor f, with the slope k of the segment that f x lies on, and none belo
 divided by f_M for all factors at which ``f (min + max) >= yield`` and ``f S <= 2 yield``: R, and f_M with it, does not
 depend on f. So every cycle has few stretches of ascending factors, on each of which its damage is a constant times f^k.
 Each damage is that of the cycle itself; nothing is sorted into classes.
+
+Damage rises with the factor, but for cycles that leave f_M behind at twice the yield stress. These keep it for one
+factor more. So the damage found at a factor is never below the damage anywhere between this factor and the one before.
 """
 
 import math
@@ -102,6 +105,7 @@ def tally_trials(
         if rule.mean_stress and minimum > 0.0:
             begins = first_at_least(minimum + maximum, factors, rule.yield_MPa, 0)
             ends = first_at_least(S, factors, np.nextafter(2.0 * rule.yield_MPa, math.inf), 0)
+            ends = min(ends + 1, every) if ends > 0 else 0
         if begins >= ends:
             add_stretch(n, x, (0, every), factors, powers, rule, damage)
             continue

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import SNCurve, ThicknessRule, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.curves import DamageLaw, SNCurve, ThicknessRule, catalogue, damage_law, survival_level, user_curve
 from fatigue.life.rule import CycleRule, size_factor
 from fatigue.readers.neutral.body.welds import Weld
 
@@ -97,8 +97,14 @@ def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld
         rated[name] = RatedCurve(
             curve=curve,
             survival=survival_level(curve, case.curve.survival),
-            rule=CycleRule(law, curve.applies == "dS", case.curve.yield_MPa, case.curve.mean_stress == "asme"),
+            rule=_cycle_rule(case, curve, law),
             thickness_rule=case.curve.thickness_rule,
         )
     refuse(CaseError, problems)
     return rated
+
+
+def _cycle_rule(case: Case, curve: SNCurve, law: DamageLaw) -> CycleRule:
+    """Rule of the cycles of a curve; f_M belongs to curves in dS, and is not even shown beside others."""
+    on_dS = curve.applies == "dS"
+    return CycleRule(law, on_dS, case.curve.yield_MPa if on_dS else None, case.curve.mean_stress == "asme")

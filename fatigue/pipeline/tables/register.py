@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.count.mission_block import MissionBlock
+from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import EQUAL, WorstPoint
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.tables.rows import FACES
@@ -16,8 +16,13 @@ from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
 
 
-def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[WorstPoint]) -> dict[str, Any]:
-    """Rows of ``welds.parquet``: every weld of the case."""
+def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[WorstPoint]) -> dict[str, Any]:
+    """Rows of ``welds.parquet``: every weld of the case.
+
+    The worst point is not always the first to miss the target when the load rises: where damage does not scale with one
+    power of the load, another one may come to a knee or to the tension at which f_M begins.
+    """
+    mission = result.mission
     stations, welds, at = model.stations, model.welds, [(p.station, p.face) for p in worst]
     first = stations.first
     part_of_weld = stations.weld[model.lines.begin[:-1]]
@@ -28,6 +33,11 @@ def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[W
     largest = np.maximum.reduceat(of_toes, first[:-1])  # or a bound of it
     proven = [bool(EQUAL * largest[p.weld] <= mission.utilisation[p.station, p.face]) for p in worst]
     curves = model.curve_of_weld
+    counted_toes = stations.toe & (result.tier == 0)[:, None]
+    of_points = np.where(counted_toes, mission.load_factor, np.inf).min(axis=1)
+    of_worst = np.array([mission.load_factor[i] for i in at])
+    smallest = np.minimum.reduceat(of_points, first[:-1])
+    load_factor = np.where(smallest < EQUAL * of_worst, smallest, of_worst)
     return {
         "weld": stations.names,
         "status": ["assessed"] * len(welds),
@@ -47,7 +57,7 @@ def weld_rows(model: Model, plan: Plan, mission: MissionBlock, worst: Sequence[W
         "life_years": life / plan.km_per_year,
         "utilisation": [mission.utilisation[i] for i in at],
         "fulfilled": [bool(mission.utilisation[i] <= 1.0) for i in at],
-        "load_factor": [mission.load_factor[i] for i in at],
+        "load_factor": load_factor,
         "worst_is_proven": proven,
         "worst_part": [stations.part[p.station] for p in worst],
         "worst_order": [stations.order[p.station] for p in worst],

@@ -4,7 +4,7 @@ In memory at a time are some welds, one record, and of the result the rows of so
 the keys of its stations and two columns of its points.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from numbers import Integral
 from pathlib import Path
@@ -29,7 +29,7 @@ from fatigue.verify.recount.anew.record import read_record, spectrum_rules
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
 from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, open_inputs, read_modes
 from fatigue.verify.recount.layout import FACES, Key, Layout
-from fatigue.verify.recount.stored.compare import HISTOGRAM_BIN, ColumnCheck, Recount, Row, compare, merged
+from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
     Station,
@@ -39,7 +39,7 @@ from fatigue.verify.recount.stored.rows import (
     stress_rows,
     weld_row,
 )
-from fatigue.verify.recount.stored.sums import check_sums
+from fatigue.verify.recount.stored.sums import check_load_factors, check_sums
 from fatigue.verify.recount.stored.tables import (
     Stored,
     fastest_peaks,
@@ -140,15 +140,14 @@ def recount(
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
             passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
             of_few = _values(inputs, few, passes, mission)
-            found += _compared(few, stored, of_few, passes, mission, raw_life_enough)
+            found += _compared(few, stored, of_few, passes, mission, raw_life_enough, _steps(inputs, few.values()))
             values |= {body.key(point): of_few[point] for point in few}
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
         found += _compared_stress(modes, recounted, stored)
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
         found += _compared_welds(chosen, stored, values, all_counted=all_counted)
     checks += merged(found)
-    if choice.what:
-        checks += check_sums(stored, inputs.case, mission)
+    checks += check_sums(stored, inputs.case, mission) if choice.what else check_load_factors(stored)
     return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what, astray)
 
 
@@ -206,8 +205,7 @@ def _count(
     cycles_of: frozenset[int],
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
     """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once."""
-    asked = inputs.case["curve"]
-    mean_stress = MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
+    mean_stress = _mean_stress(inputs)
     counted = {point: Passes([], [], []) for point in stations}
     events = []
     for number, given in enumerate(inputs.case["mission"]["event"]):
@@ -229,13 +227,18 @@ def _count(
     return counted, events
 
 
+def _mean_stress(inputs: RecountInputs) -> MeanStress:
+    asked = inputs.case["curve"]
+    return MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
+
+
 def _values(
     inputs: RecountInputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[RecountEvent]
 ) -> dict[int, Values]:
     """Columns of the table of points, point by point: the events weighted with the mission."""
-    mission = inputs.case["mission"]
+    mission, mean_stress = inputs.case["mission"], _mean_stress(inputs)
     return {
-        point: point_values(of.treated, of.raw_damage, events, mission, stations[point].weld.curve)
+        point: point_values(of.treated, of.raw_damage, events, mission, stations[point].weld.curve, mean_stress)
         for point, of in passes.items()
     }
 
@@ -247,6 +250,7 @@ def _compared(
     passes: Mapping[int, Passes],
     events: Sequence[RecountEvent],
     raw_life_enough: float,
+    steps: Mapping[str, float],
 ) -> list[ColumnCheck]:
     """Checks of the stored rows of some points beside the recounted ones."""
     points, e = np.array(list(stations)), len(events)
@@ -260,11 +264,10 @@ def _compared(
         for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
     cycles = [row for of in passes.values() for row in of.cycles]
-    bins = _bins([station.weld for station in stations.values()])
     return [
-        *compare("nodes", nodes, bins),
-        *compare("damage", damage, bins),
-        *compare("cycles", cycles, bins),
+        *compare("nodes", nodes, steps),
+        *compare("damage", damage, steps),
+        *compare("cycles", cycles, steps),
     ]
 
 
@@ -298,9 +301,10 @@ def _compared_welds(
         )
         for name, weld in welds.items()
     ]
-    return compare("welds", rows, _bins(list(welds.values())))
+    return compare("welds", rows, {})
 
 
-def _bins(welds: Sequence[RecountWeld]) -> dict[str, float]:
-    """Tolerances of columns that are read from a histogram where a curve bends."""
-    return {} if all(weld.curve.is_straight for weld in welds) else {"load_factor": HISTOGRAM_BIN}
+def _steps(inputs: RecountInputs, stations: Iterable[Station]) -> dict[str, float]:
+    """Tolerances of columns that are found in steps where damage does not scale with one power of the load."""
+    scales = not _mean_stress(inputs).counts and all(station.weld.curve.is_straight for station in stations)
+    return {} if scales else {"load_factor": LOAD_FACTOR_STEP}

@@ -43,13 +43,15 @@ class MeanStress:
 class OnePass:
     """One pass of an event at a point: its quantities by the name of their column, and its cycles.
 
-    ``rows`` is the table of cycles; ``ranges`` and ``counts`` repeat the equivalent range and the count of every cycle
-    on a curve that bends, and are empty on a straight one.
+    ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are of every cycle the equivalent range
+    without mean stress, the count and its two stresses, and empty where damage scales with one power of the load.
     """
 
     quantities: Values
     ranges: Floats
     counts: Floats
+    low: Floats
+    high: Floats
     rows: dict[str, Floats]
 
 
@@ -112,12 +114,13 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         "shear_ratio": _quotient(float(np.std(t_m + t_b)), float(np.std(kept))),
         "power_sum": float(n @ S**k),
         "R_largest": np.nan if largest is None else _stress_ratio(s[cycles.start[largest]], s[cycles.end[largest]]),
-        "with_mean_stress": np.nan if mean_stress.yield_MPa is None else float(n @ curve.damage(x / f_M)),
+        "with_mean_stress": float(n @ curve.damage(x / f_M)) if _is_known(mean_stress, curve) else np.nan,
         "with_shear": damage * _shear_factor(kept, t_m, t_b, I_one, curve) ** k if damage > 0 else 0.0,
     }
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
-    kept_cycles = slice(0) if curve.is_straight else slice(None)
-    return OnePass(values, dS[kept_cycles], n[kept_cycles], rows)
+    kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
+    low, high = np.minimum(s[cycles.start], s[cycles.end]), np.maximum(s[cycles.start], s[cycles.end])
+    return OnePass(values, *(of_cycles[kept_cycles] for of_cycles in (x, n, low, high)), rows)
 
 
 def point_values(
@@ -126,6 +129,7 @@ def point_values(
     events: Sequence[RecountEvent],
     mission: Mapping[str, Any],
     curve: RecountCurve,
+    mean_stress: MeanStress,
 ) -> Values:
     """Columns of the table of points: one pass of every event, weighted with the mission.
 
@@ -155,7 +159,7 @@ def point_values(
         "life_years": life / mission["km_per_year"],
         "utilisation": utilisation,
         "fulfilled": utilisation <= 1.0,
-        "load_factor": _load_factor(passes, weights * target / limit, curve, utilisation),
+        "load_factor": _load_factor(passes, weights * target / limit, curve, mean_stress, utilisation),
         "life_km_dirlik": _life(D_dirlik, limit),
         "life_km_tb": _life(D_tb, limit),
         "life_km_same_ratio": _life(D_same, limit),
@@ -190,20 +194,41 @@ def _cycle_rows(cycles: RecountCycles, m: Floats, b: Floats, record: RecountReco
     }
 
 
-def _load_factor(passes: Sequence[OnePass], weights: Floats, curve: RecountCurve, utilisation: float) -> float:
-    """Scale on all ranges at which all cycles together just meet the target, by bisection where the curve bends."""
-    if curve.is_straight:
+def _load_factor(
+    passes: Sequence[OnePass], weights: Floats, curve: RecountCurve, mean_stress: MeanStress, utilisation: float
+) -> float:
+    """Scale on all stresses up to which all cycles together meet the target, by bisection unless damage scales.
+
+    Damage rises with the load, but where a cycle comes to twice the yield stress and its mean stress does not count any
+    more: so the loads at which cycles do are looked at in turn.
+    """
+    if curve.is_straight and not mean_stress.counts:
         return float(utilisation ** (-1 / curve.slopes[0])) if utilisation > 0 else np.inf
-    x = np.concatenate([one.ranges for one in passes])
     n = np.concatenate([weight * one.counts for weight, one in zip(weights, passes, strict=True)])
-    if not x[n > 0].max(initial=0.0) > 0.0:
+    occurs = n > 0
+    n = n[occurs]
+    x, low, high = (
+        np.concatenate([getattr(one, name) for one in passes])[occurs] for name in ("ranges", "low", "high")
+    )
+    if not x.max(initial=0.0) > 0.0:
         return np.inf
-    low, high = -60.0, 60.0  # of ln(factor)
+
+    def is_too_much(log_factor: float) -> bool:
+        f = np.exp(log_factor)
+        f_M = _mean_stress_factor(f * low, f * high, mean_stress.yield_MPa) if mean_stress.counts else 1.0
+        return bool(n @ curve.damage(f * x / f_M) > 1.0)
+
+    lower, upper = -60.0, 60.0  # of ln(factor)
+    if mean_stress.counts and mean_stress.yield_MPa is not None:
+        for rises_to in np.unique(np.log(2 * mean_stress.yield_MPa / (high - low)[high > low]) - 1e-12):
+            if is_too_much(rises_to):
+                upper = rises_to
+                break
+            lower = rises_to
     for _ in range(60):
-        middle = (low + high) / 2
-        above = n @ curve.damage(x * np.exp(middle)) > 1.0
-        low, high = (low, middle) if above else (middle, high)
-    return float(np.exp(low))
+        middle = (lower + upper) / 2
+        lower, upper = (lower, middle) if is_too_much(middle) else (middle, upper)
+    return float(np.exp(lower))
 
 
 def _shear_factor(kept: Floats, t_m: Floats, t_b: Floats, I_one: float, curve: RecountCurve) -> float:
@@ -227,6 +252,11 @@ def _mean_stress_factor(a: Floats, b: Floats, yield_MPa: float | None) -> Floats
         tension = ((low + high) / 2 >= yield_MPa / 2) & (low > 0) & (high - low <= 2 * yield_MPa)
         factor[tension] = (1 - low[tension] / high[tension]) ** (1 / 3.6)
     return factor
+
+
+def _is_known(mean_stress: MeanStress, curve: RecountCurve) -> bool:
+    """Whether there is something to say of mean stress: a yield stress, and a curve in dS."""
+    return mean_stress.yield_MPa is not None and curve.on_equivalent
 
 
 def _factor(r: Floats, curve: RecountCurve) -> Floats:

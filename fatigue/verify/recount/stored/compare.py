@@ -12,7 +12,7 @@ from fatigue.errors import Problem
 from fatigue.results import TABLES
 
 TOLERANCE = 1e-6  # two programs written apart agree to this
-HISTOGRAM_BIN = 10 ** (1 / 64) - 1  # the load factor on a curve with a knee comes from bins this wide
+LOAD_FACTOR_STEP = 2e-4  # below the largest factor that meets the target, where damage jumps or bends with the load
 UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa"}
 LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
 

@@ -140,7 +140,7 @@ def weld_row(weld: RecountWeld, recounted: Mapping[Key, Values], found: Mapping[
         "surface": weld.given["surface"],
         "curve": weld.curve_name,
         "end_length_mm": np.nan if end_length is None else end_length,
-        **{name: worst[name] for name in ("life_km", "life_years", "utilisation", "fulfilled", "load_factor")},
+        **{name: worst[name] for name in ("life_km", "life_years", "utilisation", "fulfilled")},
         **({"worst_is_proven": True} if all_counted else {}),
         "worst_part": stored[1],
         "worst_order": stored[2],

@@ -4,6 +4,7 @@ Nothing is counted here. A value that was spoiled, or rows that are not of the s
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ import pandas as pd
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from fatigue.results import TABLES, number_groups, read_rows
+from fatigue.results import TABLES, number_groups, read_rows, read_table
 from fatigue.verify.recount.anew.point import RecountEvent
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
@@ -23,7 +24,7 @@ Floats = NDArray[np.float64]
 ALL_ROWS = ", all rows"
 PER_PASS = ("damage", "damage_dirlik", "damage_tb", "damage_same_ratio", "cycles")
 OF_GOVERNING = ("mean_stress_MPa", "bending_ratio")
-OF_WORST = ("life_km", "life_years", "utilisation", "load_factor", "fulfilled", "governing_event")
+OF_WORST = ("life_km", "life_years", "utilisation", "fulfilled", "governing_event")
 _NODES = ("damage_per_km", "life_km", "life_years", "utilisation", "fulfilled", "life_km_dirlik", "life_km_tb",
           "life_km_same_ratio", "dirlik_ratio", "max_range_MPa", "governing_event", *OF_GOVERNING)  # fmt: skip
 _DAMAGE = (*(f"{name}_{per}" for name in PER_PASS for per in ("per_pass", "per_km")), "max_range_MPa", *OF_GOVERNING)
@@ -51,12 +52,23 @@ def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Recount
     return merged(checks)
 
 
+def check_load_factors(stored: Stored) -> list[ColumnCheck]:
+    """Check of the load factor of every weld against those of its points.
+
+    Raises
+    ------
+    DataError : a table is damaged
+    """
+    return [replace(_check(stored, (), _smallest_load_factors(stored)), table="welds")]
+
+
 def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> Iterator[Sum]:
     points = max(1, _ROWS_AT_ONCE // len(events))
     for first in range(0, stored.body.points, points):
         yield from _of_points(stored, case, events, np.arange(first, min(first + points, stored.body.points)))
     yield from _of_cycles(stored, len(events))
     yield from _of_welds(stored)
+    yield _smallest_load_factors(stored)
 
 
 def _of_points(
@@ -141,6 +153,16 @@ def _of_welds(stored: Stored) -> Iterator[Sum]:
     worst = worst_points(stored.body, toe, utilisation)
     number = number[toe[worst]]
     yield Sum("welds", "utilisation", welds["utilisation"].to_numpy()[number], utilisation[worst][number], number)
+
+
+def _smallest_load_factors(stored: Stored) -> Sum:
+    """Load factor of a weld as the smallest one of its counted toe points makes it."""
+    names = list(stored.body.welds)
+    table = read_table(stored.folder, "nodes", ["toe", "load_factor"])
+    toe, of_points = (stored.nodes.in_order(table[name].to_numpy()) for name in ("toe", "load_factor"))
+    severity = np.where(toe & is_counted(stored), of_points, np.inf)
+    smallest = np.minimum.reduceat(severity, 2 * stored.body.first[:-1])
+    return Sum("welds", "load_factor", stored.welds["load_factor"].loc[names].to_numpy(), smallest, np.arange(len(names)))
 
 
 def _check(stored: Stored, events: Sequence[RecountEvent], one: Sum) -> ColumnCheck:
