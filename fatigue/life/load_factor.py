@@ -9,8 +9,8 @@ lower one meets the target and the upper one does not, until these are close. Wh
 - where it may jump, at a cut-off or at the onset of f_M, all jumps are put at the lower neighbour. So the factor is the
   largest one that meets the target, or less than ``CLOSE`` below it.
 
-Where f_M ends again, at ranges above twice the yield stress, damage falls while the load rises. The factor is the one up
-to which every load meets the target.
+Where f_M ends again, at ranges above twice the yield stress, damage falls while the load rises. The factor is the one
+up to which every load meets the target.
 """
 
 from collections.abc import Callable

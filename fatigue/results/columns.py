@@ -75,7 +75,7 @@ NODES = (
         "damage_factor_if_mean_stress",
         "float",
         "-",
-        "damage with the ASME mean-stress factor / without; 1 where it is on, empty on curves that it does not belong to",
+        "damage with the ASME mean-stress factor / without; 1 where it is on, empty on curves in structural stress",
     ),
     Column("shear_ratio", "float", "-", "rms shear stress / rms structural stress in the governing event"),
     Column("damage_factor_if_shear", "float", "-", "damage with shear combined as in ASME VIII-2 5.5.5.3 / without"),
@@ -193,8 +193,8 @@ WELDS = (
         "load_factor",
         "float",
         "-",
-        "smallest load factor of the weld's counted toe points: of the worst one, or of one that is the first to come to "
-        "a knee or to high mean tension",
+        "smallest load factor of the weld's counted toe points: of the worst one, or of one that comes first to a knee "
+        "or to high mean tension",
     ),
     Column(
         "worst_is_proven",

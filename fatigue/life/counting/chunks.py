@@ -103,9 +103,7 @@ def count_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, ch
     return block_count(*counted, rule)
 
 
-def try_chunks(
-    stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK
-) -> None:
+def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
     """Add the damage of one pass of a block under factors on its stress to the trials."""
     _count_points(stress, record, rule, (*nothing_counted(len(stress), rule.law), tried), chunk)
 

@@ -75,7 +75,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
 
 def _rows_at_once(record: CountedRecord) -> int:
     """How many points at a time: of the record only, so that the bytes do not depend on the machine."""
-    return max(1, SAMPLES_AT_ONCE // record.q.shape[1])
+    return max(1, SAMPLES_AT_ONCE // int(record.q.shape[1]))
 
 
 def count_histories(

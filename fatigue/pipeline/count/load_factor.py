@@ -43,9 +43,7 @@ def counted_load_factor(
     return factor
 
 
-def bounded_load_factor(
-    rule: CycleRule, plan: Plan, events: Sequence[EventBlock], utilisation: Floats
-) -> Floats:
+def bounded_load_factor(rule: CycleRule, plan: Plan, events: Sequence[EventBlock], utilisation: Floats) -> Floats:
     """Lower bound (n, 2) of the load factor where bounds stand for counting, ``utilisation`` their bound.
 
     Damage rises with f^k at most, k the largest slope, and falls with f^k at least, k the smallest one. A cut-off only

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
@@ -147,7 +148,10 @@ def recount(
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
         found += _compared_welds(chosen, stored, values, all_counted=all_counted)
     checks += merged(found)
-    checks += check_sums(stored, inputs.case, mission) if choice.what else check_load_factors(stored)
+    if choice.what:
+        checks += check_sums(stored, inputs.case, mission)
+    else:
+        checks += check_load_factors(stored, _toes(inputs, body))
     return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what, astray)
 
 
@@ -156,6 +160,12 @@ def _senseless(sample: object, seed: object) -> Iterator[Problem]:
     for name, given in (("sample", 0 if sample is None else sample), ("seed", seed)):
         if not (isinstance(given, Integral) and int(given) >= 0):
             yield Problem("argument", name, f"{given!r} is no whole number from 0 on", "Give one")
+
+
+def _toes(inputs: RecountInputs, body: Layout) -> NDArray[np.bool_]:
+    """Whether each point is at a toe, by the inputs, (p,)."""
+    surfaces = [inputs.register.welds[name].surface or "both" for name in body.welds]
+    return np.array([[face in TOES[surface] for face in FACES] for surface in surfaces])[body.weld].ravel()
 
 
 def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:

@@ -43,8 +43,8 @@ class MeanStress:
 class OnePass:
     """One pass of an event at a point: its quantities by the name of their column, and its cycles.
 
-    ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are of every cycle the equivalent range
-    without mean stress, the count and its two stresses, and empty where damage scales with one power of the load.
+    ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are the equivalent range of every cycle
+    without mean stress, its count and its two stresses, and empty where damage scales with one power of the load.
     """
 
     quantities: Values
@@ -120,7 +120,7 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
     kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
     low, high = np.minimum(s[cycles.start], s[cycles.end]), np.maximum(s[cycles.start], s[cycles.end])
-    return OnePass(values, *(of_cycles[kept_cycles] for of_cycles in (x, n, low, high)), rows)
+    return OnePass(values, x[kept_cycles], n[kept_cycles], low[kept_cycles], high[kept_cycles], rows)
 
 
 def point_values(

@@ -52,14 +52,14 @@ def check_sums(stored: Stored, case: Mapping[str, Any], events: Sequence[Recount
     return merged(checks)
 
 
-def check_load_factors(stored: Stored) -> list[ColumnCheck]:
-    """Check of the load factor of every weld against those of its points.
+def check_load_factors(stored: Stored, toe: NDArray[np.bool_]) -> list[ColumnCheck]:
+    """Check of the load factor of every weld against those of its points, of which some are at a toe, (p,).
 
     Raises
     ------
     DataError : a table is damaged
     """
-    return [replace(_check(stored, (), _smallest_load_factors(stored)), table="welds")]
+    return [replace(_check(stored, (), _smallest_load_factors(stored, toe)), table="welds")]
 
 
 def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent]) -> Iterator[Sum]:
@@ -68,7 +68,7 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent
         yield from _of_points(stored, case, events, np.arange(first, min(first + points, stored.body.points)))
     yield from _of_cycles(stored, len(events))
     yield from _of_welds(stored)
-    yield _smallest_load_factors(stored)
+    yield _smallest_load_factors(stored, toes_and_utilisation(stored)[0])
 
 
 def _of_points(
@@ -155,14 +155,14 @@ def _of_welds(stored: Stored) -> Iterator[Sum]:
     yield Sum("welds", "utilisation", welds["utilisation"].to_numpy()[number], utilisation[worst][number], number)
 
 
-def _smallest_load_factors(stored: Stored) -> Sum:
+def _smallest_load_factors(stored: Stored, toe: NDArray[np.bool_]) -> Sum:
     """Load factor of a weld as the smallest one of its counted toe points makes it."""
     names = list(stored.body.welds)
-    table = read_table(stored.folder, "nodes", ["toe", "load_factor"])
-    toe, of_points = (stored.nodes.in_order(table[name].to_numpy()) for name in ("toe", "load_factor"))
+    of_welds = stored.welds["load_factor"].loc[names].to_numpy()
+    of_points = stored.nodes.in_order(read_table(stored.folder, "nodes", ["load_factor"])["load_factor"].to_numpy())
     severity = np.where(toe & is_counted(stored), of_points, np.inf)
     smallest = np.minimum.reduceat(severity, 2 * stored.body.first[:-1])
-    return Sum("welds", "load_factor", stored.welds["load_factor"].loc[names].to_numpy(), smallest, np.arange(len(names)))
+    return Sum("welds", "load_factor", of_welds, smallest, np.arange(len(names)))
 
 
 def _check(stored: Stored, events: Sequence[RecountEvent], one: Sum) -> ColumnCheck:
