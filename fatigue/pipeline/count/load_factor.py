@@ -47,8 +47,8 @@ def bounded_load_factor(rule: CycleRule, plan: Plan, events: Sequence[EventBlock
     """Lower bound (n, 2) of the load factor where bounds stand for counting, ``utilisation`` their bound.
 
     Damage rises with f^k at most, k the largest slope, and falls with f^k at least, k the smallest one. A cut-off only
-    takes damage away; but it may let cycles in when the load rises, and none as long as the largest stays below it. No
-    f_M is in the bounds: they hold up to the factor at which the largest stress may meet with it.
+    takes damage away; but it may let cycles in when the load rises, and none as long as the largest stays below it. A
+    rise ends at the factor at which the largest stress may meet with f_M.
     """
     law, yield_MPa = rule.law, rule.yield_of_damage
     less = straight_load_factor(utilisation, float(law.slopes.min()))
@@ -60,7 +60,7 @@ def bounded_load_factor(rule: CycleRule, plan: Plan, events: Sequence[EventBlock
     if yield_MPa is not None:
         highest = _of_weighted([event.estimate.mean + event.count.max_range for event in events], plan)
         reached = quotient(np.full_like(highest, (1.0 - ROUNDING) * yield_MPa), 2.0 * highest)
-        factor = np.where(highest > 0.0, np.minimum(factor, reached), factor)
+        factor = np.where((highest > 0.0) & (utilisation <= 1.0), np.maximum(np.minimum(factor, reached), 1.0), factor)
     return factor
 
 

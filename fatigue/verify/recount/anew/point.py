@@ -43,7 +43,7 @@ class MeanStress:
 class OnePass:
     """One pass of an event at a point: its quantities by the name of their column, and its cycles.
 
-    ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are the equivalent range of every cycle
+    ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are the equivalent range of each cycle
     without mean stress, its count and its two stresses, and empty where damage scales with one power of the load.
     """
 
