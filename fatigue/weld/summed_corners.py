@@ -55,7 +55,7 @@ def _problem(weld: str, node: Sequence[int], turn: Sequence[float], slope: float
     return Problem(
         "summed_corner",
         f"{file}: weld {weld}, node {named}{more}",
-        f"the line turns by more than {KINK_LIMIT:g} degrees where its nodal forces are summed over both legs: of a "
-        f"stress that both legs share {share:.2g} is read there, a life x {share**-slope:.3g}, and there is no bound",
+        f"the line turns by more than {KINK_LIMIT:g} degrees where its nodal forces are summed over both legs: stress "
+        f"that is equal in both is read as {share:.2g} of it (life x {share**-slope:.3g}), and the sum sets no bound",
         REMEDY,
     )

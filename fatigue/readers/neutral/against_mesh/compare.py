@@ -10,7 +10,7 @@ from fatigue.readers.neutral.against_mesh.directions import astray
 from fatigue.readers.neutral.against_mesh.edges import other_edges
 from fatigue.readers.neutral.against_mesh.findings import Doubt, worst_first
 from fatigue.readers.neutral.against_mesh.positions import moved_nodes, unknown_nodes
-from fatigue.readers.neutral.against_mesh.shells import TouchingShells, touching_shells
+from fatigue.readers.neutral.against_mesh.shells import TouchingShells, arms, touching_shells
 from fatigue.readers.neutral.against_mesh.thickness import other_thickness
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.weld.line import LineStack
@@ -65,7 +65,6 @@ def _of_some(
     if not knows_sides:
         at, shell = shells.pairs(lines.node)
         stays = ~np.repeat(is_moved, np.diff(lines.begin))[at]
-        at, shell = at[stays], shell[stays]
-        arm = shells.centre[shell] - lines.xyz[at]
+        at, arm = arms(lines, at[stays], shells, shell[stays], mesh)
         found += astray(lines, at, arm, f"the nearest shell of {names.elements}", names.lines)
     return found + other_edges(lines, shells, names.lines, names.elements)

@@ -6,8 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.neutral.body.mesh import Mesh
+from fatigue.weld.element_forces import ElementForces
+from fatigue.weld.line import LineStack
 
 Ids = NDArray[np.int64]
+Floats = NDArray[np.float64]
 
 CORNERS = 4  # first columns of the node ids of an element, before those of its mid-side nodes
 
@@ -29,8 +32,8 @@ class TouchingShells:
 
     element: Ids
     nodes: Ids
-    thickness: NDArray[np.float64]
-    centre: NDArray[np.float64]
+    thickness: Floats
+    centre: Floats
     node: Ids
     first: Ids
     shell: Ids
@@ -47,6 +50,25 @@ class TouchingShells:
         return at, self.shell[begin[at] + within]
 
 
+def shells_of_forces(forces: ElementForces, mesh: Mesh) -> TouchingShells:
+    """Elements with forces, at all their nodes, as far as the mesh has these; of no known thickness."""
+    one_mode = forces.mode == forces.mode[:1]
+    element, node = forces.element[one_mode], forces.node[one_mode]
+    place = np.searchsorted(mesh.node, node).clip(max=mesh.node.size - 1)
+    known = mesh.node[place] == node
+    element, node, place = element[known], node[known], place[known]
+    ids, shell = np.unique(element, return_inverse=True)
+    total = np.column_stack([np.bincount(shell, x, minlength=ids.size) for x in mesh.xyz[place].T])
+    return _touching(
+        element=ids,
+        nodes=np.zeros((ids.size, mesh.corners.shape[1]), np.int64),
+        thickness=np.full(ids.size, np.nan),
+        centre=total / np.bincount(shell, minlength=ids.size)[:, np.newaxis],
+        node=node,
+        shell=shell,
+    )
+
+
 def touching_shells(mesh: Mesh, line_nodes: Ids) -> TouchingShells:
     """Shells of a mesh that touch any of the nodes, with a corner or with the middle of a side."""
     wanted = np.unique(line_nodes)
@@ -57,14 +79,18 @@ def touching_shells(mesh: Mesh, line_nodes: Ids) -> TouchingShells:
     centre = np.sum(at_corners * is_corner, axis=1) / np.maximum(is_corner.sum(axis=1), 1)
     shell, column = np.nonzero(np.isin(nodes, wanted) & (nodes != 0))
     node = nodes[shell, column]
+    return _touching(mesh.element[rows], nodes, mesh.thickness[rows], centre, node, shell)
+
+
+def _touching(element: Ids, nodes: Ids, thickness: Floats, centre: Floats, node: Ids, shell: Ids) -> TouchingShells:
+    """Shells, and which of them touches which node, in any order, (p,) each."""
     order = np.argsort(node, kind="stable")
     touched, first = np.unique(node[order], return_index=True)
-    return TouchingShells(
-        element=mesh.element[rows],
-        nodes=nodes,
-        thickness=mesh.thickness[rows],
-        centre=centre,
-        node=touched,
-        first=np.append(first, node.size),
-        shell=shell[order],
-    )
+    return TouchingShells(element, nodes, thickness, centre, touched, np.append(first, node.size), shell[order])
+
+
+def arms(lines: LineStack, at: Ids, shells: TouchingShells, shell: Ids, mesh: Mesh) -> tuple[Ids, Floats]:
+    """Vectors from nodes of lines, as the mesh has them, to the middle of shells, (q, 3) [mm]; and of which nodes."""
+    place = np.searchsorted(mesh.node, lines.node[at]).clip(max=mesh.node.size - 1)
+    known = mesh.node[place] == lines.node[at]
+    return at[known], shells.centre[shell[known]] - mesh.xyz[place[known]]

@@ -41,9 +41,7 @@ def other_thickness(
     def words(worst: int, nodes: NDArray[np.int64]) -> tuple[str, str]:
         own = np.unique(there[begin[worst] : begin[worst + 1]])
         element = shells.element[shell[begin[worst]]]
-        nearest = _nearest(lines.thickness, there, begin, nodes)
-        factor = one_factor(lines.thickness[nodes] / nearest)
-        times = "" if factor is None else f", {factor:.4g} times{unit_of(factor, 'thickness_mm', elements_file)}"
+        times = _times(lines.thickness[nodes], [there[begin[i] : begin[i + 1]] for i in nodes.tolist()], elements_file)
         several = " and ".join(f"{t:g}" for t in own[:3].tolist()) + (" and others" if own.size > 3 else "")
         what = (
             f"thickness_mm is {lines.thickness[worst]:g}, and {several} in {elements_file} where shells touch the node "
@@ -54,10 +52,12 @@ def other_thickness(
     return doubts(lines, wrong, np.where(known, away, 0.0), "other_thickness", words, file)
 
 
-def _nearest(given: Floats, there: Floats, begin: NDArray[np.int64], nodes: NDArray[np.int64]) -> Floats:
-    """Thickness of the shell that comes nearest at each of the nodes."""
-    nearest = []
-    for i in nodes.tolist():
-        own = there[begin[i] : begin[i + 1]]
-        nearest.append(own[np.abs(np.log(given[i] / own)).argmin()])
-    return np.array(nearest)
+def _times(given: Floats, there: Sequence[Floats], elements_file: str) -> str:
+    """Say how many times as thick all nodes at fault are, where shells of one thickness touch each, or a unit fits."""
+    thinnest, thickest = (np.array([extreme(own) for own in there]) for extreme in (np.min, np.max))
+    for own in (thinnest, thickest):
+        factor = one_factor(given / own)
+        unit = "" if factor is None else unit_of(factor, "thickness_mm", elements_file)
+        if factor is not None and (unit or np.array_equal(thinnest, thickest)):
+            return f", {factor:.4g} times as much{unit}"
+    return ""
