@@ -90,6 +90,12 @@ NODES = (
     Column("at_end", "flag", "-", "inside the treated zone of a weld end, or the end node itself"),
     Column("at_corner", "flag", "-", "at a kink of the weld line above 30 degrees"),
     Column(
+        "summed_corner",
+        "flag",
+        "-",
+        "at a kink where the nodal forces of both legs are one sum: the stress there is of neither leg, and unbounded",
+    ),
+    Column(
         "screened",
         "text",
         "-",
@@ -208,6 +214,7 @@ WELDS = (
     Column("worst_node", "int", "-", "worst point: FE node"),
     Column("worst_surface", "text", "-", "worst point: face"),
     Column("worst_arc_length_mm", "float", "mm", "worst point: distance along the part"),
+    Column("worst_summed_corner", "flag", "-", "worst point: at a kink where the forces of both legs are one sum"),
     Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
 )
 

@@ -21,7 +21,7 @@ MOST_LEFT_OUT = 20  # printed one by one
 _POINT_COLUMNS = (
     "weld", "part", "node", "order", "surface", "arc_length_mm", "life_km", "life_years", "utilisation",
     "fulfilled", "load_factor", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict", "governing_event", "max_range_MPa",
-    "bending_ratio", "at_end", "at_corner",
+    "bending_ratio", "at_end", "at_corner", "summed_corner",
 )  # fmt: skip
 
 
@@ -71,6 +71,7 @@ class Summary:
                     ["weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event"],
                 ),
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
+                *self._at_summed_corners(),
                 *self._left_out(),
                 "",
                 "The worst point" if len(self.points) == 1 else f"The {len(self.points)} worst points",
@@ -90,6 +91,15 @@ class Summary:
                 ),
             ]
         )
+
+    def _at_summed_corners(self) -> list[str]:
+        """Say which welds are judged by a corner where the stress has no bound."""
+        names = self.welds.loc[self.welds["worst_summed_corner"].astype(bool), "weld"].tolist()
+        if not names:
+            return []
+        more = f" and {len(names) - MOST_LEFT_OUT} more" if len(names) > MOST_LEFT_OUT else ""
+        what = "whose nodal forces are one sum of both legs, so the life there is not bounded"
+        return ["", f"Worst at a corner {what}: {', '.join(names[:MOST_LEFT_OUT])}{more}"]
 
     def _left_out(self) -> list[str]:
         """Say which welds are not assessed, and why; of many, every kind of reason with its number."""

@@ -1,11 +1,13 @@
-"""Recognise nodal forces of parabolic elements on a line without mid-side nodes.
+"""Recognise nodal forces of parabolic elements on unmarked nodes, and of linear elements on marked mid-side nodes.
 
 A constant line load on parabolic edges has the nodal forces l/6, 2l/3, l/6. Solved as linear edges of half the length
-it comes out as 0, 2, 0, 2, ..., twice the stress. Connectivity is not at hand where forces come already summed, so the
-forces themselves are asked: they bring a warning when the solved line load zigzags from node to node on linear edges,
-and does not on parabolic ones.
+it comes out as 0, 2, 0, 2, ..., twice the stress; the other way round, as 2.25, 0.375, 2.25, ... Connectivity is not at
+hand where forces come already summed, so the forces themselves are asked: they bring a warning when the solved line
+load zigzags from node to node as the edges are marked, and does not with other marks. Where the whole line is marked
+wrongly all of it zigzags; where a few nodes are, the load zigzags round them.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -18,51 +20,145 @@ from fatigue.weld.line_geometry import step_lengths
 from fatigue.weld.line_load import line_load
 
 Floats = NDArray[np.float64]
+Marks = NDArray[np.bool_]
 
-ZIGZAG_SHARE = 0.5  # of the line load as linear edges; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing
-ZIGZAG_DROP = 0.3  # of it left as parabolic edges; white noise over six components keeps more than half
-SHORTEST = 5  # nodes: on a single parabolic edge one zigzag in three nodes proves nothing
+ZIGZAG_SHARE = 0.5  # of the line load as it is marked; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing
+ZIGZAG_DROP = 0.3  # of it left with other marks; white noise over six components keeps more than half
+STRETCH_DROP = 0.2  # where stretches are marked one by one, which has more freedom to fit noise
+SHORTEST, SHORTEST_MARKED = 5, 3  # nodes: on a single edge that marks no mid-side node one zigzag proves nothing
 
 
-def jumpy_lines(line: Lines, load: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Positions in a stack of the lines whose load, (n, ...), zigzags though they mark no mid-side nodes."""
-    zigzag, norm = _norms(line, load)
-    marked = np.logical_or.reduceat(line.edge_mid, line.begin[:-1])
-    long_enough = np.diff(line.begin) >= SHORTEST
-    return np.flatnonzero(long_enough & ~marked & (zigzag > ZIGZAG_SHARE * norm))
+def jumpy_lines(line: Lines, load: Floats) -> NDArray[np.intp]:
+    """Positions in a stack of the lines whose load, (n, ...), zigzags, as a whole or at some of their nodes."""
+    jump, square = _jumps(line, load)
+    first = line.begin[:-1]
+    marked = np.logical_or.reduceat(line.edge_mid, first)
+    long_enough = np.diff(line.begin) >= np.where(marked, SHORTEST_MARKED, SHORTEST)
+    as_a_whole = np.add.reduceat(jump, first) > ZIGZAG_SHARE**2 * np.add.reduceat(square, first)
+    at_some = np.logical_or.reduceat(_zigzags(line, jump, square), first)
+    return np.flatnonzero(long_enough & (as_a_whole | at_some))
 
 
 def edge_type_warnings(line: WeldLine, nodal: NDArray[np.floating], where: str) -> list[Problem]:
-    """Warning ``edge_type`` if nodal forces, (n, ...), fit parabolic edges and the line marks none; else nothing."""
+    """Warning ``edge_type`` if nodal forces, (n, ...), fit other mid-side nodes than the line marks; else nothing."""
     load = line_load(line, nodal)
     if not jumpy_lines(line, load).size:
         return []
-    parabolic = [replace(line, edge_mid=np.arange(line.node.size) % 2 == odd) for odd in (1, 0) if _pairs_up(line, odd)]
-    zigzag, _ = _norms(line, load)
-    if all(_norms(other, line_load(other, nodal))[0] > ZIGZAG_DROP * zigzag for other in parabolic):
-        return []
-    return [
-        Problem(
-            "edge_type",
-            where,
-            "the line load jumps up and down from node to node, and would not if every other node were the mid-side "
-            "node of a parabolic edge",
-            "Mark the mid-side nodes in edge_mid if the elements have them",
-        )
-    ]
+    zigzag = _zigzag(line, nodal)
+    for marks in _other_marks(line):
+        if _zigzag(replace(line, edge_mid=marks), nodal) <= ZIGZAG_DROP * zigzag:
+            return [_problem(line, marks, where)]
+    marks = _mended(line, nodal, load)
+    if _zigzag(replace(line, edge_mid=marks), nodal) <= STRETCH_DROP * zigzag:
+        return [_problem(line, marks, where)]
+    return []
+
+
+def _other_marks(line: WeldLine) -> Iterator[Marks]:
+    """Ways to mark the whole line: no mid-side node, or every other node from the second or from the first on."""
+    if line.edge_mid.any():
+        yield np.zeros_like(line.edge_mid)
+    for odd in (1, 0):
+        marks = np.arange(line.node.size) % 2 == odd
+        if _pairs_up(line, odd) and not np.array_equal(marks, line.edge_mid):
+            yield marks
+
+
+def _mended(line: WeldLine, nodal: NDArray[np.floating], load: Floats) -> Marks:
+    """Marks of a line after those stretches whose load zigzags are marked in the way that leaves the least of it."""
+    marks = line.edge_mid
+    for stretch in _stretches(line, _zigzags(line, *_jumps(line, load))):
+        ways = [marks, *_ways(line, marks, stretch)]
+        marks = min(ways, key=lambda way: _zigzag(replace(line, edge_mid=way), nodal))
+    return marks
+
+
+def _stretches(line: WeldLine, zigzags: Marks) -> list[NDArray[np.int64]]:
+    """Positions of the nodes of each stretch that zigzags, with a node more at both its ends."""
+    n = line.node.size
+    around = zigzags | np.roll(zigzags, 1) | np.roll(zigzags, -1)
+    start = int(np.argmin(around)) if line.closed else 0
+    at = (start + np.arange(n)) % n
+    inside = np.concatenate([[False], around[at], [False]])
+    first, end = np.flatnonzero(inside[1:] & ~inside[:-1]), np.flatnonzero(inside[:-1] & ~inside[1:])
+    return [at[a:b] for a, b in zip(first, end, strict=True)]
+
+
+def _ways(line: WeldLine, marks: Marks, stretch: NDArray[np.int64]) -> Iterator[Marks]:
+    """Other ways to mark a stretch: not at all, or every other of its nodes that lie amid unmarked neighbours."""
+    n = line.node.size
+    if marks[stretch].any():
+        way = marks.copy()
+        way[stretch] = False
+        yield way
+    steps = step_lengths(replace(line, edge_mid=np.zeros_like(marks)))
+    for phase in (0, 1):
+        way = marks.copy()
+        for at in stretch[phase::2].tolist():
+            before, after = (at - 1) % n, (at + 1) % n
+            is_end = not line.closed and at in (0, n - 1)
+            if not is_end and not way[[before, at, after]].any() and _amid(steps[[before, at]]):
+                way[at] = True
+        if not np.array_equal(way, marks):
+            yield way
+
+
+def _problem(line: WeldLine, marks: Marks, where: str) -> Problem:
+    """Warning that the load would be smooth with other marks."""
+    added, removed = np.flatnonzero(marks & ~line.edge_mid), np.flatnonzero(line.edge_mid & ~marks)
+    jumps = "the line load jumps up and down from node to node, and would not if"
+    if removed.size:
+        nodes = f"node {line.node[removed[0]]}{_more(removed.size)}"
+        others = f", and node {line.node[added[0]]}{_more(added.size)} were" if added.size else ""
+        what = f"{jumps} {nodes} marked in edge_mid {'was' if removed.size == 1 else 'were'} no mid-side node{others}"
+        remedy = "Take the marks in edge_mid away where the elements are linear: there they have no mid-side nodes"
+        return Problem("edge_type", where, what, remedy)
+    remedy = "Mark the mid-side nodes in edge_mid if the elements have them"
+    if not line.edge_mid.any() and added.size >= (line.node.size - 1) // 2:
+        what = f"{jumps} every other node were the mid-side node of a parabolic edge"
+    else:
+        what = f"{jumps} node {line.node[added[0]]}{_more(added.size)} were also a mid-side node of a parabolic edge"
+    return Problem("edge_type", where, what, remedy)
+
+
+def _more(count: int) -> str:
+    return f" and {count - 1} more" if count > 1 else ""
 
 
 def _pairs_up(line: WeldLine, odd: int) -> bool:
     """Whether every other node, from the second (1) or the first (0) on, lies amid its neighbours."""
-    steps = step_lengths(line)[: line.node.size - (not line.closed)]
+    steps = step_lengths(replace(line, edge_mid=np.zeros_like(line.edge_mid)))[: line.node.size - (not line.closed)]
     if steps.size % 2 or (odd == 0 and not line.closed):
         return False
-    pairs = np.roll(steps, 1 - odd).reshape(-1, 2)
+    return _amid(np.roll(steps, 1 - odd))
+
+
+def _amid(steps: Floats) -> bool:
+    """Whether each pair of steps is of two that are not too different to be the halves of one edge."""
+    pairs = steps.reshape(-1, 2)
     return bool(np.all(pairs.max(axis=1) < 3 * pairs.min(axis=1)))
 
 
-def _norms(line: Lines, load: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Norms over each line, (k,), of the load's jumps and of the load, (n, ...).
+def _zigzag(line: WeldLine, nodal: NDArray[np.floating]) -> float:
+    """Norm of the jumps of the line load of nodal forces."""
+    jump, _ = _jumps(line, line_load(line, nodal))
+    return float(np.sqrt(jump.sum()))
+
+
+def _zigzags(line: Lines, jump: Floats, square: Floats) -> Marks:
+    """Nodes, (n,), at which the load zigzags: there and at a neighbour it jumps by half of what it is around."""
+    before, after = neighbours(line)
+    is_open, ends = ~is_closed(line), np.zeros(line.node.size, dtype=bool)
+    ends[line.begin[:-1][is_open]] = ends[line.begin[1:][is_open] - 1] = True
+    inner = np.where(ends, 0.0, square)
+    around = (square + inner[before] + inner[after]) / 3
+    jumps = jump > ZIGZAG_SHARE**2 * around
+    zigzags: Marks = jumps & (jumps[before] | jumps[after])
+    return zigzags
+
+
+def _jumps(line: Lines, load: Floats) -> tuple[Floats, Floats]:
+    """Square of each node's jump and of the load there, (n,) each, summed over components and modes.
 
     A jump is the difference between the value at a node and the one interpolated between its neighbours.
     """
@@ -77,8 +173,7 @@ def _norms(line: Lines, load: NDArray[np.float64]) -> tuple[NDArray[np.float64],
     jump -= 2 * (a * with_next[before] + b * with_next - a * b * across)
     is_open = ~is_closed(line)
     jump[line.begin[:-1][is_open]] = jump[line.begin[1:][is_open] - 1] = 0
-    zigzag, norm = np.sqrt(np.add.reduceat(np.maximum([jump, square], 0), line.begin[:-1], axis=1))
-    return zigzag, norm
+    return np.maximum(jump, 0), square
 
 
 @compiled("reassoc", "contract")  # sums in vector lanes

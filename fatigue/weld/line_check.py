@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.weld.line import Lines, WeldLine, is_closed, line_of_node, neighbours
+from fatigue.weld.line_ends import FAR, NEAR, end_gaps, seems_closed, seems_open
 from fatigue.weld.line_geometry import edge_nodes, edge_points, edge_tangents, tangents, unit
+from fatigue.weld.line_turns import turned_from_neighbours, turns
+
+TURNED_ALONE = (
+    20.0  # [deg] against the nodes around: stress across the weld reads 1 - cos 20 = 6 % low; welds of tube on
+)
+# tube of 0.95 its diameter, the sharpest saddles in use, reach 18 on a mesh of 12 nodes
+TURNED_STEP = 30.0  # [deg] from a node to the next: shells that meet at a smaller angle are one plate
 
 
 class _Finding(NamedTuple):
@@ -98,6 +106,48 @@ def _warnings(line: Lines) -> list[_Finding]:
             f"the plate normal is up to {tilt.max():.0f} degrees off the right angle to the line",
             "Check normal_x, normal_y and normal_z",
         ),
+        *_turned_normals(line),
+        *_doubtful_ends(line),
+    ]
+
+
+def _turned_normals(line: Lines) -> list[_Finding]:
+    """Findings about normals that are square to the line and turned about it."""
+    alone, step = turned_from_neighbours(line)
+    turned, steps = alone > TURNED_ALONE, step > TURNED_STEP
+    steps &= ~_of_lines(line, np.logical_or.reduceat(turned, line.begin[:-1]))
+    most = alone.max() if turned.any() else step.max()
+    limit = TURNED_ALONE if turned.any() else TURNED_STEP
+    return [
+        _Finding(
+            turned | steps,
+            "normal_turned",
+            f"the plate normal is turned about the line by up to {most:.0f} degrees against the nodes beside it (more "
+            f"than {limit:g})",
+            "Check normal_x, normal_y and normal_z: with them stress across the weld is read in another direction",
+        )
+    ]
+
+
+def _doubtful_ends(line: Lines) -> list[_Finding]:
+    """Findings about open lines that come back to where they begin, and closed ones that do not."""
+    gap, edge = end_gaps(line)
+    last = _marked(line, line.begin[1:] - 1)
+    return [
+        _Finding(
+            last & _of_lines(line, seems_closed(line)),
+            "not_closed",
+            f"the ends of the line lie {gap[0]:.3g} mm apart, less than {NEAR:g} edges of {edge[0]:.3g} mm: it seems "
+            "to run round, and is assessed with two weld ends",
+            "Write true under closed in the table of welds, or leave it so if the weld really ends there",
+        ),
+        _Finding(
+            last & _of_lines(line, seems_open(line)),
+            "far_closing_edge",
+            f"the line is closed by an edge of {gap[0]:.3g} mm, more than {FAR:g} times the longest other edge, "
+            f"{edge[0]:.3g} mm",
+            "Write false under closed in the table of welds if the weld has ends, or add the missing nodes",
+        ),
     ]
 
 
@@ -112,19 +162,24 @@ def _wrong_rows(line: Lines) -> list[_Finding]:
     thin = ~(np.isfinite(line.thickness) & (line.thickness > 0))
     is_end = np.zeros_like(line.edge_mid)
     is_end[first] = is_end[last] = ~closed
-    repeats_first = np.any(closed & (line.node[first] == line.node[last]))
+    same_ends = line.node[first] == line.node[last]
+    repeated = "Name every node once"
+    if np.any(closed & same_ends):
+        repeated = "Do not repeat the first node of a closed line"
+    elif np.any(same_ends & (last > first)):
+        repeated = "Name every node once; a line that runs round has true under closed instead"
     return [
         _Finding(
             _repeated(line_of_node(line), line.node),
             "repeated_node",
             "the node occurs more than once on the line",
-            "Do not repeat the first node of a closed line" if repeats_first else "Name every node once",
+            repeated,
         ),
         _Finding(
             line.edge_mid & is_end,
             "mid_at_end",
             "a mid-side node begins or ends an open line",
-            "Let the line end at an element corner or correct edge_mid",
+            "Let the line end at an element corner or correct edge_mid" + _or_closed(line),
         ),
         _Finding(
             line.edge_mid & line.edge_mid[neighbours(line)[1]],
@@ -164,6 +219,13 @@ def _wrong_rows(line: Lines) -> list[_Finding]:
             "Give a vector from the assessed plate across the line",
         ),
     ]
+
+
+def _or_closed(line: Lines) -> str:
+    """Words for an open line that ends half an edge before its first node."""
+    to_first = np.linalg.norm(line.xyz[0] - line.xyz[-1])
+    runs_round = line.node.size > 3 and to_first <= NEAR * np.linalg.norm(line.xyz[-1] - line.xyz[-2])
+    return "; a line that runs round has true under closed" if runs_round else ""
 
 
 def _coincident_nodes(line: Lines) -> list[_Finding]:
@@ -209,18 +271,15 @@ def _turns_back(line: Lines) -> list[_Finding]:
 
 def _wrong_normals(line: Lines) -> list[_Finding]:
     """Findings about the plate normals."""
-    z = unit(line.normal)
-    flips = np.sum(z * z[neighbours(line)[1]], axis=1) < 0
-    flips[line.begin[1:] - 1] &= is_closed(line)
     return [
         _Finding(
-            np.linalg.norm(np.cross(z, tangents(line)), axis=1) < 0.1,
+            np.linalg.norm(np.cross(unit(line.normal), tangents(line)), axis=1) < 0.1,
             "normal_along_line",
             "the normal points along the line",
             "Give the normal of the assessed plate",
         ),
         _Finding(
-            flips,
+            np.abs(turns(line)) > 90,
             "normal_flips",
             "the normal turns to the other side before the next node",
             "Let all normals of a line point to the same side of the plate, its top",
@@ -286,6 +345,12 @@ def _touched(line: Lines, findings: Iterable[_Finding]) -> NDArray[np.bool_]:
     nodes = np.any([found.at for found in findings], axis=0)
     touched: NDArray[np.bool_] = np.logical_or.reduceat(nodes, line.begin[:-1])
     return touched
+
+
+def _of_lines(line: Lines, some: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Whether each node, (n,), is of the lines that are marked, (k,)."""
+    nodes: NDArray[np.bool_] = some[line_of_node(line)]
+    return nodes
 
 
 def _marked(line: Lines, at: NDArray[np.int64]) -> NDArray[np.bool_]:

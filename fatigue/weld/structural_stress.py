@@ -115,6 +115,7 @@ class LineStress:
     treated : structural stress after the treatment of weld ends
     raw_ends : nodes whose stress the treatment has replaced, and their stress before
     at_end, at_corner : (n,) near a weld end; at a kink of more than 30 degrees
+    summed_corner : (n,) at such a kink inside the line, where the forces of both legs are one sum
     unresolved : (n,) end node whose edge is longer than the end zone
     """
 
@@ -123,6 +124,7 @@ class LineStress:
     raw_ends: RawEnds
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
+    summed_corner: NDArray[np.bool_]
     unresolved: NDArray[np.bool_]
 
     @property
@@ -141,7 +143,8 @@ def assess_line(line: Lines, nodal_force: NDArray[np.floating]) -> LineStress:
 
 def line_stress(line: Lines, load: Floats) -> LineStress:
     """Structural stress of a line or lines under a line force and moment in global axes, (n, m, 6) [N/mm, N]."""
-    axes, ends, at_corner = local_axes(line), treat_ends(line, load), corners(line)
+    axes, ends, inside = local_axes(line), treat_ends(line, load), corners(line)
+    at_corner = inside.copy()
     at_corner[line.begin[:-1]] |= line.corner_start
     at_corner[line.begin[1:] - 1] |= line.corner_end
     rows = np.flatnonzero(ends.treated)
@@ -156,6 +159,7 @@ def line_stress(line: Lines, load: Floats) -> LineStress:
         raw_ends=raw_ends,
         at_end=ends.at_end,
         at_corner=at_corner,
+        summed_corner=inside,
         unresolved=ends.unresolved,
     )
 

@@ -161,6 +161,7 @@ def _node_rows(recipe, cycles, per_km, passes, toes):
                 "life_km_raw_end": _life(damage, 2.0 if s == 0 else 1.0),
                 "at_end": not recipe.closed and s in (0, recipe.stations - 1),
                 "at_corner": False,
+                "summed_corner": False,
                 "screened": "",
             }
         )
@@ -265,6 +266,7 @@ def _weld_rows(recipe, per_km, passes, cycles, worst):
                 "worst_node": 1000 * (w + 1) + s,
                 "worst_surface": FACES[f],
                 "worst_arc_length_mm": 25.0 * s,
+                "worst_summed_corner": False,
                 "governing_event": recipe.events[0] if damage > 0.0 else None,
             }
         )

@@ -30,7 +30,7 @@ def test_stress_of_a_stack(some):
     found = line_stress(stack, line_load(stack, np.concatenate(nodal)))
     for line, force, a, b in zip(some, nodal, stack.begin, stack.begin[1:], strict=False):
         alone = assess_line(line, force)
-        for name in ("at_end", "at_corner", "unresolved"):
+        for name in ("at_end", "at_corner", "summed_corner", "unresolved"):
             np.testing.assert_array_equal(getattr(found, name)[a:b], getattr(alone, name))
         for kind in ("raw", "treated"):
             for part in fields_of(alone.raw):

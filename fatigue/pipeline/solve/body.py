@@ -9,6 +9,7 @@ from fatigue.case import Case, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
+from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
@@ -21,6 +22,7 @@ from fatigue.readers.neutral.register.registered_lines import Joints, registered
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.weld.line_units import unit_problems, unit_warnings
+from fatigue.weld.summed_corners import summed_corners
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,14 +79,14 @@ def read_body(case: Case, *, strict: bool) -> Body:
         plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
     warnings += plan.warnings
     curves = rated_curves(case, known_curves, plan.welds)
-    welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, strict=strict)
-    warnings += of_lines
-    give_back()
     mesh: Mesh | None = None
+    of_mesh: list[Problem] = []
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
-        warnings += of_mesh
+    welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
+    warnings += of_lines + of_mesh
+    give_back()
     record = conversion_file(case)
     return Body(
         case=case,
@@ -103,9 +105,15 @@ def read_body(case: Case, *, strict: bool) -> Body:
 
 
 def _lines_on_disk(
-    case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
+    case: Case,
+    in_tables: Sequence[Weld],
+    plan: Registered,
+    curves: Mapping[str, RatedCurve],
+    mesh: Mesh | None,
+    *,
+    strict: bool,
 ) -> tuple[tuple[Weld, ...], LineFile, Joints, list[Problem]]:
-    """Lines of all welds to assess, read and checked; only here they are in memory together."""
+    """Lines of all welds to assess, read and checked, also by the mesh; only here they are in memory together."""
     path = case.resolve(case.body.weld_nodes)
     lines, warnings = read_lines(path, in_tables, plan.names, strict=strict)
     welds: tuple[Weld, ...] = plan.welds
@@ -115,7 +123,15 @@ def _lines_on_disk(
         welds, lines, joints = registered_lines(lines, plan, summed=case.body.nodal_forces is not None)
     warnings += checked_lines(lines, path.name)
     refuse(DataError, unit_problems(lines, case.body.weld_nodes))
-    return welds, line_file(lines), joints, warnings + unit_warnings(lines, case.body.weld_nodes)
+    warnings += unit_warnings(lines, case.body.weld_nodes)
+    if case.body.nodal_forces is not None:
+        rated = [curves[weld.curve or case.curve.name] for weld in welds]
+        warnings += summed_corners(lines, [float(one.rule.law.slopes[0]) for one in rated], path.name)
+    if mesh is not None:
+        names = TableNames(path.name, Path(case.body.nodes or "").name, Path(case.body.elements or "").name)
+        knows_sides = case.body.weld_elements is not None
+        warnings += mesh_warnings(lines, mesh, names, plan.confirmed, knows_sides=knows_sides)
+    return welds, line_file(lines), joints, warnings
 
 
 def register_file(case: Case) -> Path | None:

@@ -27,7 +27,7 @@ class Stations:
     part, order, node : identity of the station
     arc_length [mm], xyz (n, 3) [mm], thickness [mm] : where it is
     toe : (n, 2) faces that carry a weld toe
-    at_end, at_corner : flags of the line solution
+    at_end, at_corner, summed_corner : flags of the line solution
     treated : structural stress with treated ends, components (n, m) [MPa per unit modal coordinate]
     raw_ends : stations whose stress the end treatment has changed, and their stress before it
     """
@@ -43,6 +43,7 @@ class Stations:
     toe: NDArray[np.bool_]
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
+    summed_corner: NDArray[np.bool_]
     treated: StructuralStress
     raw_ends: RawEnds
 
@@ -80,6 +81,7 @@ def stations_of(lines: LineStack, solved: LineStress, welds: Sequence[Weld]) -> 
         toe=np.array([TOES[one.surface] for one in welds])[weld],
         at_end=solved.at_end,
         at_corner=solved.at_corner,
+        summed_corner=solved.summed_corner,
         treated=solved.treated,
         raw_ends=RawEnds(raw_ends.rows[changed], StructuralStress(*(raw[changed] for raw, _ in of_ends))),
     )

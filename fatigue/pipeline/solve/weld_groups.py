@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.solve.body import Body
+from fatigue.readers.neutral.against_mesh.sides import side_warnings
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.forces.by_group import ForcesByGroup
@@ -175,7 +176,11 @@ def _side_forces(body: Body) -> SideForces:
     of_tables, of_elements = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
     sides = registered_sides(of_tables, forces, body.register, body.joints)
     warnings += of_elements + _checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh)
-    return SideForces(path.name, forces.of(np.concatenate(list(sides.values()))), sides, tuple(warnings))
+    of_sides = forces.of(np.concatenate(list(sides.values())))
+    if body.mesh is not None:
+        lines_file = case.resolve(files.weld_nodes).name
+        warnings += side_warnings(body.lines, of_sides, sides, body.mesh, lines_file, weld_elements.name)
+    return SideForces(path.name, of_sides, sides, tuple(warnings))
 
 
 def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[LineStack, NDArray[np.floating]]:

@@ -64,6 +64,7 @@ def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[Wor
         "worst_node": [stations.node[p.station] for p in worst],
         "worst_surface": [FACES[p.face] for p in worst],
         "worst_arc_length_mm": [stations.arc_length[p.station] for p in worst],
+        "worst_summed_corner": [bool(stations.summed_corner[p.station]) for p in worst],
         "governing_event": [events[mission.governing[i]] for i in at],
     }
 

@@ -62,6 +62,7 @@ def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, 
         "life_km_raw_end": block.life_km_raw_end.ravel(),
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
+        "summed_corner": np.repeat(stations.summed_corner, 2),
         "screened": coded(np.repeat(result.tier, 2), TIERS),
     }
 

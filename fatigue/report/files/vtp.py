@@ -26,6 +26,7 @@ STATION = (
     "thickness_mm",
     "at_end",
     "at_corner",
+    "summed_corner",
 )
 _XYZ = ("x_mm", "y_mm", "z_mm")
 _VTK_TYPE = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}

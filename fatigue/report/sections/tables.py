@@ -63,7 +63,7 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
             num(row.max_range_MPa),
             num(row.equivalent_range_2e6_MPa),
             text(row.governing_event),
-            text(", ".join(w for w, flag in (("end", row.at_end), ("corner", row.at_corner)) if flag)),
+            text(_place(row)),
         )
         for rank, row in enumerate(worst.itertuples(), start=1)
     )
@@ -82,6 +82,12 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
         Heading("place", numeric=False),
     )
     return PageTable(id_, headings, rows, label)
+
+
+def _place(row: Any) -> str:
+    """What is special about the place of a point, in short."""
+    corner = "corner, summed" if row.summed_corner else "corner"
+    return ", ".join(words for words, flag in (("end", row.at_end), (corner, row.at_corner)) if flag)
 
 
 def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:

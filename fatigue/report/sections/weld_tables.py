@@ -11,7 +11,8 @@ from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
 
 def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
     """Where the worst point is and what it endures; ``point`` is from the table of nodes, ``row`` from the register."""
-    flags = [words for words, flag in (("weld end", point["at_end"]), ("corner", point["at_corner"])) if flag]
+    corner = "corner whose nodal forces are one sum of both legs" if point["summed_corner"] else "corner"
+    flags = [words for words, flag in (("weld end", point["at_end"]), (corner, point["at_corner"])) if flag]
     event = NOT_AVAILABLE if pd.isna(point["governing_event"]) else str(point["governing_event"])
     place = f"{number(point['arc_length_mm'])} mm along part {point['part']}"
     return [

@@ -53,6 +53,7 @@ def with_raw(model, changed):
         raw_ends=RawEnds(ends, StructuralStress(**(before | {"membrane": membrane[ends]}))),
         at_end=stations.at_end,
         at_corner=stations.at_corner,
+        summed_corner=stations.summed_corner,
         unresolved=np.zeros(len(stations), dtype=np.bool_),
     )
     return stations_of(model.lines, solved, model.welds), membrane

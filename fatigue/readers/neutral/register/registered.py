@@ -7,7 +7,7 @@ empty where ``weld`` is. So a weld can be renamed again and again, and its row i
 
 import difflib
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 import numpy as np
@@ -32,6 +32,7 @@ class Registered:
     file : place of the register in messages; empty where there is none
     again : what to do where only another conversion helps
     unconfirmed : thickness in the register that nobody has confirmed, as name in the tables, place and value [mm]
+    confirmed : thicknesses that the user has confirmed, by name of the weld to assess [mm]
     """
 
     welds: tuple[Weld, ...]
@@ -42,6 +43,7 @@ class Registered:
     file: str
     again: str
     unconfirmed: tuple[tuple[str, str, float], ...] = ()
+    confirmed: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     @property
     def names(self) -> dict[str, str]:
@@ -117,6 +119,10 @@ def registered(
         file=register.path.name,
         again=again,
         unconfirmed=tuple(unconfirmed),
+        confirmed={
+            name: tuple(row.thickness for _, own in group for row in own if row.confirmed)
+            for name, group in groups.items()
+        },
     )
 
 

@@ -51,6 +51,7 @@ class RecountLineStress:
     treated: Floats
     at_end: NDArray[np.bool_]
     at_corner: NDArray[np.bool_]
+    summed_corner: NDArray[np.bool_]
 
 
 def line_stress(line: Line, forces: Floats) -> RecountLineStress:
@@ -58,9 +59,11 @@ def line_stress(line: Line, forces: Floats) -> RecountLineStress:
     n = len(line.node)
     load: Floats = np.asarray(np.linalg.solve(mass_matrix(line), forces.reshape(n, -1))).reshape(forces.shape)
     treated, at_end = treat_ends(line, load)
-    at_corner = kinks(line) > CORNER_DEG
+    summed_corner = kinks(line) > CORNER_DEG
+    at_corner = summed_corner.copy()
     at_corner[[0, -1]] |= line.corner_ends
-    return RecountLineStress(line, arc_length(line), _stress(line, load), _stress(line, treated), at_end, at_corner)
+    solved, with_ends = _stress(line, load), _stress(line, treated)
+    return RecountLineStress(line, arc_length(line), solved, with_ends, at_end, at_corner, summed_corner)
 
 
 def edges(line: Line) -> list[list[int]]:

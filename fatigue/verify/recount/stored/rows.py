@@ -61,6 +61,7 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
         "thickness_mm": float(line.thickness[at]),
         "at_end": bool(solved.at_end[at]),
         "at_corner": bool(solved.at_corner[at]),
+        "summed_corner": bool(solved.summed_corner[at]),
     }
     scale = dict.fromkeys(("bending_ratio", "shear_ratio"), 1.0)
     scale["R_largest_cycle"] = max(1.0, values["R_largest_cycle"] ** 2)  # a ratio to a stress that may be close to 0
@@ -147,6 +148,7 @@ def weld_row(weld: RecountWeld, recounted: Mapping[Key, Values], found: Mapping[
         "worst_node": int(solved.line.node[at]),
         "worst_surface": stored[3],
         "worst_arc_length_mm": float(solved.arc_length[at]),
+        "worst_summed_corner": bool(solved.summed_corner[at]),
         "governing_event": worst["governing_event"],
     }
     return Row(f"weld {stored[0]}", found, expected, {"worst_arc_length_mm": expected["length_mm"]})
