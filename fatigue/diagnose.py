@@ -90,7 +90,7 @@ def diagnose(
     stage("reading the result and its case")
     settle_folder(folder)
     record = read_provenance(folder)
-    refuse_mixed(folder, record, ASSESSED)
+    refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
     body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)

@@ -125,19 +125,23 @@ def _is_ours_or_damaged(path: Path, *, known: bool) -> bool:
     return metadata.get(b"program") == b"fatigue" and metadata.get(b"table") == path.stem.encode()
 
 
-def strangers(folder: Path, record: Mapping[str, Any], names: Iterable[str] | None = None) -> list[Problem]:
+def strangers(
+    folder: Path, record: Mapping[str, Any], names: Iterable[str] | None = None, read: Iterable[str] | None = None
+) -> list[Problem]:
     """Name every table and document of a result folder that does not belong to the result of this provenance.
 
-    ``names`` are the files looked at, by default all that the program may have written.
+    ``names`` are the files looked at, by default all that the program may have written; ``read`` those of them whose
+    content is compared with the hashes on record, by default all.
     """
     wanted = tuple(names or (*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST))
-    changed = altered(folder, record, wanted)
+    changed = altered(folder, record, wanted if read is None else read)
     return [problem for name in wanted for problem in _strange(folder, name, record, changed.get(name, ""))]
 
 
 def _strange(folder: Path, name: str, record: Mapping[str, Any], change: str) -> Iterator[Problem]:
     path, result = folder / name, record.get("result")
-    is_there, remedy = path.exists(), _REMEDY[name]
+    is_there = path.exists()
+    remedy = _REMEDY[name] if is_there else "Put it back, or run `fatigue assess` again"
     if not is_there and name not in _NEEDED:
         return
     held = carried(path) if is_there else None
@@ -171,10 +175,16 @@ _REMEDY = {
 _NEEDED = {f"{table}.parquet" for table in ASSESSED}  # documents and a diagnosis may be taken away
 
 
-def refuse_mixed(folder: Path, record: Mapping[str, Any], tables: Iterable[str] = tuple(TABLES)) -> None:
+def refuse_mixed(
+    folder: Path,
+    record: Mapping[str, Any],
+    tables: Iterable[str] = tuple(TABLES),
+    read: Iterable[str] | None = None,
+) -> None:
     """Refuse a folder some of whose tables are of another result, or not as they were written.
 
-    An older result without hashes is warned of.
+    ``read`` are the tables that are about to be read and therefore hashed, by default all of them; an older result
+    without hashes is warned of.
 
     Raises
     ------
@@ -182,4 +192,5 @@ def refuse_mixed(folder: Path, record: Mapping[str, Any], tables: Iterable[str] 
     """
     for problem in told_without_hashes(folder, record):
         log.warning("%s", problem)
-    refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables]))
+    hashed = None if read is None else [f"{table}.parquet" for table in read]
+    refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables], hashed))

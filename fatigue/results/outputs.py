@@ -5,17 +5,15 @@ damaged or edited is found before any number of it is shown. Files of another si
 some 1 GB a second is hashed, and only those that a command is about to read.
 """
 
-import logging
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from fatigue.errors import Problem
+from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.files.hashes import sha256
-from fatigue.results.provenance import PROVENANCE, hashes_on_record, input_register
+from fatigue.results.provenance import PROVENANCE, hashes_on_record, input_register, parsed_provenance
 from fatigue.side_by_side import in_order
-
-log = logging.getLogger(__name__)
 
 
 def recorded(record: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
@@ -46,12 +44,32 @@ def told_without_hashes(folder: Path, record: Mapping[str, Any]) -> Iterator[Pro
         yield Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them")
 
 
+@contextmanager
+def damage_told(folder: Path) -> Iterator[None]:
+    """Take what cannot be made sense of in an older result, one without hashes, for damage.
+
+    Raises
+    ------
+    DataError : reading or showing such a result failed
+    """
+    try:
+        yield
+    except (FatigueError, OSError, MemoryError):
+        raise
+    except Exception as error:
+        if hashes_on_record(parsed_provenance(folder)) is not None:  # as it was written: the program is at fault
+            raise
+        why = f"{type(error).__name__}: {error}".splitlines()[0][:200]
+        what = f"holds what does not fit together ({why})"
+        raise DataError(Problem("damaged_result", str(folder), what, "Run the assessment again")) from error
+
+
 def _alteration(path: Path, known: Mapping[str, Any] | None) -> str:
     """How a file differs from what is on record of it; empty where it does not."""
     if known is None:
         return f"is not among the outputs that {PROVENANCE} lists"
     if not path.is_file():
-        return "is no file" if path.exists() else "is not there any more"
+        return "is no file" if path.exists() else f"no such result table, though {PROVENANCE} lists it"
     try:
         size, on_record = path.stat().st_size, str(known["sha256"])
         if size != known["bytes"]:
