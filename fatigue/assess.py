@@ -21,12 +21,14 @@ from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
+from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
+from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
-from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, inputs_of, key_of, open_work
+from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
@@ -39,11 +41,10 @@ from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
-from fatigue.results import PAGE, PICTURE, TableWriter, result_tables, write_json, write_list
+from fatigue.results import PAGE, PICTURE, TableWriter, recorded, result_tables, write_list, write_provenance
 from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
 from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
-from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
 
@@ -114,15 +115,12 @@ def assess(
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
-    hashed = meanwhile(partial(inputs_of, case))
-    body = read_body(case, strict=strict)
-    plan, record_warnings = mission_plan(body, threads)
-    inputs = hashed()
+    (body, plan, record_warnings), inputs = with_inputs(case, partial(read_case, case, threads, strict=strict))
     options = ScreeningOptions(share, proves_worst)
-    key = key_of(inputs, options)
+    key = key_of(inputs.register, options)
 
     claim = claimed(folder, force=force, case_file=case.path, inputs=own)  # another run may have been there meanwhile
-    with claim, one_blas_thread(), Checkpoint(folder, key) as state:
+    with claim, one_blas_thread(), Checkpoint(folder, key) as state, inputs.unchanged():
         remember_case(folder, case.path)
         groups = weld_groups(body, scratch=state.folder / "forces")
         check_forces(groups, threads)
@@ -152,10 +150,12 @@ def assess(
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             done.warnings.add(sampling_warnings(body, done))
             warnings = done.warnings.listed()
-            record = provenance_record(body, work, done.stations, folder, inputs, warnings)
-            write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
-            write_list(unpublished, write_page_and_picture(unpublished, case, verification) if report else [], key)
+            record = {"program": "fatigue", "result": key}
+            record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings)
+            documents = partial(write_page_and_picture, case=case, verification=verification)
+            write_records(unpublished, record, documents if report else None)
             stage("putting the result in place")
+            inputs.refuse_replaced()
             refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on
             publish(unpublished, folder, stale_files(folder, own))
             log.info("the result is complete")
@@ -171,6 +171,26 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
     if executor is not None and not callable(getattr(executor, "submit", None)):
         what = f"{type(executor).__name__} is no executor"
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
+
+
+def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
+    """Body and mission of a case, read and checked, and the warnings about its records."""
+    body = read_body(case, strict=strict)
+    return body, *mission_plan(body, threads)
+
+
+def write_records(
+    folder: Path, record: Mapping[str, Any], write_documents: Callable[[Path], list[Path]] | None
+) -> None:
+    """Write provenance, documents and their list beside the tables of a result that is not published yet.
+
+    The documents are made from tables and provenance, which has their hashes, too, in the end.
+    """
+    record = recorded(record, sorted(folder.glob("*.parquet")))
+    write_provenance(folder, record)
+    documents = write_documents(folder) if write_documents else []
+    listed = write_list(folder, documents, record["result"])
+    write_provenance(folder, recorded(record, [*documents, listed]))
 
 
 def write_page_and_picture(folder: Path, case: Case, verification: Verification) -> list[Path]:

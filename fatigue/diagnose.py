@@ -28,11 +28,13 @@ from fatigue.results import (
     ASSESSED,
     case_of,
     changed_inputs,
+    is_same_result,
     named_case,
     new_inputs,
     read_provenance,
     read_rows,
     refuse_mixed,
+    relist,
     row_count,
     table_writer,
 )
@@ -88,7 +90,7 @@ def diagnose(
     stage("reading the result and its case")
     settle_folder(folder)
     record = read_provenance(folder)
-    refuse_mixed(folder, record, ASSESSED)
+    refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
     body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
@@ -129,6 +131,7 @@ def diagnose(
             with table_writer(finished, name, record.get("result", "")) as table:
                 for rows in blocks:
                     table.write(rows)
+        relist(folder, finished, sorted(finished.iterdir()))
         publish(finished, folder)
     return findings(evidence, chosen.what)
 
@@ -189,6 +192,6 @@ def _same_body(record: Mapping[str, Any], folder: Path, case_file: Path | None) 
 
 def _refuse_another(folder: Path, record: Mapping[str, Any]) -> None:
     """Refuse a folder whose result was replaced since its provenance was read."""
-    if read_provenance(folder) != record:
+    if not is_same_result(read_provenance(folder), record):
         what = "the result was replaced by another run just now"
         raise DataError(Problem("other_result", str(folder), what, "Diagnose again"))

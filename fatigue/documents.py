@@ -25,12 +25,12 @@ from fatigue.results import (
     WORKBOOK,
     case_of,
     is_derived,
-    listed_of,
+    is_same_result,
     marked,
     named_case,
     read_provenance,
     refuse_mixed,
-    write_list,
+    relist,
 )
 from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
@@ -89,7 +89,7 @@ def write_documents(
     for problem in missing.values():
         log.warning("%s Going on with the others.", problem)
     with locked(folder), staging_in(folder) as staging:
-        if read_provenance(folder) != record:
+        if not is_same_result(read_provenance(folder), record):
             what = "the result was replaced by another run just now"
             raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
         checks = verification() if PAGE in wanted else ()
@@ -104,8 +104,7 @@ def write_documents(
             stage("writing %s", "CSV files" if name in CSV else name)
             missing.update(_failed(name, writers[name]))
         files = [staging / name for name in DOCUMENTS if (staging / name).exists()]
-        result = record.get("result", "")
-        write_list(staging, files, result, listed_of(folder, result))
+        relist(folder, staging, files)
         publish(staging, folder)
     return Documents(tuple(folder / path.name for path in files), tuple(missing.values()))
 

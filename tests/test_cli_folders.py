@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from fatigue.results import write_provenance
 from tests.report.reading import Page
 from tests.small_case import sine_only
 from tests.test_cli import assess, fatigue
@@ -129,7 +130,7 @@ def test_verify_names_the_document_that_does_not_belong(result, tmp_path):
     assert "agree with the recount; 1 files of the folder do not belong to its result" in done.stdout
     assert "welds.csv: was changed since it was written" in done.stdout
     record = json.loads((folder / "provenance.json").read_text())
-    (folder / "provenance.json").write_text(json.dumps(record | {"result": "1" * 32}))
+    write_provenance(folder, record | {"result": "1" * 32})
     done = fatigue("-q", "verify", "--results", folder, "--json")
     assert done.returncode == 4
     named = {problem["where"].rpartition("/")[2] for problem in json.loads(done.stdout)["strangers"]}

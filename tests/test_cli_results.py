@@ -84,7 +84,7 @@ def test_broken_results_are_refused_in_one_line(command, result, tmp_path):
     assert "no finished result in this folder" in refusal(tmp_path)
     path = folder / "damage.parquet"
     path.write_bytes(path.read_bytes()[:-100])
-    assert "damage.parquet: the table cannot be read" in refusal(folder)
+    assert "damage.parquet: was changed since it was written: it has" in refusal(folder)
     path.unlink()
     line = refusal(folder)
     assert "damage.parquet: no such result table" in line

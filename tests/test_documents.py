@@ -9,7 +9,7 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.documents import AGAIN, CSV, missing_extras, write_documents
 from fatigue.errors import DataError
-from fatigue.results import PAGE, PRINT, WORKBOOK, is_derived, read_provenance, strangers, write_json
+from fatigue.results import PAGE, PRINT, WORKBOOK, is_derived, read_provenance, strangers, write_provenance
 from fatigue.results.belonging import carried
 from tests.report.files.test_pdf import program
 from tests.small_case import sine_only
@@ -119,7 +119,7 @@ def test_a_workbook_somebody_wrote_into_stops_the_next_assessment(result):
 
 def test_mixed_tables_make_no_documents(result):
     """A provenance from elsewhere beside these tables."""
-    write_json(result / "provenance.json", read_provenance(result) | {"result": "0" * 32})
+    write_provenance(result, read_provenance(result) | {"result": "0" * 32})
     with pytest.raises(DataError, match=r"nodes\.parquet: belongs to the result"):
         write_documents(result)
     assert not (result / PAGE).exists()

@@ -1,8 +1,9 @@
 """The result folder: data dictionary, tables, records, and what is printed of them.
 
 ``columns`` says what every column is; ``tables`` writes and reads whole tables, ``rows`` some of their rows,
-``weld_table`` the welds. ``provenance`` is what a result rests on, ``origin`` leads back to its case, ``belonging``
-tells what is of one result. ``folder`` guards what is in the folder, ``lock`` lets one run at a time write there,
+``weld_table`` the welds. ``provenance`` is what a result rests on, ``outputs`` whether its files are as they were
+written, ``origin`` leads back to its case, ``belonging`` tells what is of one result and ``enlist`` lists what is added
+to it. ``folder`` guards what is in the folder, ``lock`` lets one run at a time write there,
 ``publish`` puts a finished result there; ``summary`` is what the command line prints of it.
 """
 
@@ -14,7 +15,6 @@ from fatigue.results.belonging import (
     PICTURE,
     PRINT,
     WORKBOOK,
-    enlist,
     is_derived,
     listed,
     listed_of,
@@ -38,9 +38,18 @@ from fatigue.results.columns import (
     WELDS,
     Column,
 )
+from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
-from fatigue.results.provenance import JOURNAL, input_register, read_provenance, software_versions
+from fatigue.results.outputs import recorded
+from fatigue.results.provenance import (
+    JOURNAL,
+    input_register,
+    is_same_result,
+    read_provenance,
+    software_versions,
+    write_provenance,
+)
 from fatigue.results.rows import (
     number_groups,
     read_codes,
@@ -84,6 +93,7 @@ __all__ = [
     "input_register",
     "is_derived",
     "is_same_case",
+    "is_same_result",
     "json_ready",
     "listed",
     "listed_of",
@@ -97,7 +107,9 @@ __all__ = [
     "read_rows",
     "read_table",
     "read_welds",
+    "recorded",
     "refuse_mixed",
+    "relist",
     "result_tables",
     "row_count",
     "row_groups",
@@ -110,4 +122,5 @@ __all__ = [
     "worst_toes",
     "write_json",
     "write_list",
+    "write_provenance",
 ]

@@ -2,12 +2,15 @@
 
 A result has a hash of everything its numbers depend on: case, inputs, program, and what was counted. Equal hashes mean
 equal tables. Parquet tables, HTML, PDF, ParaView file and workbook carry it; CSV files cannot without breaking
-their readers, so ``exports.json`` names it once and lists the SHA-256 of every document.
+their readers, so ``exports.json`` names it once and lists the SHA-256 of every document. The provenance has the
+SHA-256 of tables and documents alike, see ``outputs``.
 """
 
 import json
+import logging
 import re
 import zipfile
+import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -19,7 +22,10 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
 from fatigue.results.json_records import write_json
-from fatigue.results.provenance import read_provenance
+from fatigue.results.outputs import altered, told_without_hashes
+from fatigue.results.provenance import hashes_on_record
+
+log = logging.getLogger(__name__)
 
 PICTURE = "weld_lines.vtp"
 PAGE = "report.html"
@@ -52,7 +58,7 @@ def carried(path: Path) -> str | None:
             head = file.read(_ENDS)
             file.seek(max(0, path.stat().st_size - _ENDS))
             return _mark_in(head) or _mark_in(file.read())
-    except (OSError, KeyError, UnicodeDecodeError, zipfile.BadZipFile, pa.ArrowException):
+    except (OSError, KeyError, ValueError, MemoryError, zipfile.BadZipFile, zlib.error, pa.ArrowException):
         return None
 
 
@@ -70,7 +76,7 @@ def listed(folder: Path) -> Mapping[str, str]:
 def _list_in(folder: Path) -> dict[str, Any]:
     try:
         record = json.loads((folder / LIST).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
     is_ours = isinstance(record, dict) and record.get("program") == "fatigue" and isinstance(record.get("files"), dict)
     return record if is_ours else {}
@@ -81,12 +87,6 @@ def write_list(folder: Path, documents: Iterable[Path], result: str, known: Mapp
     files = dict(known or {}) | {path.name: sha256(path) for path in documents}
     write_json(folder / LIST, {"program": "fatigue", "result": result, "files": dict(sorted(files.items()))})
     return folder / LIST
-
-
-def enlist(folder: Path, *documents: Path) -> None:
-    """Add documents just written to the list of the result folder they are in."""
-    result = read_provenance(folder).get("result", "")
-    write_list(folder, documents, result, listed_of(folder, result))
 
 
 def listed_of(folder: Path, result: str) -> Mapping[str, str]:
@@ -108,9 +108,10 @@ def is_derived(folder: Path, name: str, record: Mapping[str, Any] | None) -> boo
         return _is_ours_or_damaged(path, known=record is not None)
     if name not in DOCUMENTS:
         return record is not None
-    known = listed(folder)
+    on_record = (record and hashes_on_record(record)) or {}
+    known = on_record if name in on_record else listed(folder)
     if name in known:
-        return known[name] == sha256(path)
+        return path.is_file() and known[name] == sha256(path)
     if record is not None and "result" not in record:  # written before documents were listed
         return name in (PAGE, PICTURE)
     return name not in _EDITED and carried(path) is not None
@@ -124,25 +125,34 @@ def _is_ours_or_damaged(path: Path, *, known: bool) -> bool:
     return metadata.get(b"program") == b"fatigue" and metadata.get(b"table") == path.stem.encode()
 
 
-def strangers(folder: Path, record: Mapping[str, Any], names: Iterable[str] | None = None) -> list[Problem]:
+def strangers(
+    folder: Path, record: Mapping[str, Any], names: Iterable[str] | None = None, read: Iterable[str] | None = None
+) -> list[Problem]:
     """Name every table and document of a result folder that does not belong to the result of this provenance.
 
-    ``names`` are the files looked at, by default all that the program may have written.
+    ``names`` are the files looked at, by default all that the program may have written; ``read`` those of them whose
+    content is compared with the hashes on record, by default all.
     """
-    every = (*(f"{table}.parquet" for table in TABLES), *DOCUMENTS)
-    return [problem for name in names or every for problem in _strange(folder, name, record)]
+    wanted = tuple(names or (*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST))
+    changed = altered(folder, record, wanted if read is None else read)
+    return [problem for name in wanted for problem in _strange(folder, name, record, changed.get(name, ""))]
 
 
-def _strange(folder: Path, name: str, record: Mapping[str, Any]) -> Iterator[Problem]:
+def _strange(folder: Path, name: str, record: Mapping[str, Any], change: str) -> Iterator[Problem]:
     path, result = folder / name, record.get("result")
-    if not path.exists():
+    is_there = path.exists()
+    remedy = _REMEDY[name] if is_there else "Put it back, or run `fatigue assess` again"
+    if not is_there and name not in _NEEDED:
         return
-    remedy = _REMEDY[name]
-    held = carried(path)
+    held = carried(path) if is_there else None
     if held is not None and held != result:
         ours = str(result)[:12] if result else "which has no hash"
         what = f"belongs to the result {held[:12]}, not to that of provenance.json, {ours}"
         yield Problem("other_result", str(path), what, remedy)
+    elif change:
+        yield Problem("damaged_result", str(path), change, remedy)
+    elif not is_there or _is_as_listed(folder, name, record):
+        return
     elif result is None or path.suffix == ".parquet":  # written before there were hashes, or by somebody else's hand:
         return  # its numbers are checked by the recount
     elif (known := listed_of(folder, result).get(name)) != sha256(path):
@@ -150,19 +160,37 @@ def _strange(folder: Path, name: str, record: Mapping[str, Any]) -> Iterator[Pro
         yield Problem("other_result", str(path), what, remedy)
 
 
+def _is_as_listed(folder: Path, name: str, record: Mapping[str, Any]) -> bool:
+    """Whether a file that is as it was written needs no look into the list of documents."""
+    of_list = _list_in(folder).get("result")
+    return name == LIST or (hashes_on_record(record) is not None and of_list in (None, record.get("result")))
+
+
 _AGAIN = "Run the assessment again"
 _REMEDY = {
     **{f"{table}.parquet": _AGAIN for table in ASSESSED},
     **{f"{table}.parquet": "Run `fatigue diagnose` again, or remove it" for table in DIAGNOSED},
-    **dict.fromkeys(DOCUMENTS, "Write it again with `fatigue report`, or remove it"),
+    **dict.fromkeys((*DOCUMENTS, LIST), "Write it again with `fatigue report`, or remove it"),
 }
+_NEEDED = {f"{table}.parquet" for table in ASSESSED}  # documents and a diagnosis may be taken away
 
 
-def refuse_mixed(folder: Path, record: Mapping[str, Any], tables: Iterable[str] = tuple(TABLES)) -> None:
-    """Refuse a folder whose tables are not all of one result.
+def refuse_mixed(
+    folder: Path,
+    record: Mapping[str, Any],
+    tables: Iterable[str] = tuple(TABLES),
+    read: Iterable[str] | None = None,
+) -> None:
+    """Refuse a folder some of whose tables are of another result, or not as they were written.
+
+    ``read`` are the tables that are about to be read and therefore hashed, by default all of them; an older result
+    without hashes is warned of.
 
     Raises
     ------
-    DataError : all tables that belong to another result than this provenance
+    DataError : all tables that belong to another result than this provenance, were changed, or are missing
     """
-    refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables]))
+    for problem in told_without_hashes(folder, record):
+        log.warning("%s", problem)
+    hashed = None if read is None else [f"{table}.parquet" for table in read]
+    refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables], hashed))

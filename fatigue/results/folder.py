@@ -10,11 +10,12 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.results.belonging import DOCUMENTS, LIST, PAGE, PICTURE, is_derived
 from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
-from fatigue.results.provenance import PROVENANCE, read_provenance
+from fatigue.results.provenance import CHECKSUMS, PROVENANCE, parsed_provenance
 
 LOG = "fatigue.log"
-OUTPUTS = (*(f"{table}.parquet" for table in TABLES), PICTURE, PAGE, LIST, LOG, PROVENANCE)
+OUTPUTS = (*(f"{table}.parquet" for table in TABLES), PICTURE, PAGE, LIST, LOG, PROVENANCE, CHECKSUMS)
 DERIVED = tuple(dict.fromkeys((*(f"{table}.parquet" for table in TABLES), *DOCUMENTS, LIST)))
+RECORDS = (LOG, PROVENANCE, CHECKSUMS)  # nobody writes into them
 STATE = ".fatigue-state"  # of an interrupted run
 _CASE_OF_STATE = "case"
 
@@ -47,11 +48,11 @@ def refuse_foreign(folder: Path, *, force: bool, case_file: Path | None = None, 
         refuse(DataError, _other_case(folder, record, case_file))
     has_state = (folder / STATE).is_dir()
     problems = []
-    for name in (*DERIVED, LOG, PROVENANCE):
+    for name in (*DERIVED, *RECORDS):
         path = folder / name
         if not path.exists() or _is_one_of(path, inputs):
             continue
-        if name in (LOG, PROVENANCE) and (record is not None or has_state):
+        if name in RECORDS and (record is not None or has_state):
             continue
         if not is_derived(folder, name, record):
             what = "is there already and was not written by fatigue, or was changed since"
@@ -90,7 +91,7 @@ def _is_one_of(path: Path, inputs: Iterable[Path]) -> bool:
 
 def _record_in(folder: Path) -> dict[str, Any] | None:
     try:
-        return read_provenance(folder)
+        return parsed_provenance(folder)
     except DataError:
         return None
 

@@ -1,8 +1,13 @@
-"""What a result rests on: its record, the hashes of its inputs, the versions of the software."""
+"""What a result rests on: its record, the hashes of its inputs, the versions of the software.
 
+A file beside the record, in the format of ``sha256sum``, has the hash of the record and of everything the record lists,
+so that ``sha256sum -c`` checks a folder without this program.
+"""
+
+import hashlib
 import json
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -10,36 +15,114 @@ from typing import Any
 from fatigue import __version__
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.hashes import sha256
+from fatigue.results.json_records import write_json
 
 PROVENANCE = "provenance.json"  # a folder without it holds no finished result
+CHECKSUMS = "provenance.json.sha256"  # of the record and of the outputs it lists
 JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.results.publish`
+
+PUT_BACK = "Put the file back as it was, or run the assessment again with --force"
 
 
 def read_provenance(folder: Path | str) -> dict[str, Any]:
-    """Read ``provenance.json`` of a result folder.
+    """Read ``provenance.json`` of a result folder and compare it with its hash.
 
     Raises
     ------
-    DataError : the folder holds no finished result
+    DataError : the folder holds no finished result, or the record was changed or damaged since it was written
     """
     folder = given_path(folder, "folder")
-    path = folder / PROVENANCE
+    path, content = folder / PROVENANCE, _content(folder)
+    known, found = _known_hash(folder), hashlib.sha256(content).hexdigest()
+    if known not in (None, found):
+        what = f"was changed or damaged since it was written: its SHA-256 begins with {found[:12]}, {CHECKSUMS} has "
+        raise DataError(Problem("damaged_result", str(path), f"{what}{str(known)[:12]}", PUT_BACK))
+    record = _parsed(path, content)
+    if known is None and hashes_on_record(record) is not None:
+        what = "is missing, so that nothing tells whether provenance.json is as it was written"
+        raise DataError(Problem("damaged_result", str(folder / CHECKSUMS), what, PUT_BACK))
+    return record
+
+
+def parsed_provenance(folder: Path) -> dict[str, Any]:
+    """Record of a result folder as it stands there, perhaps changed since it was written.
+
+    Raises
+    ------
+    DataError : the folder holds no finished result, or the record is none
+    """
+    return _parsed(folder / PROVENANCE, _content(folder))
+
+
+def _content(folder: Path) -> bytes:
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        return (folder / PROVENANCE).read_bytes()
     except FileNotFoundError:
         what, remedy = "no finished result in this folder", "Run `fatigue assess CASE -o DIR` first and give its DIR"
         if (folder / JOURNAL).exists():
             what = "no finished result in this folder: a new one was being put in place when the program was stopped"
             remedy = "Run the same `fatigue assess` again, or `fatigue show`, which completes it"
         raise DataError(Problem("no_result", str(folder), what, remedy)) from None
-    except (json.JSONDecodeError, UnicodeDecodeError, OSError) as error:
-        problem = Problem("damaged_result", str(path), f"cannot be read ({error})", "Run the assessment again")
-        raise DataError(problem) from None
+    except OSError as error:
+        what = f"cannot be read ({error.strerror})"
+        raise DataError(Problem("damaged_result", str(folder / PROVENANCE), what, PUT_BACK)) from None
+
+
+def _parsed(path: Path, content: bytes) -> dict[str, Any]:
+    try:
+        record = json.loads(content.decode("utf-8"))
+    except (ValueError, RecursionError) as error:
+        why = "it is nested too deeply" if isinstance(error, RecursionError) else str(error).splitlines()[0]
+        raise DataError(Problem("damaged_result", str(path), f"cannot be read ({why})", PUT_BACK)) from None
     if not isinstance(record, dict) or record.get("program") != "fatigue":
         raise DataError(
             Problem("no_result", str(path), "was not written by fatigue", "Give a folder that `fatigue assess` wrote")
         )
     return record
+
+
+def write_provenance(folder: Path, record: Mapping[str, Any]) -> None:
+    """Write ``provenance.json`` and, in the format of ``sha256sum``, its hash and those of the outputs it lists."""
+    write_json(folder / PROVENANCE, record)
+    hashes = {PROVENANCE: sha256(folder / PROVENANCE)} | (hashes_on_record(record) or {})
+    lines = [f"{digits}  {name}\n" for name, digits in hashes.items()]
+    (folder / CHECKSUMS).write_text("".join(lines), encoding="utf-8", newline="\n")
+
+
+def hashes_on_record(record: Mapping[str, Any]) -> dict[str, str] | None:
+    """SHA-256 of every output by its name; None in the record of an older result, which has names only."""
+    outputs = record.get("outputs")
+    if not (isinstance(outputs, list) and outputs and all(isinstance(entry, dict) for entry in outputs)):
+        return None
+    return {str(entry.get("file")): str(entry.get("sha256")) for entry in outputs}
+
+
+def is_same_result(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """Whether two records are of one result, though documents may have been written in between."""
+    return {**one, "outputs": None} == {**other, "outputs": None}
+
+
+def _known_hash(folder: Path) -> str | None:
+    """SHA-256 of the record as it was written; None where no file tells it.
+
+    Raises
+    ------
+    DataError : the file that tells it cannot be read, or does not tell it
+    """
+    path = folder / CHECKSUMS
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError:
+        return None
+    except (OSError, UnicodeDecodeError) as error:
+        what = f"cannot be read ({getattr(error, 'strerror', None) or 'it is no text'})"
+        raise DataError(Problem("damaged_result", str(path), what, PUT_BACK)) from None
+    for line in lines:
+        digits, _, name = line.partition(" ")
+        if name.lstrip(" *") == PROVENANCE:
+            return digits.lower()
+    what = "does not tell the SHA-256 of provenance.json"
+    raise DataError(Problem("damaged_result", str(path), what, PUT_BACK))
 
 
 def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:

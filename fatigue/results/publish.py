@@ -63,14 +63,18 @@ def complete(folder: Path) -> None:
     """
     try:
         journal = json.loads((folder / JOURNAL).read_text(encoding="utf-8"))
+        finished, stale = folder / journal["from"], [folder / name for name in journal["remove"]]
     except FileNotFoundError:
         return
-    finished = folder / journal["from"]
+    except (OSError, ValueError, RecursionError, LookupError, TypeError) as error:
+        what = f"says what was being put in place when the program was stopped, and cannot be read ({error})"
+        remedy = "Remove it and run the assessment again with --force"
+        raise DataError(Problem("damaged_result", str(folder / JOURNAL), what, remedy)) from None
     files = sorted(finished.iterdir()) if finished.is_dir() else []
     files.sort(key=lambda path: path.name == PROVENANCE)
     try:
-        for name in journal["remove"]:
-            (folder / name).unlink(missing_ok=True)
+        for path in stale:
+            path.unlink(missing_ok=True)
         if any(path.name == PROVENANCE for path in files):
             (folder / PROVENANCE).unlink(missing_ok=True)
         for path in files:

@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.results.columns import TABLES
-from fatigue.results.tables import read_table, readable, table_path
+from fatigue.results.tables import expect_columns, read_table, readable, table_path
 
 
 def read_rows(
@@ -30,7 +30,7 @@ def read_rows(
     ascending = np.argsort(rows, kind="stable")
     wanted = rows[ascending]
     with _opened(folder, table) as file:
-        names = _wanted(file, columns)
+        names = _wanted(file, table, columns)
         end = np.cumsum([0, *(file.metadata.row_group(i).num_rows for i in range(file.num_row_groups))])
         group = np.searchsorted(end, wanted, side="right") - 1
         groups = [file.schema_arrow.empty_table().select(names)]
@@ -49,6 +49,7 @@ def row_groups(folder: Path | str, table: str) -> Iterator[pa.Table]:
     DataError : the folder holds no such table, or the file is damaged
     """
     with _opened(folder, table) as file:
+        _wanted(file, table, None)
         if file.num_row_groups == 0:
             yield _plain(file.schema_arrow.empty_table())
         for number in range(file.num_row_groups):
@@ -81,7 +82,7 @@ def number_groups(
     """
     places = {name: {text: place for place, text in enumerate(known)} for name, known in texts.items()}
     with _opened(folder, table) as file:
-        names = _wanted(file, [*numbers, *texts])
+        names = _wanted(file, table, [*numbers, *texts])
         for number in range(file.num_row_groups):
             group = file.read_row_group(number, names)
             columns: dict[str, NDArray[Any]] = {name: group.column(name).to_numpy() for name in numbers}
@@ -101,6 +102,7 @@ def rows_of_welds(folder: Path | str, table: str, welds: Sequence[str]) -> dict[
     found: dict[str, list[NDArray[np.int64]]] = {weld: [np.zeros(0, dtype=np.int64)] for weld in welds}
     first = 0
     with _opened(folder, table) as file:
+        _wanted(file, table, ["weld"])
         at = file.schema_arrow.names.index("weld")
         for number in range(file.num_row_groups):
             group = file.metadata.row_group(number)
@@ -138,16 +140,14 @@ def read_codes(folder: Path | str, table: str, column: str) -> tuple[NDArray[np.
     DataError : the folder holds no such table, or the file is damaged
     """
     with _opened(folder, table) as file:
-        codes, names = _coded(file.read([column]))
+        codes, names = _coded(file.read(_wanted(file, table, [column])))
     return codes, names.to_pylist()
 
 
-def _wanted(file: pq.ParquetFile, columns: Sequence[str] | None) -> list[str]:
+def _wanted(file: pq.ParquetFile, table: str, columns: Sequence[str] | None) -> list[str]:
     """Names of the columns to read, in the order of the file; all of them must be there."""
     there = file.schema_arrow.names
-    missing = [name for name in columns or () if name not in there]
-    if missing:
-        raise pa.ArrowInvalid(f"it has no column {missing[0]}")
+    expect_columns(file.schema_arrow, table, there if columns is None else columns)
     return [name for name in there if columns is None or name in columns]
 
 
@@ -158,7 +158,7 @@ def _opened(folder: Path | str, table: str) -> Iterator[pq.ParquetFile]:
     texts = [column.name for column in TABLES[table] if column.type == "text"]
     with readable(path):
         try:
-            opened = pq.ParquetFile(path, read_dictionary=texts)
+            opened = pq.ParquetFile(path, read_dictionary=texts, page_checksum_verification=True)
         except KeyError as error:  # of the library, for a coded column that is not there
             raise pa.ArrowInvalid(f"it has no column {error.args[0].decode()}") from None
         with opened as file:

@@ -21,6 +21,7 @@ _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
     "flag": pa.bool_(),
     "float": pa.float64(),
 }
+_HOLDS: dict[ColumnType, str] = {"text": "texts", "int": "whole numbers", "flag": "flags", "float": "numbers"}
 _CODED_TEXT = pa.dictionary(pa.int32(), pa.string())
 _ROWS_PER_GROUP = dict.fromkeys(TABLES, 65_536) | {"structural_stress": 131_072, "nodes": 16_384, "welds": 2_048}
 """Rows wait in memory until a group of them is full, and what Parquet says of each group until the file is closed.
@@ -33,6 +34,7 @@ _ENCODING: dict[str, Any] = {
     "compression_level": -5,  # computed floats hardly compress: level 1 takes twice the time for 2 % of the size
     "data_page_size": 1 << 18,  # within the second-level cache
     "write_batch_size": 1 << 14,
+    "write_page_checksum": True,
 }
 
 
@@ -154,10 +156,29 @@ def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = N
     wanted = own if columns is None else list(given_names(columns, "columns"))
     refuse(DataError, _unknown_columns(path, wanted, own))
     with readable(path):
-        found = pq.read_table(path, columns=None if columns is None else wanted)
-        if missing := [name for name in wanted if name not in found.column_names]:
-            raise pa.ArrowInvalid(f"it has no column {missing[0]}")
+        found = pq.read_table(path, columns=None if columns is None else wanted, page_checksum_verification=True)
+        expect_columns(found.schema, table, wanted)
     return found
+
+
+def expect_columns(found: pa.Schema, table: str, wanted: Sequence[str]) -> None:
+    """Refuse a table without one of some columns, or with texts where numbers belong or the reverse.
+
+    Raises
+    ------
+    pyarrow.ArrowInvalid : the first such column
+    """
+    for column in TABLES[table]:
+        if column.name not in wanted:
+            continue
+        if (columns := found.names.count(column.name)) != 1:
+            raise pa.ArrowInvalid(f"it has {columns or 'no'} column{'s' * bool(columns)} {column.name}")
+        kind = found.field(column.name).type
+        kind = kind.value_type if pa.types.is_dictionary(kind) else kind
+        is_text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
+        is_number = pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_boolean(kind)
+        if not (pa.types.is_null(kind) or (is_text if column.type == "text" else is_number)):
+            raise pa.ArrowInvalid(f"its column {column.name} holds {kind}, not {_HOLDS[column.type]}")
 
 
 def table_path(folder: Path | str, table: str) -> Path:
@@ -198,7 +219,7 @@ def readable(path: Path) -> Iterator[None]:
         problem = Problem(
             "no_result", str(path), "no such result table", "Run `fatigue assess CASE -o DIR` first and give its DIR"
         )
-    except (pa.ArrowInvalid, OSError, UnicodeDecodeError) as error:
+    except (pa.ArrowException, OSError, ValueError, LookupError, OverflowError, MemoryError) as error:
         detail = str(error).splitlines()[0] if str(error) else type(error).__name__
         problem = Problem(
             "damaged_result", str(path), f"the table cannot be read ({detail})", "Run the assessment again"

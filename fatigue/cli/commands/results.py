@@ -32,13 +32,16 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
     """
     refuse_missing_result(folder)
     from fatigue.files.naming import composed
+    from fatigue.results.outputs import damage_told
     from fatigue.results.summary import result_summary
 
-    found = result_summary(folder, top=top, only=[composed(weld) for weld in welds])
+    with damage_told(folder):
+        found = result_summary(folder, top=top, only=[composed(weld) for weld in welds])
+        text = "" if as_json else found.as_text()
     if as_json:
         print_json(found.as_record())
     else:
-        click.echo(found.as_text())
+        click.echo(text)
 
 
 @cli.command()
@@ -64,9 +67,10 @@ def report(
     refuse_missing_result(folder, case_file)
     from fatigue.documents import AGAIN, CSV, write_documents
     from fatigue.results import PRINT, WORKBOOK
+    from fatigue.results.outputs import damage_told
 
     wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
-    with narrated(quiet=options["quiet"]):
+    with narrated(quiet=options["quiet"]), damage_told(folder):
         done = write_documents(folder, wanted, case_file=case_file, verification=known_values, force=force)
     for path in done.written:
         click.echo(path)
@@ -112,8 +116,9 @@ def diagnose(
     from fatigue.diagnose import diagnose as run
     from fatigue.documents import write_documents
     from fatigue.results import PAGE, is_derived, read_provenance
+    from fatigue.results.outputs import damage_told
 
-    with narrated(quiet=options["quiet"]) as progress:
+    with narrated(quiet=options["quiet"]) as progress, damage_told(folder):
         found = run(
             folder,
             case_file=case_file,

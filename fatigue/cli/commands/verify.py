@@ -47,6 +47,7 @@ def verify(
         raise click.UsageError("--case names the case of a result: give --results DIR as well")
     elif every:
         raise click.UsageError("--all recounts the points of a result: give --results DIR as well")
+    from fatigue.results.outputs import damage_told
     from fatigue.verify.check import VerificationTable
     from fatigue.verify.recount import Recount, recount
     from fatigue.verify.table import verification_table
@@ -57,7 +58,8 @@ def verify(
             found: VerificationTable | Recount = verification_table()
         else:
             stage("recounting from the input files")
-            found = recount(folder, sample=None if every else sample, case_file=case_file)
+            with damage_told(folder):
+                found = recount(folder, sample=None if every else sample, case_file=case_file)
     if as_json:
         print_json(found.as_record())
     else:

@@ -10,7 +10,6 @@ from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.results import software_versions, way_to_case
-from fatigue.results.folder import OUTPUTS
 
 RESIDUE_RULES = {
     "repeat": "the record recurs: every cycle closes (ASTM E1049-85 5.4.5, ISO 12110-2)",
@@ -81,7 +80,6 @@ def provenance_record(
         },
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
-        "outputs": list(OUTPUTS),
     }
 
 

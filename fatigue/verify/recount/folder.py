@@ -81,7 +81,8 @@ def recount(
     """Recount of points of a finished result from its input files, by other code than the one that made it.
 
     Files of the folder that belong to another result are named; where they are tables of the assessment nothing is
-    recounted.
+    recounted. Files that were changed since they were written are named, too, and of tables that can be read all the
+    same the recount tells what was changed in them.
 
     Nothing here imports the line solver, the counting or the spectra of the program: dense matrices, the ``rainflow``
     package, a spectrum of each point's own stress, curves from constants copied a second time.
@@ -107,12 +108,32 @@ def recount(
     case_file = None if case_file is None else given_path(case_file, "case_file")
     record = read_provenance(folder)
     astray = tuple(strangers(folder, record))
-    if {Path(problem.where).name for problem in astray} & {f"{table}.parquet" for table in ASSESSED}:
+    tables = [problem for problem in astray if Path(problem.where).name in {f"{table}.parquet" for table in ASSESSED}]
+    if any(problem.code == "other_result" for problem in tables):
         return Recount(folder, 0, 0, (), strangers=astray)
     try:
         inputs = open_inputs(record, folder, case_file)
     except DataError as error:
         raise DataError(*astray, *error.problems) from None
+    try:
+        return _recount(folder, record, inputs, astray, sample=sample, seed=seed, most_samples=most_samples)
+    except Exception as error:
+        if tables:  # what was changed in them cannot be told
+            raise DataError(*tables) from error
+        raise
+
+
+def _recount(
+    folder: Path,
+    record: Mapping[str, Any],
+    inputs: RecountInputs,
+    astray: tuple[Problem, ...],
+    *,
+    sample: int | None,
+    seed: int,
+    most_samples: int,
+) -> Recount:
+    """The recount of a folder whose inputs are as they were; ``astray`` are its files that are not."""
     modes, body = read_modes(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
     stored = open_tables(folder, body, events, modes)
