@@ -20,6 +20,7 @@ from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings import WarningSummary
+from fatigue.shown import visible
 from fatigue.stages import stage
 
 
@@ -66,7 +67,7 @@ class CheckedCase:
         candidates = f"{self.candidates} candidate{'s' * (self.candidates != 1)}"
         return "\n".join(
             [
-                f"{self.title}: the case is complete and consistent",
+                f"{visible(self.title)}: the case is complete and consistent",
                 f"  welds            {self.welds} in {self.parts} straight parts, {self.stations} stations, both faces",
                 *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",

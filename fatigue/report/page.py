@@ -24,6 +24,7 @@ from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
+from fatigue.shown import visible
 
 log = logging.getLogger(__name__)
 
@@ -124,7 +125,12 @@ def report_page(
 def _environment() -> jinja2.Environment:
     loader = jinja2.PackageLoader("fatigue.report")
     environment = jinja2.Environment(
-        loader=loader, autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=loader,
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=_shown,
     )
     environment.filters |= {
         "number": wording.number,
@@ -140,6 +146,11 @@ def _environment() -> jinja2.Environment:
 
     environment.globals["source"] = source
     return environment
+
+
+def _shown(value: Any) -> Any:
+    """What the page says of a value: in a text of somebody else, as a name, what cannot be seen is spelled out."""
+    return visible(value, keep="\n\t") if isinstance(value, str) and not isinstance(value, Markup) else value
 
 
 def _details(

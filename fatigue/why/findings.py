@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import life_km
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.tables.rows import FACES
+from fatigue.shown import visible
 from fatigue.why.attribute import Attribution
 from fatigue.why.evidence import Evidence
 from fatigue.why.levers import SMALLER
@@ -103,7 +104,7 @@ class Finding:
         }
         if self.formula_error is not None and self.process_error is not None:
             lines["Dirlik"] += f" Ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)."
-        heading = f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}"
+        heading = f"{visible(self.weld)}, node {self.node} {self.surface}: {_km(self.life_km)}"
         return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
 
     def _mode(self, mode: ModeFinding) -> str:
@@ -131,7 +132,7 @@ class Diagnosis:
         notes = [_wrapped("  ", note) for note in self.notes]
         return "\n\n".join(
             [
-                f"{self.title}: what makes the damage, of {self.points}",
+                f"{visible(self.title)}: what makes the damage, of {self.points}",
                 *(finding.as_text() for finding in self.findings),
                 *(["\n".join(["Not available, or to be read with care:", *notes])] if notes else []),
             ]
