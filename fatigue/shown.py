@@ -1,7 +1,7 @@
-"""Texts that somebody else wrote, as they are shown: what cannot be seen is spelled out, what is long is cut.
+r"""Texts that somebody else wrote, as they are shown: what cannot be seen is spelled out, what is long is cut.
 
 A name may hold a character that moves the cursor of a terminal, turns the direction of the letters behind it, or is no
-letter at all. Tables keep such a name as it is; whoever reads it on a screen or a page sees ``\\u202e`` in its place.
+letter at all. Tables keep such a name as it is; whoever reads it on a screen or a page sees ``\u202e`` in its place.
 """
 
 import logging
@@ -69,4 +69,6 @@ class VisibleFormatter(logging.Formatter):
 def _escaped(character: str) -> str:
     if unicodedata.category(character) not in _UNSEEN:
         return character
-    return character.encode("ascii", "backslashreplace").decode("ascii") if ord(character) > 127 else repr(character)[1:-1]
+    return (
+        character.encode("ascii", "backslashreplace").decode("ascii") if ord(character) > 127 else repr(character)[1:-1]
+    )

@@ -86,8 +86,6 @@ def main() -> None:
     except Exception as error:
         if verbose:
             raise
-        click.echo(
-            f"error: this should not have happened ({type(error).__name__}: {visible(str(error))}). Run again with -v and report it",
-            err=True,
-        )
+        what = visible(f"{type(error).__name__}: {error}")
+        click.echo(f"error: this should not have happened ({what}). Run again with -v and report it", err=True)
         sys.exit(4)

@@ -161,7 +161,10 @@ def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
     cells = [
         list(columns),
         *(
-            [_cell(value) if name in UNCUT else shortened(_cell(value)) for name, value in zip(columns, row, strict=True)]
+            [
+                _cell(value) if name in UNCUT else shortened(_cell(value))
+                for name, value in zip(columns, row, strict=True)
+            ]
             for row in frame[list(columns)].itertuples(index=False)
         ),
     ]

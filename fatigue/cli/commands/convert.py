@@ -93,9 +93,7 @@ def _print(done: "Conversion") -> None:
         click.echo(light + visible(f"  {row.check}:{value} {row.finding}.{remedy}"))
     for problem in done.warnings:
         say(f"note   {problem}")
-    say(
-        f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed"
-    )
+    say(f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed")
     for number, reason in reasons(done.welds):
         say(f"{number} weld line{'s' * (number > 1)} not assessed: {visible(reason)}")
     edit = register_named(done.folder / "case.toml")

@@ -8,6 +8,7 @@ from fatigue.readers.neutral.tables import open_table
 
 
 def column_problem(name, rest="", what="the unit is m"):
+    """Make a problem of one column."""
     return Problem("unit", f"q.csv: column {name}{rest}", what, "Convert")
 
 

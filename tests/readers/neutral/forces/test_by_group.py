@@ -279,8 +279,6 @@ def test_warnings_about_the_file_reach_every_piece(tmp_path, shuffled):
     by_group = ForcesByGroup(tmp_path / "f.csv", (("A", "B"), ("C",), ("D", "É")), tmp_path / "scratch")
     for group in range(3):
         said = [str(warning) for warning in by_group.table(group).warnings]
-        assert said[0] == (
-            "f.csv: column node, row of units: the unit kg is not used. Remove it, or check the values."
-        )
+        assert said[0] == ("f.csv: column node, row of units: the unit kg is not used. Remove it, or check the values.")
         assert "is read as Windows-1252, where it is 'É'" in said[1]
         assert len(said) == 2
