@@ -28,6 +28,7 @@ from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, inputs_of, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
+from fatigue.pipeline.solve.absent_loads import load_doubts
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
@@ -45,6 +46,7 @@ from fatigue.results.publish import publish
 from fatigue.side_by_side import meanwhile
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
+from fatigue.weld.load_extent import LoadExtent
 
 log = logging.getLogger(__name__)
 
@@ -149,7 +151,7 @@ def assess(
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            done.warnings.add(sampling_warnings(body, done))
+            done.warnings.add((*load_doubts(body, done.extents), *sampling_warnings(body, done)))
             warnings = done.warnings.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
@@ -184,7 +186,7 @@ class Tally:
     """What adds up while groups of welds stream by.
 
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
-    ``warnings`` has the warnings about the welds in the order of their groups.
+    ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their forces are.
     """
 
     total: int
@@ -195,6 +197,7 @@ class Tally:
     stations: dict[str, int] = field(default_factory=dict)
     warnings: WarningSummary = field(default_factory=WarningSummary)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
+    extents: list[LoadExtent] = field(default_factory=list)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -206,6 +209,7 @@ class Tally:
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
         self.warnings.add(group.model.warnings)
+        self.extents += group.model.extents
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))

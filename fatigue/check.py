@@ -16,12 +16,14 @@ from fatigue.case import Case, given_case
 from fatigue.errors import Problem
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.trial import JobTime, job_time
+from fatigue.pipeline.solve.absent_loads import load_doubts
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.shown import visible
 from fatigue.stages import stage
+from fatigue.weld.load_extent import LoadExtent
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,6 +97,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     plan, record_warnings = mission_plan(body)
     warnings = WarningSummary()
     warnings.add((*body.warnings, *record_warnings))
+    extents: list[LoadExtent] = []
     parts = stations = 0
     stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
@@ -104,6 +107,8 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
             parts += len(model.lines)
             stations += len(model.stations)
             warnings.add(model.warnings)
+            extents += model.extents
+        warnings.add(load_doubts(body, extents))
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
