@@ -50,17 +50,18 @@ def load_extent(lines: Lines, forces: NDArray[np.floating]) -> LoadExtent:
     first = lines.begin[:-1]
     size = np.abs(forces)
     of_node = size.max(axis=1)
-    force = np.sqrt(np.sum(np.square(forces[..., :3], dtype=np.float64), axis=2))
-    moment = np.sqrt(np.sum(np.square(forces[..., 3:], dtype=np.float64), axis=2))
     normal = unit(lines.normal)
-    across = np.abs(np.einsum("nmc,nc->nm", forces[..., :3], normal)).max(axis=1)
+    with np.errstate(over="ignore"):  # what is so large is told where it is counted
+        fx, fy, fz, mx, my, mz = np.moveaxis(size.astype(np.float64, copy=False), 2, 0)
+        force, moment = np.hypot(np.hypot(fx, fy), fz), np.hypot(np.hypot(mx, my), mz)
+        total = np.add.reduceat(force + moment / lines.thickness[:, np.newaxis], first)
+        across = np.abs(np.einsum("nmc,nc->nm", forces[..., :3], normal)).max(axis=1)
     is_bare = ~of_node.any(axis=1)
     bare = np.add.reduceat(is_bare.astype(np.int64), first)
     at = [
         int(lines.node[a + is_bare[a:b].argmax()]) if bare[i] else 0 for i, (a, b) in enumerate(pairwise(lines.begin))
     ]
     largest = np.maximum.reduceat(of_node, first)
-    total = np.add.reduceat(force + moment / lines.thickness[:, np.newaxis], first)
     return LoadExtent(
         weld=names,
         line_force=total / lengths(lines)[:, np.newaxis],

@@ -54,7 +54,8 @@ def _weld_doubts(
     median = np.median(line_force, axis=0)
     if len(line_force) < 2 or not median.any():
         return
-    share = (line_force[:, median > 0.0] / median[median > 0.0]).max(axis=1)
+    with np.errstate(invalid="ignore"):
+        share = np.nan_to_num(line_force[:, median > 0.0] / median[median > 0.0], nan=1.0).max(axis=1)
     small = np.flatnonzero(share < NEXT_TO_NOTHING)[np.argsort(share[share < NEXT_TO_NOTHING], kind="stable")]
     if small.size:
         some = names[~zero][small]
