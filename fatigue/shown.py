@@ -36,16 +36,16 @@ def spelled_out(text: str) -> str:
     return visible(text).encode("ascii", "backslashreplace").decode("ascii")
 
 
-def shortened(text: str, longest: int = LONGEST_NAME) -> str:
-    """Text of so many characters at most, its middle left out where it has more.
+def shortened(text: str, longest: int = LONGEST_NAME, mark: str = "...") -> str:
+    """Text of so many characters at most, its middle, where names differ least, replaced by a mark if it has more.
 
-    >>> shortened("abcdefghij", 7)
-    'abc...j'
+    >>> shortened("abcdefghij", 9)
+    'abcd...ij'
     """
     if len(text) <= longest:
         return text
-    kept = longest - 3
-    return f"{text[: kept - kept // 3]}...{text[len(text) - kept // 3 :]}"
+    head = (longest - len(mark)) * 2 // 3
+    return f"{text[:head]}{mark}{text[head + len(mark) - longest :]}"
 
 
 def few(names: Sequence[object], most: int = FEW) -> str:

@@ -32,6 +32,7 @@ MOST_DETAILED = 40  # welds with their own figures; the others have their rows a
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
 LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
+LONGEST_NAME = 120  # letters of a name in a sentence or a heading
 WORST_POINTS = 50
 
 
@@ -138,6 +139,7 @@ def _environment() -> jinja2.Environment:
         "years": wording.years,
         "share": wording.share,
         "whole": wording.whole,
+        "short": lambda name: wording.short(str(name), LONGEST_NAME),
     }
 
     def source(name: str) -> Markup:
