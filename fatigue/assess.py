@@ -30,6 +30,7 @@ from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
+from fatigue.pipeline.solve.absent_loads import load_doubts
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
@@ -37,6 +38,7 @@ from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
+from fatigue.pipeline.tables.stress_doubts import StressExtent
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
@@ -47,6 +49,7 @@ from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
 from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
+from fatigue.weld.load_extent import LoadExtent
 
 log = logging.getLogger(__name__)
 
@@ -148,7 +151,7 @@ def assess(
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            done.warnings.add(sampling_warnings(body, done))
+            done.warnings.add(body_doubts(body, work, done))
             warnings = done.warnings.listed()
             record = {"program": "fatigue", "result": key}
             record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings)
@@ -205,7 +208,8 @@ class Tally:
     """What adds up while groups of welds stream by.
 
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
-    ``warnings`` has the warnings about the welds in the order of their groups.
+    ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
+    forces are, ``stress`` how large their stress ranges.
     """
 
     total: int
@@ -216,6 +220,8 @@ class Tally:
     stations: dict[str, int] = field(default_factory=dict)
     warnings: WarningSummary = field(default_factory=WarningSummary)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
+    extents: list[LoadExtent] = field(default_factory=list)
+    stress: StressExtent = field(default_factory=StressExtent)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -228,6 +234,8 @@ class Tally:
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
         self.warnings.add(group.model.warnings)
         self.warnings.add(worst_at_corners(group.model, result.mission, worst))
+        self.extents += group.model.extents
+        self.stress.add(group.model, result)
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
@@ -251,6 +259,13 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
     """The worst points of a group whose cycles go into ``cycles.parquet``."""
     used_up = group.result.mission.utilisation
     return [kept_point(group.model, p) for p in worst if used_up[p.station, p.face] >= work.kept_from]
+
+
+def body_doubts(body: Body, work: Work, done: Tally) -> list[Problem]:
+    """Warnings that only all welds together give: loads that are not there, stress beyond metal, coarse records."""
+    files = [event.history for event in body.case.mission.event]
+    of_stress = done.stress.doubts(work.loads, body.modes.mode, files)
+    return load_doubts(body, done.extents) + of_stress + sampling_warnings(body, done)
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

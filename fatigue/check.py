@@ -16,11 +16,14 @@ from fatigue.case import Case, given_case
 from fatigue.errors import Problem
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.trial import JobTime, job_time
+from fatigue.pipeline.solve.absent_loads import load_doubts
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings import WarningSummary
+from fatigue.shown import visible
 from fatigue.stages import stage
+from fatigue.weld.load_extent import LoadExtent
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,7 +69,7 @@ class CheckedCase:
         candidates = f"{self.candidates} candidate{'s' * (self.candidates != 1)}"
         return "\n".join(
             [
-                f"{self.title}: the case is complete and consistent",
+                f"{visible(self.title)}: the case is complete and consistent",
                 f"  welds            {self.welds} in {self.parts} straight parts, {self.stations} stations, both faces",
                 *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",
@@ -94,6 +97,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     plan, record_warnings = mission_plan(body)
     warnings = WarningSummary()
     warnings.add((*body.warnings, *record_warnings))
+    extents: list[LoadExtent] = []
     parts = stations = 0
     stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
@@ -103,6 +107,8 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
             parts += len(model.lines)
             stations += len(model.stations)
             warnings.add(model.warnings)
+            extents += model.extents
+        warnings.add(load_doubts(body, extents))
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)

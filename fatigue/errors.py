@@ -6,6 +6,8 @@ from os import PathLike, fsencode, fspath
 from pathlib import Path
 from typing import ClassVar
 
+from fatigue.shown import visible
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -23,8 +25,8 @@ class Problem:
     count: int = 1
 
     def __str__(self) -> str:
-        """One line: place, finding and remedy."""
-        return f"{self.where}: {self.what}. {self.remedy}."
+        """One line: place, finding and remedy, what cannot be seen in them spelled out."""
+        return visible(f"{self.where}: {self.what}. {self.remedy}.")
 
 
 class FatigueError(Exception):

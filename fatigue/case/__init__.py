@@ -1,9 +1,10 @@
 """A case: what is assessed, with which curve, over which mission.
 
 ``tables`` are the tables of ``case.toml`` as frozen models, ``load`` reads and checks a case file, ``problems`` says
-what is wrong with it in the words of the file.
+what is wrong with it in the words of the file, ``doubts`` what is allowed and hardly meant.
 """
 
+from fatigue.case.doubts import case_doubts
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 
@@ -16,6 +17,7 @@ __all__ = [
     "Event",
     "Mission",
     "Spectrum",
+    "case_doubts",
     "case_schema",
     "check_distance",
     "check_files",

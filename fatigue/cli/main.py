@@ -10,6 +10,7 @@ import click
 from fatigue import __version__
 from fatigue.cli.memory import hold_little
 from fatigue.errors import FatigueError, Problem
+from fatigue.shown import VisibleFormatter, visible
 from fatigue.stages import STAGES
 
 EXIT_CODES = """
@@ -34,7 +35,7 @@ def cli(quiet: bool, verbose: bool) -> None:
       fatigue show result --top 20               the worst points
     """
     handler = logging.StreamHandler(sys.stderr)
-    handler.setFormatter(logging.Formatter("%(levelname)s %(message)s"))
+    handler.setFormatter(VisibleFormatter("%(levelname)s %(message)s"))
     handler.setLevel(logging.ERROR if quiet else logging.INFO if verbose else logging.WARNING)
     handler.addFilter(lambda record: record.name != STAGES)  # told by ``narrated``
     log = logging.getLogger("fatigue")
@@ -85,8 +86,6 @@ def main() -> None:
     except Exception as error:
         if verbose:
             raise
-        click.echo(
-            f"error: this should not have happened ({type(error).__name__}: {error}). Run again with -v and report it",
-            err=True,
-        )
+        what = visible(f"{type(error).__name__}: {error}")
+        click.echo(f"error: this should not have happened ({what}). Run again with -v and report it", err=True)
         sys.exit(4)

@@ -1,21 +1,29 @@
-"""What commands print besides their own text: JSON on stdout, warnings on stderr."""
+"""What commands print: text and JSON on stdout, warnings on stderr; what cannot be seen in a name is spelled out."""
 
 import json
 import logging
+import re
 from typing import Any
 
 import click
 
 from fatigue.errors import Problem
+from fatigue.shown import visible
 
 log = logging.getLogger(__name__)
 
 
+def say(text: object, *, err: bool = False) -> None:
+    """Print lines of text."""
+    click.echo(visible(str(text), keep="\n\t"), err=err)
+
+
 def print_json(record: Any) -> None:
-    """Print a record as JSON; infinite and missing numbers become null."""
+    """Print a record as JSON; infinite and missing numbers become null, what cannot be seen an escape of JSON."""
     from fatigue.results import json_ready
 
-    click.echo(json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False))
+    text = json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False)
+    click.echo(re.sub(r"[^\x20-\x7e\n]", lambda c: c[0] if visible(c[0]) == c[0] else json.dumps(c[0])[1:-1], text))
 
 
 def print_warnings(problems: tuple[Problem, ...], others_are: str = "see provenance.json") -> None:

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 import click
 
+from fatigue.shown import visible
 from fatigue.stages import STAGES
 
 Given = TypeVar("Given")
@@ -118,7 +119,7 @@ class Narrator(logging.Handler):
 
     def _line(self, text: str) -> None:
         self._last_line = time.monotonic()
-        click.echo(text, err=True)
+        click.echo(visible(text), err=True)
 
     def _now_and_then(self) -> None:
         """Tell that something still goes on when there has been no line for a while."""

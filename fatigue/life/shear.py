@@ -19,4 +19,5 @@ def shear_factor(
     """
     a, b, c = variance, 3.0 * shear_variance, np.sqrt(3.0) * covariance
     largest = 0.5 * (a + b) + np.sqrt(0.25 * (a - b) ** 2 + c**2)
-    return np.asarray(np.divide(a + b, np.sqrt(largest * a), out=np.full_like(a, np.nan), where=a > 0.0))
+    product = largest * a
+    return np.asarray(np.divide(a + b, np.sqrt(product), out=np.full_like(a, np.nan), where=product > 0.0))

@@ -24,6 +24,7 @@ from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
+from fatigue.shown import visible
 
 log = logging.getLogger(__name__)
 
@@ -31,6 +32,7 @@ MOST_DETAILED = 40  # welds with their own figures; the others have their rows a
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
 LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
+LONGEST_NAME = 120  # letters of a name in a sentence or a heading
 WORST_POINTS = 50
 
 
@@ -124,7 +126,12 @@ def report_page(
 def _environment() -> jinja2.Environment:
     loader = jinja2.PackageLoader("fatigue.report")
     environment = jinja2.Environment(
-        loader=loader, autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=loader,
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=_shown,
     )
     environment.filters |= {
         "number": wording.number,
@@ -132,6 +139,7 @@ def _environment() -> jinja2.Environment:
         "years": wording.years,
         "share": wording.share,
         "whole": wording.whole,
+        "short": lambda name: wording.short(str(name), LONGEST_NAME),
     }
 
     def source(name: str) -> Markup:
@@ -140,6 +148,11 @@ def _environment() -> jinja2.Environment:
 
     environment.globals["source"] = source
     return environment
+
+
+def _shown(value: Any) -> Any:
+    """What the page says of a value: in a text of somebody else, as a name, what cannot be seen is spelled out."""
+    return visible(value, keep="\n\t") if isinstance(value, str) and not isinstance(value, Markup) else value
 
 
 def _details(

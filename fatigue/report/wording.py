@@ -4,6 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from fatigue.shown import shortened, visible
+
 LONGEST = 1e12  # lives beyond are written as "> 1e12"
 NOT_AVAILABLE = "–"
 THIN_SPACE = "\u202f"  # groups thousands and does not break
@@ -68,12 +70,8 @@ def size(bytes_: int) -> str:
 
 
 def short(name: str, longest: int = 36) -> str:
-    """Name, shortened in the middle, where names differ least, if it is long."""
-    name = " ".join(name.split())
-    if len(name) <= longest:
-        return name
-    head = (longest - 1) * 2 // 3
-    return f"{name[:head]}…{name[head + 1 - longest :]}"
+    """Name, shortened in the middle if it is long, what cannot be seen in it spelled out."""
+    return shortened(visible(" ".join(name.split())), longest, "…")
 
 
 def in_figure(name: str, longest: int = 36) -> str:
@@ -84,7 +82,7 @@ def in_figure(name: str, longest: int = 36) -> str:
     plain = (
         short(name, longest).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("%{", "%&#123;")
     )
-    return plain if name.isascii() else f"\u2068{plain}\u2069"
+    return plain if plain.isascii() else f"\u2068{plain}\u2069"
 
 
 def listed(items: Sequence[str]) -> str:

@@ -11,6 +11,7 @@ from fatigue.results.belonging import DOCUMENTS, LIST, PAGE, PICTURE, is_derived
 from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
 from fatigue.results.provenance import CHECKSUMS, PROVENANCE, parsed_provenance
+from fatigue.shown import VisibleFormatter
 
 LOG = "fatigue.log"
 OUTPUTS = (*(f"{table}.parquet" for table in TABLES), PICTURE, PAGE, LIST, LOG, PROVENANCE, CHECKSUMS)
@@ -100,7 +101,7 @@ def _record_in(folder: Path) -> dict[str, Any] | None:
 def result_log(folder: Path) -> Iterator[None]:
     """Write what the run does to ``fatigue.log`` in the result folder."""
     handler = logging.FileHandler(folder / LOG, mode="a", encoding="utf-8")
-    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    handler.setFormatter(VisibleFormatter("%(asctime)s %(levelname)s %(message)s"))
     handler.setLevel(logging.INFO)
     program = logging.getLogger("fatigue")
     level = program.level

@@ -13,10 +13,12 @@ from fatigue.results.belonging import refuse_mixed
 from fatigue.results.provenance import read_provenance
 from fatigue.results.rows import read_rows, worst_toes
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
+from fatigue.shown import shortened, visible
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
 MOST_LEFT_OUT = 20  # printed one by one
+UNCUT = ("reason",)  # columns; one long name in another would push all that follow off the screen
 
 _POINT_COLUMNS = (
     "weld", "part", "node", "order", "surface", "arc_length_mm", "life_km", "life_years", "utilisation",
@@ -63,7 +65,7 @@ class Summary:
         others = len(self.welds) - len(welds)
         return "\n".join(
             [
-                f"{self.title}: {verdict} of {_km(self.target_km)}",
+                f"{visible(self.title)}: {verdict} of {_km(self.target_km)}",
                 self.assumptions,
                 "",
                 _text_table(
@@ -168,7 +170,13 @@ def assumptions(record: dict[str, Any]) -> str:
 def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
     cells = [
         list(columns),
-        *([_cell(value) for value in row] for row in frame[list(columns)].itertuples(index=False)),
+        *(
+            [
+                _cell(value) if name in UNCUT else shortened(_cell(value))
+                for name, value in zip(columns, row, strict=True)
+            ]
+            for row in frame[list(columns)].itertuples(index=False)
+        ),
     ]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
     numeric = [pd.api.types.is_numeric_dtype(frame[name]) for name in columns]
@@ -185,7 +193,7 @@ def _cell(value: Any) -> str:
         if value > LONGEST_LIFE_KM:
             return "> 1e12"
         return f"{value:.4g}"
-    return " ".join(str(value).splitlines())  # a cell of a spreadsheet may hold several
+    return visible(" ".join(str(value).splitlines()))  # a cell of a spreadsheet may hold several
 
 
 def _km(value: float) -> str:

@@ -27,6 +27,7 @@ from fatigue.spectrum.pairs import pair_forms, pairs, weights_of_pairs
 from fatigue.spectrum.scatter import period_taper, principal_scatter
 
 FEWEST_PERIODS = 8  # below, a scatter between periods says nothing
+LARGEST_EXPONENT = 40  # of 2: stresses of 1e12 MPa, whose squares are far below 3e38
 MOST_PERIODS = 32  # into which a long record is cut: more would cost time and tell no more
 
 
@@ -130,7 +131,7 @@ def stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices) -> 
 
     ``modal_stress`` is (n, m) [MPa per unit modal coordinate].
     """
-    forms = pair_forms(modal_stress * periods.rms, periods.forms).astype(np.float64)
+    forms = pair_forms(_squarable(modal_stress * periods.rms), periods.forms).astype(np.float64)
     variance, mean = forms[: periods.periods], forms[periods.periods]
     scatter = np.sqrt(np.sum(forms[periods.periods + 1 :] ** 2, axis=0))
     expected_cov = quotient(scatter, mean)
@@ -170,6 +171,15 @@ def damage_rate_by_period(
     """
     rates = [damage_rate(point_moments(modal_stress, m)) for m in moments_by_period(spectra, (0.0, 1.0, 2.0, 4.0))]
     return np.asarray(np.mean(rates, axis=0))
+
+
+def _squarable(modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows (n, m) whose squares single precision can hold: those far beyond are divided by a power of 2, exactly.
+
+    Only ratios are made of the forms, and a damaged value of 1e30 must not break the run.
+    """
+    _, exponent = np.frexp(np.abs(modal_stress).max(axis=1, initial=0.0))
+    return np.asarray(np.ldexp(modal_stress, -np.maximum(exponent - LARGEST_EXPONENT, 0)[:, np.newaxis]))
 
 
 def _chi_square_over_freedom(normal: float, freedom: NDArray[np.float64]) -> NDArray[np.float64]:

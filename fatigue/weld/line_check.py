@@ -16,11 +16,13 @@ from fatigue.weld.line_ends import FAR, NEAR, end_gaps, seems_closed, seems_open
 from fatigue.weld.line_geometry import edge_nodes, edge_points, edge_tangents, tangents, unit
 from fatigue.weld.line_turns import turned_from_neighbours, turns
 
-TURNED_ALONE = (
-    20.0  # [deg] against the nodes around: stress across the weld reads 1 - cos 20 = 6 % low; welds of tube on
-)
-# tube of 0.95 its diameter, the sharpest saddles in use, reach 18 on a mesh of 12 nodes
+# Against the nodes around: stress across the weld reads 1 - cos 20 deg = 6 % low. Welds of tube on tube of 0.95 its
+# diameter, the sharpest saddles in use, reach 18 on a mesh of 12 nodes.
+TURNED_ALONE = 20.0  # [deg]
 TURNED_STEP = 30.0  # [deg] from a node to the next: shells that meet at a smaller angle are one plate
+
+FARTHEST = 1e100  # [mm] a coordinate; squares of larger ones come near the largest double
+VECTOR = 1e-6, 1e9  # lengths of normals and outward vectors: cross products of mesh edges are within
 
 
 class _Finding(NamedTuple):
@@ -105,6 +107,16 @@ def _warnings(line: Lines) -> list[_Finding]:
             "normal_tilted",
             f"the plate normal is up to {tilt.max():.0f} degrees off the right angle to the line",
             "Check normal_x, normal_y and normal_z",
+        ),
+        *(
+            _Finding(
+                (size < VECTOR[0]) | (size > VECTOR[1]),
+                "vector_length",
+                f"{name}_x, {name}_y, {name}_z make a vector of {size.min():.3g} to {size.max():.3g}, of which only "
+                f"the direction is used: below {VECTOR[0]:g} it may be round-off, above {VECTOR[1]:g} a damaged value",
+                "Check its components, and write it with the length 1",
+            )
+            for name, size in (("normal", _size(line.normal)), ("outward", _size(line.outward)))
         ),
         *_turned_normals(line),
         *_doubtful_ends(line),
@@ -195,7 +207,7 @@ def _wrong_rows(line: Lines) -> list[_Finding]:
         ),
         *(
             _Finding(
-                ~np.isfinite(values.sum(axis=1)),
+                np.any(~np.isfinite(values), axis=1),
                 "not_a_number",
                 f"{columns} hold a value that is no finite number",
                 "Correct the value",
@@ -207,13 +219,19 @@ def _wrong_rows(line: Lines) -> list[_Finding]:
             )
         ),
         _Finding(
-            np.linalg.norm(line.normal, axis=1) == 0,
+            np.any(np.abs(line.xyz) > FARTHEST, axis=1),
+            "too_large",
+            f"a coordinate is {np.abs(line.xyz).max():g} mm",
+            "Correct the value: no square of it can be computed",
+        ),
+        _Finding(
+            np.all(line.normal == 0, axis=1),
             "zero_normal",
             "the normal is zero",
             "Give the top normal of the plate",
         ),
         _Finding(
-            np.linalg.norm(line.outward, axis=1) == 0,
+            np.all(line.outward == 0, axis=1),
             "zero_outward",
             "the outward vector is zero",
             "Give a vector from the assessed plate across the line",
@@ -311,6 +329,12 @@ def _wrong_sides(line: Lines) -> list[_Finding]:
 
 _REFUSALS = (_wrong_rows, _coincident_nodes, _wrong_mid_nodes, _turns_back, _wrong_normals, _wrong_sides)
 """In this order: each takes for granted what those before it refuse."""
+
+
+def _size(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Largest component of each vector, (n,): its length to a factor of 1.7, however long it is."""
+    size: NDArray[np.float64] = np.abs(vectors).max(axis=1)
+    return size
 
 
 def _repeated(owner: NDArray[np.int64], node: NDArray[np.int64]) -> NDArray[np.bool_]:

@@ -15,6 +15,7 @@ from fatigue.weld.line import NODE_COLUMNS, Lines, Vectors, WeldLine, is_closed,
 
 KINK_LIMIT = 30.0  # [deg] above it the traction may jump at the node, so the line is split there
 KINK_TOLERANCE = 1e-6  # [deg] a regular 12-gon, whose corners turn by 30 degrees, is a smooth ring
+LONGEST = 1e150  # of a vector whose length is computed as it is: its square is far from the largest double
 GAUSS_POINT, GAUSS_WEIGHT = np.polynomial.legendre.leggauss(12)  # exact to round-off on arcs of 90 degrees an edge
 
 
@@ -146,9 +147,14 @@ def _part(line: WeldLine, part: int, at: NDArray[np.int64], *, corner_start: boo
 
 def unit(vectors: Vectors) -> Vectors:
     """Vectors of length 1 along the last axis; a zero vector stays zero."""
-    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    scaled: Vectors = np.divide(vectors, length, out=np.zeros(vectors.shape), where=length > 0)
-    return scaled
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    if np.any((length > LONGEST) | (length < 1.0 / LONGEST)):  # squares that overflow or vanish, or a zero vector
+        _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True, initial=0.0))
+        vectors = np.ldexp(vectors, -exponent)  # exact
+        length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    units: Vectors = np.divide(vectors, length, out=np.zeros(vectors.shape), where=length > 0)
+    return units
 
 
 @once

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import life_km
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.tables.rows import FACES
+from fatigue.shown import shortened, visible
 from fatigue.why.attribute import Attribution
 from fatigue.why.evidence import Evidence
 from fatigue.why.levers import SMALLER
@@ -90,20 +91,21 @@ class Finding:
         modes = ", ".join(f"{self._mode(m)} {_percent(m.share)}" for m in self.modes)
         bands = ", ".join(f"{_band(b)} {_percent(b.share)}" for b in self.bands)
         place = f"km {self.place_km:.1f} of the record" if self.place_km is not None else f"{self.place_s:.1f} s"
+        weld, event = shortened(visible(self.weld)), shortened(visible(self.event))
         best = self.levers[0]
         gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
         lines = {
-            "event": f"{self.event} {_percent(self.event_share)}",
+            "event": f"{event} {_percent(self.event_share)}",
             "bands": bands or "not available: no record is long enough for a spectrum",
             "modes": f"{modes}; relieving modes {_percent(self.relieving_share)}",
-            "place": f"half of the damage of {self.event} on {_percent(self.half_damage_part)} of it, most at {place}, "
+            "place": f"half of the damage of {event} on {_percent(self.half_damage_part)} of it, most at {place}, "
             f"{self.place_intensity:.1f} times the average",
             "lever": f"mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
             "Dirlik": f"{self.verdict}: {self.reason}",
         }
         if self.formula_error is not None and self.process_error is not None:
             lines["Dirlik"] += f" Ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)."
-        heading = f"{self.weld}, node {self.node} {self.surface}: {_km(self.life_km)}"
+        heading = f"{weld}, node {self.node} {self.surface}: {_km(self.life_km)}"
         return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
 
     def _mode(self, mode: ModeFinding) -> str:
@@ -131,7 +133,7 @@ class Diagnosis:
         notes = [_wrapped("  ", note) for note in self.notes]
         return "\n\n".join(
             [
-                f"{self.title}: what makes the damage, of {self.points}",
+                f"{visible(self.title)}: what makes the damage, of {self.points}",
                 *(finding.as_text() for finding in self.findings),
                 *(["\n".join(["Not available, or to be read with care:", *notes])] if notes else []),
             ]

@@ -10,7 +10,7 @@ from fatigue.cli.early import refuse_missing_case
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import SHARE
-from fatigue.cli.output import print_json, print_warnings
+from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 
 
@@ -38,7 +38,7 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     if as_json:
         print_json(found.as_record())
         return
-    click.echo(found.as_text())
+    say(found.as_text())
     print_warnings(found.warnings, "--json lists them")
 
 
@@ -131,6 +131,6 @@ def assess(
     if as_json:
         print_json(found.as_record())
     else:
-        click.echo(found.as_text())
+        say(found.as_text())
     if not done.fulfilled and not exit_zero:
         raise SystemExit(1)

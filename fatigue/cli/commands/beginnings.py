@@ -8,7 +8,7 @@ from fatigue.cli.arguments import FOLDER
 from fatigue.cli.early import refuse_existing
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO
-from fatigue.cli.output import print_json
+from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import is_quiet, narrated
 from fatigue.stages import stage
 
@@ -26,7 +26,7 @@ def example(folder: Path, force: bool) -> None:
     from fatigue.example import write_example
 
     for case_file in write_example(folder, force=force):
-        click.echo(case_file)
+        say(case_file)
 
 
 @cli.command()
@@ -54,7 +54,7 @@ def synth(
     with narrated(quiet=is_quiet()):
         stage("writing %d nodes, %d modes and %d events", nodes, modes, events)
         case_file = synthesize(folder, Size(nodes, modes, events, seconds, rate), seed)
-    click.echo(case_file)
+    say(case_file)
 
 
 @cli.command()

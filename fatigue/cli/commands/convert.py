@@ -15,9 +15,10 @@ from fatigue.cli.early import (
 )
 from fatigue.cli.main import cli
 from fatigue.cli.options import asking_for
-from fatigue.cli.output import print_json
+from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrating
 from fatigue.readers.convert.options import ConvertOptions
+from fatigue.shown import visible
 
 if TYPE_CHECKING:
     from fatigue.readers.convert.convert import Conversion
@@ -89,13 +90,11 @@ def _print(done: "Conversion") -> None:
         light = click.style(f"{row.light:5}", fg=_COLOUR[row.light])
         value = "" if row.value is None else f" {row.value:.3g}"
         remedy = f" {row.remedy}." if row.remedy and row.light != "green" else ""
-        click.echo(f"{light}  {row.check}:{value} {row.finding}.{remedy}")
+        click.echo(light + visible(f"  {row.check}:{value} {row.finding}.{remedy}"))
     for problem in done.warnings:
-        click.echo(f"note   {problem}")
-    click.echo(
-        f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed"
-    )
+        say(f"note   {problem}")
+    say(f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed")
     for number, reason in reasons(done.welds):
-        click.echo(f"{number} weld line{'s' * (number > 1)} not assessed: {reason}")
+        say(f"{number} weld line{'s' * (number > 1)} not assessed: {visible(reason)}")
     edit = register_named(done.folder / "case.toml")
-    click.echo(f"written to {done.folder}: edit case.toml and {edit}, then `fatigue assess` the case")
+    say(f"written to {done.folder}: edit case.toml and {edit}, then `fatigue assess` the case")

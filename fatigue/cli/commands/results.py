@@ -10,7 +10,7 @@ from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO
-from fatigue.cli.output import print_json
+from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 from fatigue.errors import DataError, refuse
 
@@ -41,7 +41,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
     if as_json:
         print_json(found.as_record())
     else:
-        click.echo(text)
+        say(text)
 
 
 @cli.command()
@@ -73,7 +73,7 @@ def report(
     with narrated(quiet=options["quiet"]), damage_told(folder):
         done = write_documents(folder, wanted, case_file=case_file, verification=known_values, force=force)
     for path in done.written:
-        click.echo(path)
+        say(path)
     refuse(DataError, done.problems)
 
 
@@ -134,7 +134,7 @@ def diagnose(
     if as_json:
         print_json(found.as_record())
     else:
-        click.echo(found.as_text())
+        say(found.as_text())
 
 
 def _hertz(text: str, option: str) -> tuple[float, ...]:

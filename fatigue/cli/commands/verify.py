@@ -7,7 +7,7 @@ import click
 from fatigue.cli.arguments import CASE, FOLDER, as_json
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.main import cli
-from fatigue.cli.output import print_json
+from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 from fatigue.stages import stage
 
@@ -63,6 +63,6 @@ def verify(
     if as_json:
         print_json(found.as_record())
     else:
-        click.echo(found.as_text())
+        say(found.as_text())
     if not found.passed:
         raise SystemExit(4)

@@ -8,9 +8,10 @@ from fatigue.cli.arguments import as_json
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_all, refuse_existing, refuse_unknown_units
 from fatigue.cli.main import cli
 from fatigue.cli.options import FILE, asking_for
-from fatigue.cli.output import print_json
+from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import is_quiet, narrated
 from fatigue.readers.convert.options import WeldSources
+from fatigue.shown import visible
 from fatigue.stages import stage
 
 
@@ -62,14 +63,14 @@ def welds(
     if vtp is not None:
         write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
     for problem in found.warnings:
-        click.echo(f"note: {problem}", err=True)
+        say(f"note: {problem}", err=True)
     if as_json:
         of_the_file = ("number", "others")
         print_json([{k: v for k, v in asdict(row).items() if k not in of_the_file} for row in rows])
         return
     for row in rows:
         reason = f"  {row.reason}" if row.reason else ""
-        click.echo(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {row.weld}{reason}")
+        say(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {visible(row.weld + reason)}")
 
 
 @cli.command("tension-patch")
@@ -92,7 +93,7 @@ def tension_patch(file: Path, results: bool, force: bool) -> None:
     from fatigue.readers.foreign.read import read_forces
 
     if results:
-        click.echo(f'force_convention = "{convention_of(read_forces(file, None))}"')
+        say(f'force_convention = "{convention_of(read_forces(file, None))}"')
         return
     file.write_text(DECK, encoding="ascii")
-    click.echo(f"{file}: run it in your solver, then fatigue tension-patch RESULTS --results")
+    say(f"{file}: run it in your solver, then fatigue tension-patch RESULTS --results")

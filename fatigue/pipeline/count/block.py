@@ -113,7 +113,11 @@ class Block:
             return count_event(stress, load, estimate)
 
     def _judged(self, stress: ModalStress, events: Sequence[EventBlock]) -> list[EventBlock]:
-        return [judged(event, stress, load) for event, load in zip(events, self.loads, strict=True)]
+        found = []
+        for event, load in zip(events, self.loads, strict=True):
+            with no_overflow(load.counted.event, self.welds):
+                found.append(judged(event, stress, load))
+        return found
 
     def _settled(self, rows: NDArray[np.intp], events: Sequence[EventBlock], tier: int) -> Settled:
         """Some stations, their events weighted with the mission; only the weighting needs the histograms."""

@@ -17,7 +17,7 @@ def no_overflow(event: str, welds: str) -> Iterator[None]:
     NumericalError : stress or damage exceeds double precision
     """
     try:
-        with np.errstate(over="raise"):
+        with np.errstate(over="raise", invalid="raise"):  # invalid: the infinities of a matrix product meet
             yield
     except FloatingPointError:
         raise NumericalError(

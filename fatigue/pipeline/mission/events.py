@@ -91,17 +91,23 @@ def load_of(
 ) -> EventLoad:
     """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
     try:
-        with np.errstate(over="raise"):
+        with np.errstate(over="raise", invalid="raise"):
             how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
             return prepare_event(history, how, event_spectra(body, history), top_mode_hz(body), scratch)
     except FloatingPointError:
-        problem = Problem(
-            "overflow",
-            event.history,
-            f"modal coordinates of event '{event.name}' are so large that their squares exceed double precision",
-            "Look for a value that is far too large",
-        )
-        raise NumericalError(problem) from None
+        raise NumericalError(_too_large(event, history)) from None
+
+
+def _too_large(event: Event, history: ModalHistory) -> Problem:
+    """Refusal of a record whose squares exceed double precision, with the largest value in it."""
+    largest, mode, at = 0.0, 0, 0
+    for i in range(len(history.mode)):
+        size = np.abs(history.q[i : i + 1, :])[0]
+        if size.max() >= largest:
+            largest, mode, at = float(size.max()), i, int(size.argmax())
+    what = f"modal coordinates of event '{event.name}' are so large that their squares exceed double precision: "
+    what += f"q_{history.mode[mode]} is {largest:g} at {history.start + at * history.step:g} s"
+    return Problem("overflow", event.history, what, "Look for a value that is far too large")
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:

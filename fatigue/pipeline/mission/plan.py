@@ -4,6 +4,7 @@ from fatigue.case import Case, Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
+from fatigue.pipeline.mission.record_doubts import RecordOutline, record_doubts
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.history import TimeGrid, check_history
@@ -22,22 +23,28 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
     warnings: list[Problem] = []
     problems: list[Problem] = []
     passes: list[Pass] = []
+    outlines: list[RecordOutline] = []
     for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
         if isinstance(checked, FatigueError):
             problems += checked.problems
         else:
             passes.append(checked[0])
             warnings += checked[1]
+            outlines.append(checked[2])
     refuse(DataError, problems)
+    warnings += record_doubts(outlines, body.modes, body.case.path.name)
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueError:
-    """The passes of an event and the warnings about its record, or what is wrong with the record."""
+def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], RecordOutline] | FatigueError:
+    """The passes of an event, the warnings about its record and its outline, or what is wrong with the record."""
     case = body.case
     path = case.resolve(event.history)
+    outline = RecordOutline(event, path.name)
     try:
-        grid, warnings = check_history(path, body.modes.mode, case.body.ignore_modes, strict=body.strict)
+        grid, warnings = check_history(
+            path, body.modes.mode, case.body.ignore_modes, strict=body.strict, look=outline.look
+        )
         refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
         samples = _kept_samples(case, event, grid)
     except FatigueError as error:
@@ -50,7 +57,7 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem]] | FatigueEr
         per_1000_km=event.per_1000_km,
     )
     warnings += step_warnings(grid, body.modes, path.name, event.name)
-    return one, warnings + _record_warnings(body, event, samples, grid.step)
+    return one, warnings + _record_warnings(body, event, samples, grid.step), outline
 
 
 def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:

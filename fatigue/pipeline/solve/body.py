@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fatigue.case import Case, check_files
+from fatigue.case import Case, case_doubts, check_files
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.look_alike import name_doubts
 from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
@@ -78,6 +79,8 @@ def read_body(case: Case, *, strict: bool) -> Body:
         conversion = convert_record(conversion_file(case))
         plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
     warnings += plan.warnings
+    names = (weld.name for weld in (*in_tables, *plan.welds))
+    warnings += case_doubts(case) + name_doubts(f"{files.welds}: column weld", names, "welds")
     curves = rated_curves(case, known_curves, plan.welds)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []

@@ -20,6 +20,7 @@ from fatigue.readers.neutral.body.welds import Weld
 from fatigue.weld.edge_type import edge_type_warnings, jumpy_lines
 from fatigue.weld.line import LineStack, line_of_node, stacked
 from fatigue.weld.line_load import line_load
+from fatigue.weld.load_extent import LoadExtent, load_extent
 from fatigue.weld.structural_stress import StructuralStress, assess_line, line_stress
 
 
@@ -28,13 +29,14 @@ class Model:
     """Some welds of a body, or all of them, ready for events.
 
     ``lines`` are the line parts of ``welds`` in their order, ``stations`` their nodes, solved, as one table;
-    ``warnings`` are those about the forces and lines of these welds.
+    ``warnings`` are those about the forces and lines of these welds, ``extents`` say how large the forces are.
     """
 
     body: Body
     lines: LineStack
     stations: Stations
     warnings: tuple[Problem, ...]
+    extents: tuple[LoadExtent, ...]
 
     @property
     def case(self) -> Case:
@@ -80,14 +82,16 @@ def solve_group(groups: WeldGroups, number: int) -> Model:
     stacks: list[LineStack] = []
     blocks: list[Stations] = []
     warnings: list[Problem] = []
+    extents: list[LoadExtent] = []
     for block in groups.blocks_of[number]:
         lines, forces, of_forces = forces_of_block(groups, block)
         stations, of_lines = _solved(lines, forces, welds, body.case.body.weld_nodes)
         stacks.append(lines)
         blocks.append(stations)
         warnings += of_forces + of_lines
+        extents.append(load_extent(lines, forces))
     together = stacks[0] if len(stacks) == 1 else stacked([line for stack in stacks for line in stack])
-    return Model(body, together, joined(blocks), tuple(warnings))
+    return Model(body, together, joined(blocks), tuple(warnings), tuple(extents))
 
 
 def _solved(

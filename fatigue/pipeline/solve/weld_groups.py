@@ -27,6 +27,7 @@ from fatigue.weld.line_geometry import split_at_kinks
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
+OF_FILE = ("unknown_column", "unit_unused", "not_utf8")  # warnings about a whole file, told with its first block
 BLOCK = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
 IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
@@ -114,7 +115,7 @@ def forces_of_block(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray
     forces, warnings = read_nodal_forces(
         table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
-    of_file = {"unknown_column"} if number else set()  # told with the first block
+    of_file = OF_FILE if number else ()
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
 
 

@@ -4,9 +4,10 @@ One column of a Parquet file is in memory at a time, beside the samples read so 
 """
 
 import re
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,12 +60,20 @@ def read_history(
 
 
 def check_history(
-    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], *, strict: bool
+    path: Path,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    *,
+    strict: bool,
+    look: Callable[[TimeGrid, NDArray[Any]], None] = lambda grid, samples: None,
 ) -> tuple[TimeGrid, list[Problem]]:
-    """Times of a record that is read, checked and not kept; raises what ``read_history`` raises."""
+    """Times of a record that is read, checked and not kept; raises what ``read_history`` raises.
+
+    ``look`` is called with the samples of each mode, in the order of ``modes``.
+    """
     table, names, grid = _open(path, modes, ignore_modes, strict)
     for name in names:
-        table.numbers(name)
+        look(grid, table.numbers(name))
     table.refuse()
     return grid, table.warnings
 

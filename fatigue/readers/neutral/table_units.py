@@ -1,8 +1,10 @@
 """Units that a neutral table states beside the names of its columns, which carry their units already."""
 
 import re
+from collections.abc import Iterable
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.readers.neutral.same_columns import told_once
 from fatigue.readers.text.layout import TableLayout
 
 _SUFFIXES = ("s", "mm", "n", "nmm", "hz", "mpa", "km")
@@ -28,14 +30,25 @@ def units_row_warnings(name: str, layout: TableLayout) -> tuple[Problem, ...]:
     ------
     DataError : a unit contradicts the name of its column
     """
-    contradictions: list[Problem] = []
-    warnings: list[Problem] = []
-    for column, unit in zip(layout.names, layout.units, strict=False):
-        problem = stated_unit_problem(f"{name}: column {column.strip()}, row of units", column, unit)
-        if problem is not None:
-            (contradictions if problem.code == "unit" else warnings).append(problem)
-    refuse(DataError, contradictions)
-    return tuple(warnings)
+    stated = zip(layout.names, layout.units, strict=False)
+    return checked_units([(f"{name}: column {column.strip()}, row of units", column, unit) for column, unit in stated])
+
+
+def checked_units(stated: Iterable[tuple[str, str, str]]) -> tuple[Problem, ...]:
+    """Compare units with the names of their columns, each given with its place; one mistake of many is told once.
+
+    Returns
+    -------
+    units that no column name confirms
+
+    Raises
+    ------
+    DataError : a unit contradicts the name of its column
+    """
+    found = [stated_unit_problem(where, column, unit) for where, column, unit in stated]
+    told = told_once((problem for problem in found if problem is not None), one_by_one=1)
+    refuse(DataError, (problem for problem in told if problem.code == "unit"))
+    return tuple(told)
 
 
 def stated_unit_problem(where: str, column: str, unit: str) -> Problem | None:

@@ -29,7 +29,8 @@ from fatigue.readers.neutral.column_values import (
 )
 from fatigue.readers.neutral.columns import Columns
 from fatigue.readers.neutral.files import open_columns, other_format
-from fatigue.readers.neutral.table_units import stated_unit_problem
+from fatigue.readers.neutral.same_columns import told_once
+from fatigue.readers.neutral.table_units import checked_units
 from fatigue.readers.text.flags import WORDS_OF_PROGRAMS, flag_of
 
 LARGEST = 2**63 - 1  # id
@@ -68,10 +69,11 @@ class Table:
         if missing := list(missing_columns(file, self.position, required)):
             if (other := other_format(self.path)) is not None and len(missing) == len(required):
                 raise DataError(other)
-            raise DataError(*self.problems, *missing)
+            raise DataError(*told_once((*self.problems, *missing)))
         found = self.problems if strict else self.warnings
-        found += nameless_columns(file, self.columns)
-        found += unknown_columns(file, self.position, (*required, *optional))
+        found += told_once(
+            (*nameless_columns(file, self.columns), *unknown_columns(file, self.position, (*required, *optional)))
+        )
 
     def where(self, column: str, row: int | None = None) -> str:
         """Name a place in the file; ``row`` is an index from 0."""
@@ -97,8 +99,8 @@ class Table:
         self.spoilt.add(column)
 
     def refuse(self) -> None:
-        """Raise everything found so far."""
-        refuse(DataError, self.problems)
+        """Raise everything found so far; what is the same in many columns is told once."""
+        refuse(DataError, told_once(self.problems))
 
     def numbers(
         self, name: str, *, default: float | None = None, least: float | None = None, above: float | None = None
@@ -294,8 +296,8 @@ def named(path: Path, columns: Columns) -> Table:
     """Make a table of columns that are open; two of one name are refused, and units that contradict the names."""
     table = Table(path, columns, positions_of(path.name, columns), warnings=list(columns.warnings))
     stated = ((name, unit) for name, unit in zip(columns.names, columns.units, strict=False) if unit)
-    found = (stated_unit_problem(table.where(name.strip()), name, unit) for name, unit in stated)
-    refuse(DataError, (problem for problem in found if problem is not None and problem.code == "unit"))
+    of_file = checked_units((table.where(name.strip()), name, unit) for name, unit in stated)
+    table.warnings.extend(of_file)
     return table
 
 

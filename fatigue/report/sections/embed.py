@@ -10,6 +10,8 @@ import plotly.graph_objects as go
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from fatigue.shown import visible
+
 
 @dataclass(frozen=True, slots=True)
 class Shown:
@@ -46,8 +48,17 @@ class Figures:
 
 def embedded(value: Any) -> Markup:
     """JSON that is safe inside a script element, whatever the texts in it."""
-    text = json.dumps(value, ensure_ascii=True, separators=(",", ":"), allow_nan=False)
+    text = json.dumps(_shown(value), ensure_ascii=True, separators=(",", ":"), allow_nan=False)
     return Markup(text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026"))
+
+
+def _shown(value: Any) -> Any:
+    """The same value, its texts as the page shows them: what cannot be seen in them is spelled out."""
+    if isinstance(value, str):
+        return visible(value, keep="\n\t\u2068\u2069")  # the isolates around a name
+    if isinstance(value, dict):
+        return {_shown(key): _shown(held) for key, held in value.items()}
+    return [_shown(held) for held in value] if isinstance(value, list | tuple) else value
 
 
 def packed(values: NDArray[np.generic]) -> dict[str, str]:

@@ -11,6 +11,8 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.neutral.tables import open_table
 
 KINDS = ("normal", "interface", "rigid")
+MOST_DAMPING = 0.3  # [-] of a normal mode: car bodies have 0.005 to 0.05, with viscous layers 0.1
+MOST_HZ = 1e6  # a wave through a plate of 5 mm; residual modes stay below
 LOWEST_HZ = 1e-3  # below it a frequency is the round-off of a rigid mode
 
 
@@ -71,4 +73,26 @@ def read_modes(path: Path, ignore_modes: Collection[int], *, strict: bool) -> tu
                 "Add residual or constraint modes to the FE run and to the simulation, or mark those present",
             )
         )
-    return modes, table.warnings
+    return modes, table.warnings + _doubts(modes, path.name)
+
+
+def _doubts(modes: Modes, file: str) -> list[Problem]:
+    """Warnings about damping in per cent, and about frequencies that no body of a vehicle has; each kind once."""
+    of_body = np.array(modes.kind) == "normal"  # interface modes may be damped as one likes
+    damping = np.where(of_body, np.nan_to_num(modes.damping_ratio), 0.0)
+    return [
+        *_above("unusual_damping", f"{file}: column damping_ratio", modes, damping, MOST_DAMPING),
+        *_above("unusual_frequency", f"{file}: column frequency_hz", modes, modes.frequency, MOST_HZ),
+    ]
+
+
+def _above(code: str, where: str, modes: Modes, values: NDArray[np.float64], most: float) -> list[Problem]:
+    """Warning about values above what modes have, with the largest of them."""
+    over = int(np.count_nonzero(values > most))
+    if not over:
+        return []
+    worst = int(values.argmax())
+    what = f"{values[worst]:g} of mode {modes.mode[worst]} is above {most:g}"
+    what += f"; so are those of {over - 1} more" if over > 1 else ""
+    remedy = "Give the ratio to critical damping, 2 % are 0.02" if most < 1.0 else "Give Hz, and check the modal basis"
+    return [Problem(code, where, what, remedy, over)]

@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from fatigue.errors import Problem
 from fatigue.files.naming import composed
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.columns import Columns
@@ -90,7 +91,7 @@ class ForcesByGroup:
             return weld if stored[position] == "weld" else rows.column(stored[position])
 
         columns = Columns(header.columns.names, header.columns.kinds, rows.num_rows, read, rows.column(ROW).to_numpy())
-        return Table(self._path, columns, header.position)
+        return Table(self._path, columns, header.position, warnings=_of_file(header))
 
     def regular_check(
         self, lines: LineFile, modes: Modes, ignore_modes: Collection[int], *, strict: bool
@@ -170,7 +171,13 @@ def _renamed(table: Table, welds: WeldCodes) -> Table:
     def read(at: int) -> pa.ChunkedArray:
         return weld if at == position else columns.read(at).take(pa.array(kept))
 
-    return Table(table.path, Columns(columns.names, columns.kinds, kept.size, read, kept), table.position)
+    pieces = Columns(columns.names, columns.kinds, kept.size, read, kept)
+    return Table(table.path, pieces, table.position, warnings=_of_file(table))
+
+
+def _of_file(header: Table) -> list[Problem]:
+    """Warnings met while a file was opened; its unknown columns are told by whoever says which are known."""
+    return [warning for warning in header.warnings if warning.code != "unknown_column"]
 
 
 def _source(path: Path, welds: WeldCodes, scratch: Path) -> Source:

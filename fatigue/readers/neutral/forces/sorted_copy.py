@@ -22,6 +22,7 @@ from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds
 from fatigue.readers.neutral.forces.weld_codes import WeldCodes
 from fatigue.readers.neutral.table_units import units_row_warnings
 from fatigue.readers.neutral.tables import Table, named
+from fatigue.readers.text.encoding import HEAD_BYTES, not_utf8_warning
 from fatigue.readers.text.layout import table_layout
 
 BATCH = 200_000  # rows in memory together
@@ -44,7 +45,10 @@ def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
     refuse(DataError, filter(None, [misplaced(path, path.name, text=False)]))
     layout = table_layout(path, ("weld",))
     kinds = tuple(KINDS.get(name.strip(), pa.string()) for name in layout.names)
-    header = named(path, Columns(layout.names, kinds, 0, _unread, warnings=units_row_warnings(path.name, layout)))
+    warnings = units_row_warnings(path.name, layout)
+    if layout.encoding == "cp1252":
+        warnings += (not_utf8_warning(path, _head_with_stray_byte(path)),)
+    header = named(path, Columns(layout.names, kinds, 0, _unread, warnings=warnings))
     columns = force_columns(header)
     try:
         batches = csv_batches(path, layout, {name: KINDS[name] for name in columns.values()})
@@ -102,6 +106,19 @@ def _parquet_batches(path: Path, columns: Mapping[str, str]) -> Iterator[pa.Tabl
             yield trimmed(pa.Table.from_batches([batch]), columns)
     except DAMAGE as error:
         raise DataError(damaged(path, error)) from None
+
+
+def _head_with_stray_byte(path: Path) -> bytes:
+    """Beginning of a file that is not UTF-8, whole lines, far enough for its first byte that is not."""
+    head = b""
+    with path.open("rb") as file:
+        while block := file.read(HEAD_BYTES):
+            head += block + file.readline()
+            try:
+                head.decode("utf-8")
+            except UnicodeDecodeError:
+                break
+    return head
 
 
 def _unread(position: int) -> pa.ChunkedArray:

@@ -268,3 +268,17 @@ def test_units_in_the_metadata_of_forces(tmp_path):
             continue
         with pytest.raises(DataError, match=r"f\.parquet: column fx_N: the unit is kN, and the column is one of N"):
             list(groups_of(tmp_path / "f.parquet", tmp_path / unit))
+
+
+@pytest.mark.parametrize("shuffled", [False, True])
+def test_warnings_about_the_file_reach_every_piece(tmp_path, shuffled):
+    """A unit that nothing uses and a letter that is not UTF-8 are told also where rows are dealt out in batches."""
+    table = forces(shuffled=shuffled).assign(weld=lambda t: t.weld.replace("E", "É"))
+    names, *rows = table.to_csv(index=False).splitlines()
+    (tmp_path / "f.csv").write_text("\n".join([names, "-,kg,N", *rows]), encoding="cp1252")
+    by_group = ForcesByGroup(tmp_path / "f.csv", (("A", "B"), ("C",), ("D", "É")), tmp_path / "scratch")
+    for group in range(3):
+        said = [str(warning) for warning in by_group.table(group).warnings]
+        assert said[0] == ("f.csv: column node, row of units: the unit kg is not used. Remove it, or check the values.")
+        assert "is read as Windows-1252, where it is 'É'" in said[1]
+        assert len(said) == 2

@@ -1,0 +1,178 @@
+"""What is doubtful about the records of a mission: one at rest, a mode lost from it, one record under two names.
+
+A record without movement makes no damage, and nothing in the results shows it: the welds last longer. A record that
+stands for two events by mistake counts one of them twice and the other not at all.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.case import Event
+from fatigue.case.doubts import SPEED
+from fatigue.errors import Problem
+from fatigue.life.records.history import first_kept
+from fatigue.pipeline.mission.record_units import FEWEST_SAMPLES
+from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.history import TimeGrid
+from fatigue.shown import few, shortened
+
+STILL = 1e-12  # of the largest value: what rounding leaves of a constant
+SAME = 1e-6  # of the range of a column: records in single and in double precision are the same
+_TOLD_APART = ("share", "per_1000_km", "speed_km_h", "length_km", "start_s", "residue")  # keys of two events
+
+
+@dataclass(slots=True, eq=False)
+class RecordOutline:
+    """What is kept of the record of one event once it has been read: where each mode begins, how far it goes.
+
+    Attributes
+    ----------
+    event : the event
+    file : name of its file
+    grid : its times
+    moves : (m,) whether each modal coordinate changes behind the start-up
+    samples : (m, 7) smallest, largest and mean value, and four samples, of the whole record
+    """
+
+    event: Event
+    file: str
+    grid: TimeGrid = field(default_factory=lambda: TimeGrid(0, 0.0, 0.0))
+    moves: list[bool] = field(default_factory=list)
+    samples: list[NDArray[np.float64]] = field(default_factory=list)
+
+    def look(self, grid: TimeGrid, values: NDArray[Any]) -> None:
+        """Take in the samples of the next mode."""
+        self.grid = grid
+        kept = values[first_kept(grid.step, self.event.start_s) :]
+        low, high = float(kept.min(initial=np.inf)), float(kept.max(initial=-np.inf))
+        with np.errstate(over="ignore", invalid="ignore"):
+            self.moves.append(high - low > STILL * max(abs(low), abs(high)))
+            some = values[[0, values.size // 3, 2 * values.size // 3, -1]]
+            self.samples.append(np.array([values.min(), values.max(), values.mean(dtype=np.float64), *some]))
+
+    @property
+    def kept_samples(self) -> int:
+        """Number of samples behind the start-up."""
+        return self.grid.samples - first_kept(self.grid.step, self.event.start_s)
+
+    def bends(self, modes: Modes) -> bool:
+        """Whether any mode moves that bends the body."""
+        return bool(np.any(np.array(self.moves) & _bends(modes)))
+
+    def equals(self, other: "RecordOutline") -> bool:
+        """Whether both records have the same samples."""
+        if self.grid.samples != other.grid.samples or not np.isclose(self.grid.step, other.grid.step, rtol=SAME):
+            return False
+        mine, its = np.array(self.samples), np.array(other.samples)
+        with np.errstate(over="ignore", invalid="ignore"):
+            size = np.maximum(mine[:, 1] - mine[:, 0], np.abs(mine[:, 1]) * SAME)[:, np.newaxis]
+            return bool(np.all((mine == its) | (np.abs(mine - its) <= SAME * size)))
+
+
+def record_doubts(records: Sequence[RecordOutline], modes: Modes, case_file: str) -> list[Problem]:
+    """Warnings about the records of all events together, each kind once."""
+    moving = [record for record in records if record.bends(modes)]
+    return [
+        *_at_rest_doubts([record for record in records if not record.bends(modes)]),
+        *_lost_mode_doubts(moving, modes),
+        *_same_record_doubts(moving),
+        *_speed_doubts(records, case_file),
+    ]
+
+
+def _speed_doubts(records: Sequence[RecordOutline], case_file: str) -> list[Problem]:
+    """Warning about the speeds that lengths and durations make; a speed that is given is told with the case."""
+    found = []
+    for record in records:
+        event, samples = record.event, record.kept_samples
+        if event.speed_km_h is None and event.length_km is not None and samples >= FEWEST_SAMPLES:
+            speed = event.length_km / (samples * record.grid.step) * 3600.0
+            found += [(SPEED.distance(speed), speed, record)] if SPEED.distance(speed) > 1.0 else []
+    if not found:
+        return []
+    _, speed, worst = max(found, key=lambda one: one[0])
+    what = (
+        f"length_km = {worst.event.length_km:g} in {worst.kept_samples * worst.grid.step:g} s makes {speed:.4g} km/h, "
+    )
+    what += f"outside {SPEED.low:g} to {SPEED.high:g} km/h ({SPEED.why})"
+    if len(found) > 1:
+        what += f"; likewise {_names([record for *_, record in found if record is not worst])}"
+    where = f"{case_file}: length_km of event '{shortened(worst.event.name)}'"
+    remedy = "Give the length of the kept part in km, not in m"
+    return [Problem("unusual_speed", where, what, remedy, len(found))]
+
+
+def _at_rest_doubts(still: Sequence[RecordOutline]) -> list[Problem]:
+    """Warning about events in which nothing that bends the body moves."""
+    if not still:
+        return []
+    worst = still[0]
+    what = f"no modal coordinate changes in event '{shortened(worst.event.name)}', so it does no damage"
+    if len(still) > 1:
+        what += f"; nor in {_names(still[1:])}"
+    remedy = "Export the record again, with the modal coordinates of the running simulation"
+    return [Problem("event_at_rest", f"{worst.file}: columns q_", what, remedy, len(still))]
+
+
+def _lost_mode_doubts(records: Sequence[RecordOutline], modes: Modes) -> list[Problem]:
+    """Warning about normal modes that stand still in a simulation in which more modes move than do not."""
+    normal = np.array([kind == "normal" for kind in modes.kind])
+    found: list[tuple[RecordOutline, list[int]]] = []
+    for record in records:
+        moves = np.array(record.moves)
+        lost, moving = normal & ~moves, moves & _bends(modes)
+        if record.grid.samples >= FEWEST_SAMPLES and 0 < np.count_nonzero(lost) < np.count_nonzero(moving):
+            found.append((record, modes.mode[lost].tolist()))
+    if not found:
+        return []
+    worst, lost_modes = max(found, key=lambda one: len(one[1]))
+    what = f"normal mode {few(lost_modes)} stands still in event '{shortened(worst.event.name)}' while others move"
+    if len(found) > 1:
+        what += f"; others do in {_names([record for record, _ in found if record is not worst])}"
+    remedy = "Check that the simulation uses the mode and that its column was exported; else list it under ignore_modes"
+    return [Problem("mode_at_rest", f"{worst.file}: column q_{lost_modes[0]}", what, remedy, len(found))]
+
+
+def _same_record_doubts(records: Sequence[RecordOutline]) -> list[Problem]:
+    """Warning about events with one record; those that scale it by factors of their own are told apart."""
+    pairs = [
+        (one, other)
+        for one, other in combinations(records, 2)
+        if one.event.stress_factor == other.event.stress_factor and one.equals(other)
+    ]
+    if not pairs:
+        return []
+    one, other = pairs[0]
+    names = f"'{shortened(one.event.name)}' and '{shortened(other.event.name)}'"
+    files = f"both name {one.file}" if one.event.history == other.event.history else f"in {one.file} and {other.file}"
+    what = f"events {names} have the same record ({files}), and differ in {_difference(one.event, other.event)}"
+    if len(pairs) > 1:
+        more = [f"'{shortened(a.event.name)}' and '{shortened(b.event.name)}'" for a, b in pairs[1:]]
+        what += f"; so have {few(more)}"
+    remedy = "Give each event its own record, unless one record is meant to stand for both"
+    return [Problem("same_record", f"mission.event {names}", what, remedy, len(pairs))]
+
+
+def _difference(one: Event, other: Event) -> str:
+    """What two events differ in beside their names."""
+    values = ((key, getattr(one, key), getattr(other, key)) for key in _TOLD_APART)
+    told = [f"{key} ({_said(mine)} and {_said(its)})" for key, mine, its in values if mine != its]
+    return ", ".join(told) or "their names alone"
+
+
+def _said(value: object) -> str:
+    return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _names(records: Sequence[RecordOutline]) -> str:
+    return few([f"'{record.event.name}'" for record in records])
+
+
+def _bends(modes: Modes) -> NDArray[np.bool_]:
+    """Modes that bend the body, (m,): all but the rigid ones."""
+    return np.array([kind != "rigid" for kind in modes.kind])
