@@ -63,6 +63,7 @@ def write_documents(
     case_file: Path | None = None,
     verification: Callable[[], Sequence[Mapping[str, Any]]] = tuple,
     force: bool = False,
+    no_lock: bool = False,
 ) -> Documents:
     """Write documents of a finished result, all that can be written; in one step they replace the ones there.
 
@@ -75,12 +76,13 @@ def write_documents(
     case_file : the case of the result, by default where its provenance says
     verification : computes the checks of the program that the page shows
     force : replace documents that are there already, also those that fatigue did not write
+    no_lock : for a file system without locks, see ``fatigue.assess``
 
     Raises
     ------
     DataError : no finished result, tables of different results, another case, or files in the way
     """
-    settle_folder(folder)
+    settle_folder(folder, no_lock=no_lock)
     record = read_provenance(folder)
     refuse_mixed(folder, record)
     case_file = case_of(record, folder) if case_file is None else named_case(record, case_file)
@@ -88,7 +90,7 @@ def write_documents(
     missing = missing_extras(wanted)
     for problem in missing.values():
         log.warning("%s Going on with the others.", problem)
-    with locked(folder), staging_in(folder) as staging:
+    with locked(folder, no_lock=no_lock), staging_in(folder) as staging:
         if read_provenance(folder) != record:
             what = "the result was replaced by another run just now"
             raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))

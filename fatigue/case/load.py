@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
@@ -43,6 +44,7 @@ def load_case(path: Path | str) -> Case:
     problems: list[Problem] = []
     try:
         raw = tomllib.loads(text)
+        refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
@@ -51,8 +53,12 @@ def load_case(path: Path | str) -> Case:
         if other is not None and other.what != CASE_FILE:
             raise CaseError(other) from None
         problems.append(syntax_problem(text, error))
-    except ValidationError as error:
+    except RecursionError:
+        problems.append(excess(text))
+    except ValidationError as error:  # a ``ValueError``, as is the next
         problems[:0] = (found for details in error.errors() for found in model_problems(details, MODELS, raw))
+    except ValueError:  # an integer of more digits than Python reads
+        problems.append(excess(text))
     refuse(CaseError, (replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
     return case
 

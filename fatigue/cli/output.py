@@ -2,20 +2,23 @@
 
 import json
 import logging
+import sys
 from typing import Any
 
 import click
 
+from fatigue.cli.streams import shows_every_letter
 from fatigue.errors import Problem
 
 log = logging.getLogger(__name__)
 
 
 def print_json(record: Any) -> None:
-    """Print a record as JSON; infinite and missing numbers become null."""
+    """Print a record as JSON; infinite and missing numbers become null, letters the terminal lacks their escapes."""
     from fatigue.results import json_ready
 
-    click.echo(json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False))
+    ascii_only = not shows_every_letter(sys.stdout)
+    click.echo(json.dumps(json_ready(record), indent=2, ensure_ascii=ascii_only, allow_nan=False))
 
 
 def print_warnings(problems: tuple[Problem, ...], others_are: str = "see provenance.json") -> None:
