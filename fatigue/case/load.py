@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.files.mishaps import refusal
 from fatigue.files.misplaced import misplaced
 from fatigue.files.naming import missing_case, missing_file
 from fatigue.life.curves import catalogue
@@ -79,11 +81,21 @@ def check_files(case: Case) -> None:
     refuse(
         DataError,
         (
-            missing_file(file, f"{case.path.name}: {key}", base=case.path.parent)
+            problem
             for key, file in case.input_files().items()
-            if not file.is_file()
+            for problem in _absent(file, f"{case.path.name}: {key}", case.path.parent)
         ),
     )
+
+
+def _absent(file: Path, where: str, base: Path) -> Iterator[Problem]:
+    """Refusal of a file that is not there, or whose name no file can have."""
+    try:
+        if not file.is_file():
+            yield missing_file(file, where, base=base)
+    except OSError as error:
+        refused = refusal(error, file)
+        yield replace(refused, where=where, what=f"{refused.where} {refused.what}")
 
 
 def event_length_km(event: Event, duration_s: float) -> float | None:

@@ -11,7 +11,7 @@ from fatigue import __version__
 from fatigue.cli.ends import end_orderly, leave
 from fatigue.cli.memory import hold_little, refuse_little_address_space
 from fatigue.cli.mishaps import mishap
-from fatigue.cli.streams import prepare_streams
+from fatigue.cli.streams import OUTPUT, prepare_streams, silence
 from fatigue.errors import FatigueError
 from fatigue.stages import STAGES
 
@@ -38,6 +38,8 @@ class Commands(click.Group):
         """Run the command that is asked for."""
         try:
             return super().invoke(ctx)
+        except BrokenPipeError:  # the reader of an encoding that click replaced: its exit code would be 1
+            silence(sys.stdout)
         except KeyboardInterrupt as interrupt:
             raise _Interrupted(interrupt, ctx.invoked_subcommand) from interrupt
 
@@ -95,6 +97,8 @@ def main() -> None:
         refused, code = mishap(error)
         what = f"this should not have happened ({type(error).__name__}: {error}). Run again with -v and report it"
         click.echo(f"error: {refused or what}", err=True)
+        if isinstance(error, OSError) and error.filename == OUTPUT:
+            silence(sys.stdout)
         sys.exit(code)
 
 

@@ -9,6 +9,8 @@ import os
 import sys
 from typing import Any, TextIO
 
+OUTPUT = "standard output"
+
 
 class _Output(io.TextIOWrapper):
     """Standard output whose errors name it."""
@@ -26,10 +28,10 @@ class _Output(io.TextIOWrapper):
             self._refused(error, 0)
 
     def _refused(self, error: OSError, written: int) -> int:
-        _silence(self)
         if isinstance(error, BrokenPipeError):
+            silence(self)
             return written
-        error.filename = "standard output"
+        error.filename = OUTPUT
         raise error
 
 
@@ -40,14 +42,14 @@ class _Errors(io.TextIOWrapper):
         try:
             return super().write(text)
         except OSError:
-            _silence(self)
+            silence(self)
             return len(text)
 
     def flush(self) -> None:
         try:
             super().flush()
         except OSError:
-            _silence(self)
+            silence(self)
 
 
 def prepare_streams() -> None:
@@ -69,7 +71,7 @@ def _like(kind: type[io.TextIOWrapper], stream: Any) -> Any:
     return kind(stream.buffer, stream.encoding, escape, line_buffering=stream.line_buffering, write_through=True)
 
 
-def _silence(stream: io.TextIOWrapper) -> None:
+def silence(stream: TextIO | io.TextIOWrapper) -> None:
     """Let the rest of what is written to a stream, also at the end of the process, go nowhere."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, stream.fileno())

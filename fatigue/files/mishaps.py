@@ -8,6 +8,7 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 
+CANNOT_WRITE = "cannot_write"
 FULL = (errno.ENOSPC, errno.EDQUOT)
 LONGEST_SHOWN = 400  # letters of a path; no name is longer than 255
 
@@ -55,7 +56,7 @@ def cannot_write(path: Path | str, error: OSError, when_full: str = "give the sa
     if error.errno not in FULL:
         what = f"cannot be written ({reason(error)})"
         remedy = REMEDIES.get(error.errno or 0, "Give a folder you may write to")
-    return DataError(Problem("cannot_write", shown(str(path)), what, remedy))
+    return DataError(Problem(CANNOT_WRITE, shown(str(path)), what, remedy))
 
 
 @contextmanager
