@@ -86,6 +86,7 @@ def assess(
     strict: bool = False,
     force: bool = False,
     report: bool = True,
+    no_lock: bool = False,
     verification: Verification = (),
     progress: Progress = lambda label, done, total: None,
 ) -> Assessment:
@@ -104,6 +105,8 @@ def assess(
     strict : take unknown columns in the tables for errors
     force : replace the result of another case, and files of these names that fatigue did not write
     report : write the report and the ParaView file as well
+    no_lock : for a file system without locks: trust that no other run writes to the folder, and that a lock file left
+        by a run that was killed is removed by hand
     verification : checks of the program to show in the report, as ``fatigue.verify`` gives them, or what computes them
     progress : called with a label, stations done and stations in all
 
@@ -114,7 +117,7 @@ def assess(
     """
     refuse(CaseError, _senseless(threads, share, executor))
     case, folder = given_case(case), given_path(folder, "folder")
-    settle_folder(folder)
+    settle_folder(folder, no_lock=no_lock)
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
@@ -122,7 +125,8 @@ def assess(
     options = ScreeningOptions(share, proves_worst)
     key = key_of(inputs.register, options)
 
-    claim = claimed(folder, force=force, case_file=case.path, inputs=own)  # another run may have been there meanwhile
+    # another run may have been there meanwhile
+    claim = claimed(folder, force=force, case_file=case.path, inputs=own, no_lock=no_lock)
     with claim, one_blas_thread(), Checkpoint(folder, key) as state, inputs.unchanged():
         remember_case(folder, case.path)
         groups = weld_groups(body, scratch=state.folder / "forces")

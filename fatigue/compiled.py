@@ -7,8 +7,9 @@ the rooms with loops is removed before any is loaded.
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import ParamSpec, TypeVar, cast
+from typing import Any, ParamSpec, TypeVar, cast
 
 import scipy.linalg.cython_blas  # noqa: F401 - the BLAS of compiled products; limits of its threads need it loaded
 from numba import njit
@@ -20,10 +21,16 @@ ROOMS = ("weld", "life", "spectrum")  # with compiled loops
 
 
 def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Compile at the first call, keep the result on disk, run outside the GIL; ``fastmath``: flags of LLVM."""
+    """Compile at the first call, keep the result on disk if it may be, run outside the GIL.
+
+    ``fastmath`` are flags of LLVM. Where no folder can be written to, every process compiles anew.
+    """
 
     def compile_lazily(function: Callable[P, R]) -> Callable[P, R]:
-        return cast(Callable[P, R], njit(cache=True, nogil=True, error_model="numpy", fastmath=set(fastmath))(function))
+        loops: Any = njit(nogil=True, error_model="numpy", fastmath=set(fastmath))(function)
+        with suppress(RuntimeError, AttributeError):  # no such folder; plain Python, with NUMBA_DISABLE_JIT
+            loops.enable_caching()
+        return cast(Callable[P, R], loops)
 
     return compile_lazily
 

@@ -66,6 +66,7 @@ def diagnose(
     share_of_limit: float = SHARE_OF_LIMIT,
     edges_hz: Sequence[float] | None = None,
     bin_km: float = BIN_KM,
+    no_lock: bool = False,
     progress: Progress = lambda label, done, total: None,
 ) -> Diagnosis:
     """What makes the damage of a finished result; the tables that show it are written into its folder.
@@ -77,6 +78,7 @@ def diagnose(
     share_of_limit : utilisation from which a point is included when there are too many for all of them
     edges_hz : ascending edges between frequency bands [Hz]; by default one-third octaves from 1 to 80 Hz
     bin_km : length of a bin of the track [km]
+    no_lock : for a file system without locks, see ``fatigue.assess``
     progress : called with a label, events done and events in all
 
     Raises
@@ -88,14 +90,14 @@ def diagnose(
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
-    settle_folder(folder)
+    settle_folder(folder, no_lock=no_lock)
     record = read_provenance(folder)
     refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
     body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
     with (
-        locked(folder),
+        locked(folder, no_lock=no_lock),
         result_log(folder),
         threadpool_limits(limits=1, user_api="blas"),
         staging_in(folder) as staging,

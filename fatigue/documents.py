@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.mishaps import CANNOT_WRITE
 from fatigue.report.files.export import refuse_without_xlsxwriter, write_csv, write_xlsx
 from fatigue.report.files.pdf import find_browser, print_pdf
 from fatigue.report.files.vtp import write_vtp
@@ -63,6 +64,7 @@ def write_documents(
     case_file: Path | None = None,
     verification: Callable[[], Sequence[Mapping[str, Any]]] = tuple,
     force: bool = False,
+    no_lock: bool = False,
 ) -> Documents:
     """Write documents of a finished result, all that can be written; in one step they replace the ones there.
 
@@ -75,12 +77,13 @@ def write_documents(
     case_file : the case of the result, by default where its provenance says
     verification : computes the checks of the program that the page shows
     force : replace documents that are there already, also those that fatigue did not write
+    no_lock : for a file system without locks, see ``fatigue.assess``
 
     Raises
     ------
     DataError : no finished result, tables of different results, another case, or files in the way
     """
-    settle_folder(folder)
+    settle_folder(folder, no_lock=no_lock)
     record = read_provenance(folder)
     refuse_mixed(folder, record)
     case_file = case_of(record, folder) if case_file is None else named_case(record, case_file)
@@ -88,7 +91,7 @@ def write_documents(
     missing = missing_extras(wanted)
     for problem in missing.values():
         log.warning("%s Going on with the others.", problem)
-    with locked(folder), staging_in(folder) as staging:
+    with locked(folder, no_lock=no_lock), staging_in(folder) as staging:
         if not is_same_result(read_provenance(folder), record):
             what = "the result was replaced by another run just now"
             raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
@@ -113,6 +116,8 @@ def _failed(name: str, do: Callable[[], object]) -> Iterator[tuple[str, Problem]
     try:
         do()
     except DataError as error:
+        if error.problems[0].code == CANNOT_WRITE:
+            raise  # no other document can be written either
         yield name, error.problems[0]
 
 

@@ -4,6 +4,8 @@ import shutil
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem, given_path
+from fatigue.files.mishaps import refused_writing
+from fatigue.files.whole import staged
 
 
 def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
@@ -24,12 +26,12 @@ def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
                 "Give another folder, or --force to overwrite it",
             )
         )
-    try:
-        shutil.copytree(shipped, folder, dirs_exist_ok=True)
-    except OSError as error:
-        raise DataError(
-            Problem("cannot_write", str(folder), f"cannot be written ({error})", "Give a folder you may write to")
-        ) from error
+    with staged(folder, ".example-") as stage:
+        for file in sorted(shipped.iterdir()):
+            with refused_writing(folder / file.name):
+                shutil.copy2(file, stage / file.name)
+        for file in sorted(stage.iterdir()):
+            file.replace(folder / file.name)
     return sorted(folder.glob("case*.toml"))
 
 

@@ -24,6 +24,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, Problem, given_path
+from fatigue.files.whole import staged
 
 Floats = NDArray[np.float64]
 
@@ -42,6 +43,7 @@ PEAK_NODES = (1.5, 5.0)  # over which the excess falls to 1/e, from and to
 LOWEST_HZ, HIGHEST_HZ = 4.0, 45.0
 DAMPING = 0.02
 ROWS_AT_ONCE = 1_000_000
+CASE = "case.toml"
 FEWEST_SAMPLES = 16  # of a record, so that it has a standard deviation worth the name
 
 
@@ -76,13 +78,22 @@ def synthesize(folder: Path | str, size: Size, seed: int = 0) -> Path:
     Raises
     ------
     CaseError : records of less than 16 samples
+    DataError : the disk is full or the folder cannot be written; then nothing of it is there
     """
     samples = round(size.seconds * size.rate)
     if samples < FEWEST_SAMPLES:
         what = f"{size.seconds:g} s at {size.rate:g} Hz are {samples} samples"
         raise CaseError(Problem("short_record", "size", what, f"Give at least {FEWEST_SAMPLES}"))
     folder = given_path(folder, "folder")
-    folder.mkdir(parents=True, exist_ok=True)
+    with staged(folder, ".synth-") as stage:
+        _write_all(stage, size, seed)
+        for path in sorted(stage.iterdir(), key=lambda path: path.name == CASE):
+            path.replace(folder / path.name)
+    return folder / CASE
+
+
+def _write_all(folder: Path, size: Size, seed: int) -> None:
+    """Write all files of the case."""
     frequency = np.linspace(LOWEST_HZ, HIGHEST_HZ, size.modes)
     pq.write_table(
         pa.table({"mode": np.arange(1, size.modes + 1), "frequency_hz": frequency, "kind": _kinds(size.modes)}),
@@ -92,9 +103,7 @@ def synthesize(folder: Path | str, size: Size, seed: int = 0) -> Path:
     for event in range(size.events):
         rng = np.random.default_rng([seed, 1, event])
         pq.write_table(_history(rng, frequency, size), folder / f"q_{event + 1}.parquet")
-    path = folder / "case.toml"
-    path.write_text(_case(size), encoding="utf-8")
-    return path
+    (folder / CASE).write_text(_case(size), encoding="utf-8")
 
 
 def _kinds(modes: int) -> list[str]:

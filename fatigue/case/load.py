@@ -2,15 +2,18 @@
 
 import math
 import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.files.mishaps import refusal
 from fatigue.files.misplaced import misplaced
 from fatigue.files.naming import missing_case, missing_file
 from fatigue.life.curves import catalogue
@@ -43,6 +46,7 @@ def load_case(path: Path | str) -> Case:
     problems: list[Problem] = []
     try:
         raw = tomllib.loads(text)
+        refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
@@ -51,8 +55,12 @@ def load_case(path: Path | str) -> Case:
         if other is not None and other.what != CASE_FILE:
             raise CaseError(other) from None
         problems.append(syntax_problem(text, error))
-    except ValidationError as error:
+    except RecursionError:
+        problems.append(excess(text))
+    except ValidationError as error:  # a ``ValueError``, as is the next
         problems[:0] = (found for details in error.errors() for found in model_problems(details, MODELS, raw))
+    except ValueError:  # an integer of more digits than Python reads
+        problems.append(excess(text))
     refuse(CaseError, (replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
     return case
 
@@ -73,11 +81,21 @@ def check_files(case: Case) -> None:
     refuse(
         DataError,
         (
-            missing_file(file, f"{case.path.name}: {key}", base=case.path.parent)
+            problem
             for key, file in case.input_files().items()
-            if not file.is_file()
+            for problem in _absent(file, f"{case.path.name}: {key}", case.path.parent)
         ),
     )
+
+
+def _absent(file: Path, where: str, base: Path) -> Iterator[Problem]:
+    """Refusal of a file that is not there, or whose name no file can have."""
+    try:
+        if not file.is_file():
+            yield missing_file(file, where, base=base)
+    except OSError as error:
+        refused = refusal(error, file)
+        yield replace(refused, where=where, what=f"{refused.where} {refused.what}")
 
 
 def event_length_km(event: Event, duration_s: float) -> float | None:

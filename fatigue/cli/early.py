@@ -14,12 +14,12 @@ def refuse_missing_case(path: Path) -> None:
         raise CaseError(missing_case(path))
 
 
-def refuse_missing_result(folder: Path, case_file: Path | None = None) -> None:
+def refuse_missing_result(folder: Path, case_file: Path | None = None, *, no_lock: bool = False) -> None:
     """Refuse a folder without result, or a missing case file named for it; complete a publication that was cut off."""
     if (folder / ".fatigue-publish").exists():
         from fatigue.results.lock import settle_folder
 
-        settle_folder(folder)
+        settle_folder(folder, no_lock=no_lock)
     if not (folder / "provenance.json").exists():
         from fatigue.results.provenance import read_provenance
 

@@ -1,29 +1,54 @@
 """The group of all commands, what they log, and the exit code of every known failure."""
 
-import errno
 import logging
 import sys
-from pathlib import Path
+import traceback
+from typing import Any
 
 import click
 
 from fatigue import __version__
-from fatigue.cli.memory import hold_little
-from fatigue.errors import FatigueError, Problem
+from fatigue.cli.ends import end_orderly, leave
+from fatigue.cli.memory import hold_little, refuse_little_address_space
+from fatigue.cli.mishaps import mishap
+from fatigue.cli.streams import OUTPUT, prepare_streams, silence
+from fatigue.errors import FatigueError
 from fatigue.shown import VisibleFormatter, visible
 from fatigue.stages import STAGES
 
 EXIT_CODES = """
 \b
 Exit codes: 0 done; 1 done, but a weld misses its target; 2 wrong usage;
-3 bad case or data; 4 numerical failure; 130 interrupted.
+3 bad case or data; 4 numerical failure or no memory; 130 interrupted.
 """
+GOES_ON, AGAIN = "the same command goes on from here", "give the same command again"
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]}, epilog=EXIT_CODES)
+class _Interrupted(Exception):
+    """An interrupted command; click would turn the interrupt itself into a line of its own."""
+
+    def __init__(self, cause: KeyboardInterrupt, command: str | None) -> None:
+        super().__init__(GOES_ON if command == "assess" else AGAIN)
+        self.cause = cause
+
+
+class Commands(click.Group):
+    """The group of all commands, which is interrupted in the words of the program."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command that is asked for."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:  # the reader of an encoding that click replaced: its exit code would be 1
+            silence(sys.stdout)
+        except KeyboardInterrupt as interrupt:
+            raise _Interrupted(interrupt, ctx.invoked_subcommand) from interrupt
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]}, epilog=EXIT_CODES)
 @click.version_option(__version__, prog_name="fatigue")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no log on stderr; errors only.")
-@click.option("-v", "--verbose", is_flag=True, help="Log what is done on stderr, and tracebacks of program errors.")
+@click.option("-v", "--verbose", is_flag=True, help="Log what is done on stderr, and tracebacks of errors.")
 def cli(quiet: bool, verbose: bool) -> None:
     """Weld fatigue life, in km, of a flexible body from a multibody simulation.
 
@@ -41,51 +66,43 @@ def cli(quiet: bool, verbose: bool) -> None:
     log = logging.getLogger("fatigue")
     log.handlers[:] = [handler]
     log.setLevel(logging.INFO)
-    click.get_current_context().obj = {"quiet": quiet, "verbose": verbose}
-
-
-def _of_the_system(error: OSError) -> Problem:
-    """What the operating system refused: a folder that is not there, a name too long, a full disk."""
-    place = str(error.filename or "a file")
-    reason = error.strerror or str(error)
-    if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        return Problem("system", place, f"cannot be written ({reason})", "Make room, and give the same command again")
-    if error.errno == errno.ENOENT and error.filename and not Path(place).parent.is_dir():
-        return Problem("system", place, f"there is no folder {Path(place).parent}", "Make it, or correct the path")
-    remedy = "Correct the path, or give one that you may read and write"
-    return Problem("system", place, f"cannot be read or written ({reason})", remedy)
+    context = click.get_current_context()
+    context.obj = {"quiet": quiet, "verbose": verbose}
+    refuse_little_address_space(context.invoked_subcommand)
 
 
 def main() -> None:
     """Run the command line; every known failure is one clear line and its exit code."""
     verbose = bool({"-v", "--verbose"} & set(sys.argv[1:]))
     hold_little()
+    prepare_streams()
+    end_orderly()
     try:
         cli.main(standalone_mode=False)
     except FatigueError as error:
+        _traced(verbose and error.__cause__ is not None)
         for problem in error.problems:
             click.echo(f"error: {problem}", err=True)
         sys.exit(error.exit_code)
     except click.ClickException as error:
         error.show()
         sys.exit(error.exit_code)
+    except _Interrupted as error:
+        click.echo(f"interrupted: {error}", err=True)
+        leave(error.cause)
     except (KeyboardInterrupt, click.exceptions.Abort):
-        click.echo("interrupted: the same command goes on from here", err=True)
-        sys.exit(130)
-    except BrokenPipeError:  # the reader of our output went away, as ``| head`` does
-        sys.stderr.close()
-        sys.exit(0)
-    except OSError as error:
-        if verbose:
-            raise
-        click.echo(f"error: {_of_the_system(error)}", err=True)
-        sys.exit(3)
-    except MemoryError:
-        click.echo("error: out of memory: close other programs, or assess fewer welds at once", err=True)
-        sys.exit(4)
+        click.echo(f"interrupted: {AGAIN}", err=True)
+        leave(KeyboardInterrupt())
     except Exception as error:
-        if verbose:
-            raise
-        what = visible(f"{type(error).__name__}: {error}")
-        click.echo(f"error: this should not have happened ({what}). Run again with -v and report it", err=True)
-        sys.exit(4)
+        _traced(verbose)
+        refused, code = mishap(error)
+        what = f"this should not have happened ({type(error).__name__}: {error}). Run again with -v and report it"
+        click.echo(f"error: {visible(str(refused or what))}", err=True)
+        if isinstance(error, OSError) and error.filename == OUTPUT:
+            silence(sys.stdout)
+        sys.exit(code)
+
+
+def _traced(asked: bool) -> None:
+    if asked:
+        click.echo(traceback.format_exc(), err=True, nl=False)

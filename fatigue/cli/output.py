@@ -3,10 +3,12 @@
 import json
 import logging
 import re
+import sys
 from typing import Any
 
 import click
 
+from fatigue.cli.streams import shows_every_letter
 from fatigue.errors import Problem
 from fatigue.shown import visible
 
@@ -19,10 +21,11 @@ def say(text: object, *, err: bool = False) -> None:
 
 
 def print_json(record: Any) -> None:
-    """Print a record as JSON; infinite and missing numbers become null, what cannot be seen an escape of JSON."""
+    """Print a record as JSON; infinite and missing numbers become null, what cannot be seen or written an escape."""
     from fatigue.results import json_ready
 
-    text = json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False)
+    ascii_only = not shows_every_letter(sys.stdout)
+    text = json.dumps(json_ready(record), indent=2, ensure_ascii=ascii_only, allow_nan=False)
     click.echo(re.sub(r"[^\x20-\x7e\n]", lambda c: c[0] if visible(c[0]) == c[0] else json.dumps(c[0])[1:-1], text))
 
 

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem, given_path
+from fatigue.files.mishaps import refused_writing
 from fatigue.report import figures, wording
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.inputs import FoundInputs, find_inputs
@@ -62,7 +63,9 @@ def write_report(
     """
     folder = given_path(folder, "folder")
     path = (into or folder) / PAGE
-    path.write_text(report_page(folder, case_path, verification), encoding="utf-8", newline="\n")
+    page = report_page(folder, case_path, verification)
+    with refused_writing(path):  # a path need not be UTF-8
+        path.write_text(page, encoding="utf-8", errors="backslashreplace", newline="\n")
     if into is None:
         enlist(folder, path)
     return path

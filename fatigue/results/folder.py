@@ -1,12 +1,14 @@
 """The result folder on disk: whose files are in it, and the log of what was done."""
 
 import logging
+import sys
 from collections.abc import Collection, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.files.mishaps import reason, refused_writing
 from fatigue.results.belonging import DOCUMENTS, LIST, PAGE, PICTURE, is_derived
 from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
@@ -70,7 +72,7 @@ def _other_case(folder: Path, record: dict[str, Any] | None, case_file: Path) ->
         what = f"holds the result of another case, {case_of(record, folder)}"
         return [Problem("other_case", str(folder), what, remedy)]
     try:
-        way = (folder / STATE / _CASE_OF_STATE).read_text(encoding="utf-8")
+        way = (folder / STATE / _CASE_OF_STATE).read_text(encoding="utf-8", errors="surrogateescape")
     except (OSError, UnicodeDecodeError):
         return []
     known = case_of({"case_path": way}, folder)
@@ -83,7 +85,9 @@ def _other_case(folder: Path, record: dict[str, Any] | None, case_file: Path) ->
 
 def remember_case(folder: Path, case_file: Path) -> None:
     """Note whose unfinished work is in a result folder."""
-    (folder / STATE / _CASE_OF_STATE).write_text(way_to_case(case_file, folder), encoding="utf-8")
+    path = folder / STATE / _CASE_OF_STATE
+    with refused_writing(path):
+        path.write_text(way_to_case(case_file, folder), encoding="utf-8", errors="surrogateescape")
 
 
 def _is_one_of(path: Path, inputs: Iterable[Path]) -> bool:
@@ -97,10 +101,42 @@ def _record_in(folder: Path) -> dict[str, Any] | None:
         return None
 
 
+class _ResultLog(logging.FileHandler):
+    """A log that may lose a line to a full disk, and never stops a run nor tells of it in a traceback."""
+
+    _has_told = False
+
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802
+        """Say once on stderr why lines are missing; what the run itself cannot write is refused elsewhere."""
+        error = sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            super().handleError(record)
+        elif not self._has_told:
+            self._has_told = True
+            what = f"{self.baseFilename} lacks lines ({reason(error)})"
+            said = logging.LogRecord("fatigue", logging.WARNING, "", 0, what, None, None)
+            for other in (handler for handler in logging.getLogger("fatigue").handlers if handler is not self):
+                other.handle(said)
+
+    def close(self) -> None:
+        """Close it, although its last lines may find no room."""
+        with suppress(OSError):
+            super().close()
+
+
 @contextmanager
 def result_log(folder: Path) -> Iterator[None]:
-    """Write what the run does to ``fatigue.log`` in the result folder."""
-    handler = logging.FileHandler(folder / LOG, mode="a", encoding="utf-8")
+    """Write what the run does to ``fatigue.log`` in the result folder.
+
+    A run that fails and leaves nothing that the next one can use leaves no log either: it would be in the way.
+
+    Raises
+    ------
+    DataError : the log cannot be opened for writing
+    """
+    path = folder / LOG
+    with refused_writing(path):
+        handler = _ResultLog(path, mode="a", encoding="utf-8", errors="backslashreplace")
     handler.setFormatter(VisibleFormatter("%(asctime)s %(levelname)s %(message)s"))
     handler.setLevel(logging.INFO)
     program = logging.getLogger("fatigue")

@@ -7,11 +7,21 @@ from typing import Any
 
 import numpy as np
 
+from fatigue.files.mishaps import refused_writing
+
 
 def write_json(path: Path | str, record: Mapping[str, Any]) -> None:
-    """Write a record as UTF-8 JSON; infinite and missing numbers become null."""
+    """Write a record as UTF-8 JSON; infinite and missing numbers become null.
+
+    Bytes of a path that are no UTF-8, lone surrogates in Python, are written as JSON escapes, which give them back.
+
+    Raises
+    ------
+    DataError : the disk is full or the place cannot be written
+    """
     text = json.dumps(json_ready(record), indent=2, ensure_ascii=False, allow_nan=False)
-    Path(path).write_text(text + "\n", encoding="utf-8")
+    with refused_writing(path):
+        Path(path).write_text(text + "\n", encoding="utf-8", errors="backslashreplace")
 
 
 def json_ready(value: Any) -> Any:

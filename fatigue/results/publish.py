@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem
+from fatigue.files.mishaps import refused_writing
 from fatigue.results.provenance import JOURNAL, PROVENANCE
 
 STAGING = ".fatigue-staging"
@@ -28,16 +29,20 @@ def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
     """
     files = sorted(finished.iterdir())
     for path in files:
-        with path.open("rb+") as file:
+        with refused_writing(path), path.open("rb+") as file:
             os.fsync(file.fileno())
     names = {path.name for path in files}
     journal = {"from": os.path.relpath(finished, folder), "remove": [name for name in stale if name not in names]}
     unfinished = folder / f"{JOURNAL}.unfinished"
-    with unfinished.open("w", encoding="utf-8") as file:
-        file.write(json.dumps(journal))
-        file.flush()
-        os.fsync(file.fileno())
-    unfinished.replace(folder / JOURNAL)
+    try:
+        with refused_writing(unfinished), unfinished.open("w", encoding="utf-8") as file:
+            file.write(json.dumps(journal))
+            file.flush()
+            os.fsync(file.fileno())
+        unfinished.replace(folder / JOURNAL)
+    except BaseException:
+        unfinished.unlink(missing_ok=True)
+        raise
     complete(folder)
 
 
@@ -46,7 +51,8 @@ def staging_in(folder: Path) -> Iterator[Path]:
     """Hidden folder in a result folder to write to; files are published from it when all are whole."""
     staging = folder / STAGING
     shutil.rmtree(staging, ignore_errors=True)
-    staging.mkdir()
+    with refused_writing(staging):
+        staging.mkdir()
     try:
         yield staging
     finally:

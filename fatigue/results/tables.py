@@ -3,7 +3,7 @@
 import base64
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, given_names, given_path, refuse
+from fatigue.files.mishaps import is_of_the_system, refusal, refused_writing
 from fatigue.results.columns import ASSESSED, TABLES, ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
@@ -59,9 +60,10 @@ def coded(codes: NDArray[np.integer], texts: Sequence[str]) -> pa.DictionaryArra
 class TableWriter:
     """Writes one result table in row groups of a fixed size, whatever the number of rows it is given at once."""
 
-    def __init__(self, table: str, writer: pq.ParquetWriter) -> None:
+    def __init__(self, table: str, writer: pq.ParquetWriter, path: Path) -> None:
         self._schema = _coded_schema(table)
         self._writer = writer
+        self._path = path
         self._rows_per_group = _ROWS_PER_GROUP[table]
         self._waiting: list[pa.Table] = []
         self._rows = 0
@@ -87,7 +89,8 @@ class TableWriter:
         """Write so many of the rows that are waiting."""
         table = pa.concat_tables(self._waiting)
         # codes of different calls mean different texts; Parquet keeps codes only where a row group has one meaning
-        self._writer.write_table(table.slice(0, rows).unify_dictionaries(), row_group_size=self._rows_per_group)
+        with refused_writing(self._path):
+            self._writer.write_table(table.slice(0, rows).unify_dictionaries(), row_group_size=self._rows_per_group)
         self._waiting, self._rows = [table.slice(rows)], self._rows - rows
 
 
@@ -112,7 +115,13 @@ def _coded_schema(table: str) -> pa.Schema:
 
 @contextmanager
 def table_writer(folder: Path, table: str, result: str = "") -> Iterator[TableWriter]:
-    """Open ``<table>.parquet`` in a folder for writing, some rows at a time; ``result``: hash of its result."""
+    """Open ``<table>.parquet`` in a folder for writing, some rows at a time; ``result``: hash of its result.
+
+    Raises
+    ------
+    DataError : the disk is full or the place cannot be written
+    """
+    path = folder / f"{table}.parquet"
     floats = [c.name for c in TABLES[table] if c.type == "float"]
     texts = [c.name for c in TABLES[table] if c.type == "text"]
     # The file says that texts are texts, as its readers shall see them, and not the coded ones that it is made from.
@@ -120,25 +129,34 @@ def table_writer(folder: Path, table: str, result: str = "") -> Iterator[TableWr
     said = {**plain.metadata, "ARROW:schema": base64.b64encode(plain.serialize())} | (
         {"result": result} if result else {}
     )
-    with pq.ParquetWriter(
-        folder / f"{table}.parquet",
-        _coded_schema(table),
-        use_dictionary=texts,
-        column_encoding=dict.fromkeys(floats, "BYTE_STREAM_SPLIT"),
-        write_statistics=[c.name for c in TABLES[table] if c.type != "float"],
-        store_schema=False,
-        **_ENCODING,
-    ) as writer:
-        rows = TableWriter(table, writer)
+    with refused_writing(path):
+        writer = pq.ParquetWriter(
+            path,
+            _coded_schema(table),
+            use_dictionary=texts,
+            column_encoding=dict.fromkeys(floats, "BYTE_STREAM_SPLIT"),
+            write_statistics=[c.name for c in TABLES[table] if c.type != "float"],
+            store_schema=False,
+            **_ENCODING,
+        )
+    try:
+        rows = TableWriter(table, writer, path)
         yield rows
         rows.flush()
         writer.add_key_value_metadata(said)
+    except BaseException:
+        with suppress(OSError):  # what went wrong first is told
+            writer.close()
+        raise
+    with refused_writing(path):
+        writer.close()
 
 
 @contextmanager
 def result_tables(folder: Path, result: str = "") -> Iterator[dict[str, TableWriter]]:
     """Open all tables of an assessment in a folder for writing, by name; ``result``: hash of the result."""
-    folder.mkdir(parents=True, exist_ok=True)
+    with refused_writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         yield {table: stack.enter_context(table_writer(folder, table, result)) for table in ASSESSED}
 
@@ -220,6 +238,8 @@ def readable(path: Path) -> Iterator[None]:
             "no_result", str(path), "no such result table", "Run `fatigue assess CASE -o DIR` first and give its DIR"
         )
     except (pa.ArrowException, OSError, ValueError, LookupError, OverflowError, MemoryError) as error:
+        if isinstance(error, OSError) and is_of_the_system(error):
+            raise DataError(refusal(error, path)) from error
         detail = str(error).splitlines()[0] if str(error) else type(error).__name__
         problem = Problem(
             "damaged_result", str(path), f"the table cannot be read ({detail})", "Run the assessment again"

@@ -29,7 +29,9 @@ def line_load_matrix(line: Lines) -> csr_array:
     at = _with_dummy_mid(nodes)
     row, column = np.broadcast_arrays(at[:, :, np.newaxis], at[:, np.newaxis, :])
     n = line.node.size
-    return csr_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=(n, n))
+    matrix = csr_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=(n, n))
+    matrix.sum_duplicates()  # nodes that edges share; scipy 1.13.0 leaves them apart
+    return matrix
 
 
 def line_load(line: Lines, nodal: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from fatigue.cli.arguments import CASE, FOLDER, as_json, strict
+from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock, strict
 from fatigue.cli.early import refuse_missing_case
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
@@ -67,6 +67,7 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     "--force", is_flag=True, help="Replace the result of another case, and files in DIR that fatigue did not write."
 )
 @click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
+@no_lock
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
 @strict
 @as_json
@@ -82,6 +83,7 @@ def assess(
     scheduler: str | None,
     force: bool,
     no_report: bool,
+    no_lock: bool,
     exit_zero: bool,
     strict: bool,
     as_json: bool,
@@ -123,6 +125,7 @@ def assess(
             strict=strict,
             force=force,
             report=not no_report,
+            no_lock=no_lock,
             verification=tuple if no_report else known_values,
             progress=progress,
         )

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from fatigue.cli.arguments import CASE, FOLDER, as_json
+from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
@@ -51,9 +51,17 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
 @click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
+@no_lock
 @click.pass_obj
 def report(
-    options: dict[str, bool], folder: Path, pdf: bool, xlsx: bool, csv: bool, case_file: Path | None, force: bool
+    options: dict[str, bool],
+    folder: Path,
+    pdf: bool,
+    xlsx: bool,
+    csv: bool,
+    case_file: Path | None,
+    force: bool,
+    no_lock: bool,
 ) -> None:
     """Write report.html and weld_lines.vtp of a result folder again, with what a diagnosis has added.
 
@@ -64,14 +72,16 @@ def report(
       fatigue report result --pdf --xlsx
       fatigue report result --case body/case.toml
     """
-    refuse_missing_result(folder, case_file)
+    refuse_missing_result(folder, case_file, no_lock=no_lock)
     from fatigue.documents import AGAIN, CSV, write_documents
     from fatigue.results import PRINT, WORKBOOK
     from fatigue.results.outputs import damage_told
 
     wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
     with narrated(quiet=options["quiet"]), damage_told(folder):
-        done = write_documents(folder, wanted, case_file=case_file, verification=known_values, force=force)
+        done = write_documents(
+            folder, wanted, case_file=case_file, verification=known_values, force=force, no_lock=no_lock
+        )
     for path in done.written:
         say(path)
     refuse(DataError, done.problems)
@@ -91,6 +101,7 @@ def report(
     "--edges", default=None, metavar="HZ,HZ,...", help="Edges between frequency bands [Hz]; default: third octaves."
 )
 @click.option("--bin-km", type=ABOVE_ZERO, default=0.1, show_default=True, help="Length of a piece of track [km].")
+@no_lock
 @as_json
 @click.pass_obj
 def diagnose(
@@ -100,6 +111,7 @@ def diagnose(
     share_of_limit: float,
     edges: str | None,
     bin_km: float,
+    no_lock: bool,
     as_json: bool,
 ) -> None:
     """Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
@@ -112,7 +124,7 @@ def diagnose(
       fatigue diagnose result
     """
     edges_hz = None if edges is None else _hertz(edges, "--edges")
-    refuse_missing_result(folder, case_file)
+    refuse_missing_result(folder, case_file, no_lock=no_lock)
     from fatigue.diagnose import diagnose as run
     from fatigue.documents import write_documents
     from fatigue.results import PAGE, is_derived, read_provenance
@@ -125,10 +137,11 @@ def diagnose(
             share_of_limit=share_of_limit,
             edges_hz=edges_hz,
             bin_km=bin_km,
+            no_lock=no_lock,
             progress=progress,
         )
         if is_derived(folder, PAGE, read_provenance(folder)):
-            write_documents(folder, [PAGE], case_file=case_file, verification=known_values)
+            write_documents(folder, [PAGE], case_file=case_file, verification=known_values, no_lock=no_lock)
         elif (folder / PAGE).exists():
             log.warning("%s was not written by fatigue, or was changed since: it stays as it is", folder / PAGE)
     if as_json:

@@ -95,5 +95,8 @@ def tension_patch(file: Path, results: bool, force: bool) -> None:
     if results:
         say(f'force_convention = "{convention_of(read_forces(file, None))}"')
         return
-    file.write_text(DECK, encoding="ascii")
+    from fatigue.files.whole import replacing
+
+    with replacing(file) as unfinished:
+        unfinished.write_text(DECK, encoding="ascii")
     say(f"{file}: run it in your solver, then fatigue tension-patch RESULTS --results")

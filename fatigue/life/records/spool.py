@@ -9,7 +9,6 @@ import errno
 import mmap
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -18,8 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.files.mishaps import refused_writing
 
 CHUNK = 4096  # samples
+COPY = "give the same command again: long histories need a copy on disk"
 AT_ONCE = 2_000_000  # numbers of a record that are in memory in double precision at a time: 16 MB
 
 
@@ -55,7 +56,7 @@ class Spool:
         """Write the part between two modes and two samples."""
         first_mode, end_mode, _ = part[0].indices(self.shape[0])
         first, end, _ = part[1].indices(self.shape[1])
-        with refused_writing(self.path), self.path.open("r+b", buffering=0) as file:
+        with refused_writing(self.path, COPY), self.path.open("r+b", buffering=0) as file:
             for columns, start, width, inside in self._chunks(first, end):
                 for mode, row in zip(range(first_mode, end_mode), values, strict=True):
                     file.seek((start + mode * width + inside.start) * self.dtype.itemsize)
@@ -100,7 +101,7 @@ def create_spool(path: Path, shape: tuple[int, int], dtype: np.dtype[np.floating
     ------
     DataError : the disk is full or the place cannot be written
     """
-    with refused_writing(path):
+    with refused_writing(path, COPY):
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("wb") as file:
             file.truncate(shape[0] * shape[1] * dtype.itemsize)
@@ -116,15 +117,3 @@ def time_slices(shape: tuple[int, ...]) -> Iterator[slice]:
 def _write(file: BinaryIO, values: NDArray[np.floating]) -> None:
     if file.write(values.tobytes()) != values.nbytes:
         raise OSError(errno.ENOSPC, "only a part could be written")
-
-
-@contextmanager
-def refused_writing(path: Path) -> Iterator[None]:
-    """Tell in the words of the program why a scratch file cannot be written."""
-    try:
-        yield
-    except OSError as error:
-        full = error.errno in (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
-        what = "the disk is full" if full else f"cannot be written ({error.strerror or error})"
-        remedy = "Free some space, long histories need a copy on disk" if full else "Give a folder you may write to"
-        raise DataError(Problem("cannot_write", str(path), what, remedy)) from error

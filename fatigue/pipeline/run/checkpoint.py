@@ -2,12 +2,10 @@
 
 import hashlib
 import json
-import os
 import shutil
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO, Self
@@ -15,10 +13,13 @@ from typing import Any, BinaryIO, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.files.mishaps import refused_writing
+from fatigue.files.whole import replacing
 from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.results import JOURNAL
 from fatigue.results.folder import STATE
-from fatigue.results.lock import cannot_write
+
+KEPT = "run the same command again: finished blocks are kept"
 
 
 def state_key(record: Mapping[str, Any]) -> str:
@@ -39,7 +40,8 @@ class Checkpoint:
 
     def __enter__(self) -> Self:
         """Open the folder and drop what runs with other inputs left there."""
-        self.folder.mkdir(parents=True, exist_ok=True)
+        with refused_writing(self.folder):
+            self.folder.mkdir(parents=True, exist_ok=True)
         for other in self._root.iterdir():
             if other.is_dir() and other != self.folder:
                 shutil.rmtree(other, ignore_errors=True)
@@ -48,10 +50,17 @@ class Checkpoint:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Remove the folder after success, or when nothing in it is worth keeping for the next run."""
-        is_of_use = any(self.folder.glob("*.npz")) or (self._root.parent / JOURNAL).exists()
-        if kind is None or not is_of_use:
+        """Remove the folder after success or when nothing in it is of use for the next run, else what is of none."""
+        if kind is not None and (self._root.parent / JOURNAL).exists():
+            return  # a result is being put in place, and the next command completes it
+        if kind is None or not any(self.folder.glob("*.npz")):
             shutil.rmtree(self._root, ignore_errors=True)
+            return
+        for scratch in self.folder.iterdir():  # records and half tables would fill the disk until the next run
+            if scratch.is_dir():
+                shutil.rmtree(scratch, ignore_errors=True)
+            elif scratch.suffix != ".npz":
+                scratch.unlink(missing_ok=True)
 
     def load(self, group: str) -> GroupResult | None:
         """What an earlier run finished, its checksums tested; None where there is none or it is damaged."""
@@ -63,7 +72,7 @@ class Checkpoint:
 
     def save(self, group: str, result: GroupResult) -> None:
         """Write a finished group so that it survives a kill or a power cut at any moment."""
-        with replacing(self._path(group)) as unfinished, unfinished.open("wb") as file:
+        with replacing(self._path(group), KEPT) as unfinished, unfinished.open("wb") as file:
             _write_arrays(file, arrays_of(result))
 
     def _path(self, group: str) -> Path:
@@ -77,23 +86,3 @@ def _write_arrays(file: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
                 np.lib.format.write_array_header_1_0(entry, np.lib.format.header_data_from_array_1_0(array))
                 entry.write(array.data)
-
-
-@contextmanager
-def replacing(final: Path) -> Iterator[Path]:
-    """A temporary path to write to; on success it is forced to disk and renamed to ``final`` in one step.
-
-    Raises
-    ------
-    DataError : the disk is full or the place cannot be written
-    """
-    unfinished = final.with_name(f"{final.name}.{os.getpid()}.unfinished")
-    try:
-        yield unfinished
-        with unfinished.open("rb+") as file:
-            os.fsync(file.fileno())
-        unfinished.replace(final)
-    except OSError as error:
-        raise cannot_write(final, error) from error
-    finally:
-        unfinished.unlink(missing_ok=True)

@@ -89,5 +89,5 @@ def register_named(case_file: Path) -> str:
     try:
         body = tomllib.loads(case_file.read_text(encoding="utf-8-sig")).get("body", {})
         return str(body.get("register", REGISTER))
-    except (OSError, ValueError, AttributeError):  # kept, and not to be read: its check will say so
+    except (OSError, ValueError, AttributeError, RecursionError):  # kept, and not to be read: its check will say so
         return REGISTER

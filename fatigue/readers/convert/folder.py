@@ -1,8 +1,6 @@
 """Write a folder of neutral files whole or not at all, and never over files of somebody else."""
 
 import json
-import shutil
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,6 +11,8 @@ import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
+from fatigue.files.mishaps import refused_writing
+from fatigue.files.whole import staged
 
 RECORD = "convert.json"
 """Lists the files of a conversion with their hashes; what it lists unchanged may be written again."""
@@ -34,7 +34,7 @@ def read_record(path: Path) -> dict[str, Any]:
     try:
         record = json.loads(path.read_text("utf-8"))
         return {name: record[name] for name in ("inputs", "convention", "audit", "remarks")}
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         what = f"is no record of a conversion ({type(error).__name__}: {error})"
         raise DataError(Problem("damaged_record", str(path), what, "Convert again, or remove the file")) from None
 
@@ -43,7 +43,7 @@ def recorded_files(folder: Path) -> dict[str, str]:
     """Hash of every file that an earlier conversion wrote into a folder; none where there was none."""
     try:
         files: dict[str, str] = json.loads((folder / RECORD).read_text("utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return {}
     return files
 
@@ -87,27 +87,16 @@ def write_folder(
     ------
     DataError : the folder cannot be written
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        stage = Path(tempfile.mkdtemp(prefix=".convert-", dir=folder))
-    except OSError as error:
-        raise DataError(
-            Problem("unwritable", str(folder), f"cannot be written ({error.strerror})", "Name another")
-        ) from error
-    try:
+    with staged(folder, ".convert-") as stage:
         for name, content in files.items():
-            _write(stage / name, content)
+            with refused_writing(folder / name):
+                _write(stage / name, content)
         hashes = {**kept, **{name: sha256(stage / name) for name in sorted(files)}}
         text = json.dumps({**record, "files": hashes}, indent=1, allow_nan=False) + "\n"
-        (stage / RECORD).write_text(text, "utf-8")
+        with refused_writing(folder / RECORD):
+            (stage / RECORD).write_text(text, "utf-8")
         for name in sorted([*files, RECORD], key=lambda n: (n == last, n)):
             (stage / name).replace(folder / name)
-    except OSError as error:
-        raise DataError(
-            Problem("unwritable", str(folder), f"cannot be written ({error.strerror})", "Name another")
-        ) from error
-    finally:
-        shutil.rmtree(stage, ignore_errors=True)
 
 
 def _write(path: Path, content: pa.Table | str) -> None:

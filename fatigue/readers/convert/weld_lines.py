@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, given_path
+from fatigue.files.whole import replacing
 from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
@@ -114,7 +115,8 @@ def list_welds(
             raise DataError(
                 Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
             )
-        out.write_text(register_text(found.rows), "utf-8")
+        with replacing(out) as unfinished:  # it may be the edited register that was read
+            unfinished.write_text(register_text(found.rows), "utf-8")
     return replace(found, warnings=(*model.warnings, *found.warnings))
 
 

@@ -9,6 +9,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
+from fatigue.files.mishaps import is_of_the_system, refusal
 
 DAMAGE = (pa.ArrowException, OSError, UnicodeDecodeError)  # what Arrow raises over bytes that make no sense
 
@@ -31,7 +32,9 @@ class Columns:
 
 
 def damaged(path: Path, error: Exception) -> Problem:
-    """Say that a file, or a part of it, cannot be decoded, and why."""
+    """Say that a file, or a part of it, cannot be decoded, and why; or that the system does not let it be read."""
+    if isinstance(error, OSError) and is_of_the_system(error):
+        return refusal(error, path)
     kind = "Parquet" if path.suffix.lower() == ".parquet" else "CSV"
     reason = str(error).strip().splitlines()[0].rstrip(".")
     return Problem(

@@ -1,6 +1,7 @@
 """The tables of a result in formats that people open: an Excel workbook, and CSV files."""
 
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pyarrow as pa
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.extras import install_command
+from fatigue.files.mishaps import cannot_write, refused_writing
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
     CSV_TABLES,
@@ -79,8 +81,9 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
         "strings_to_formulas": False,
         "strings_to_urls": False,
         "strings_to_numbers": False,
+        "tmpdir": str(path.parent),
     }
-    with xlsxwriter.Workbook(str(path), options) as book:
+    with _writing_xlsx(path), xlsxwriter.Workbook(str(path), options) as book:
         book.set_properties({"title": record["title"], "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
         if "result" in record:
             book.set_custom_property(MARK, record["result"])
@@ -91,6 +94,19 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
     if into is None:
         enlist(folder, path)
     return path
+
+
+@contextmanager
+def _writing_xlsx(path: Path) -> Iterator[None]:
+    """Tell why a workbook cannot be written, also where its package wraps what the system says."""
+    from xlsxwriter.exceptions import FileCreateError  # noqa: PLC0415
+
+    try:
+        with refused_writing(path):
+            yield
+    except FileCreateError as error:
+        said = next((cause for cause in error.args if isinstance(cause, OSError)), OSError(str(error)))
+        raise cannot_write(path, said) from error
 
 
 _FORMATS = {
@@ -181,7 +197,7 @@ def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
     for name in CSV_TABLES:
         texts = [column.name for column in TABLES[name] if column.type == "text"]
         paths.append((into or folder) / f"{name}.csv")
-        with paths[-1].open("w", encoding="utf-8", newline="") as file:
+        with refused_writing(paths[-1]), paths[-1].open("w", encoding="utf-8", newline="") as file:
             for number, group in enumerate(row_groups(folder, name)):
                 frame = group.to_pandas(types_mapper={pa.int64(): pd.Int64Dtype()}.get)  # "33", not "33.0", beside none
                 for text in texts:

@@ -2,13 +2,16 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from fatigue.errors import DataError, Problem
+from fatigue.files.mishaps import reason, refused_writing
 
 BROWSERS = (
     "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge",
@@ -17,6 +20,7 @@ BROWSERS = (
 _MAC = ("Google Chrome", "Chromium", "Microsoft Edge")
 _WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Application\msedge.exe")
 TIME_LIMIT_S = 300.0
+OF_ITS_OWN: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}  # group of processes
 
 
 def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
@@ -32,7 +36,7 @@ def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
     if not html.is_file():
         raise DataError(Problem("missing_file", str(html), "there is no such page", "Write the report first"))
     browser = find_browser()
-    with tempfile.TemporaryDirectory(prefix="fatigue-") as profile:
+    with tempfile.TemporaryDirectory(prefix="fatigue-", ignore_cleanup_errors=True) as profile:
         printed = Path(profile) / "report.pdf"
         command = [
             str(browser),
@@ -46,24 +50,51 @@ def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
             *(["--no-sandbox"] if _is_root() else []),
             f"{html.resolve().as_uri()}#print",
         ]
-        try:
-            done = subprocess.run(command, capture_output=True, timeout=TIME_LIMIT_S, check=False)
-            said = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or [f"exit code {done.returncode}"]
-        except subprocess.TimeoutExpired:
-            said = [f"not done after {TIME_LIMIT_S:g} s"]
+        said = _run(command)
         if not printed.is_file():
             raise DataError(
                 Problem(
                     "no_pdf",
                     str(browser),
-                    f"could not print the page ({said[0]})",
+                    f"could not print the page ({said})",
                     f"Open {html.name} in any browser and print it there",
                 )
             )
-        shutil.copyfile(printed, pdf)
-        if comment:  # a comment behind the end marker is allowed (ISO 32000-1, 7.2.4 and 7.5.5)
-            with pdf.open("ab") as file:
-                file.write(f"% {comment}\n".encode("ascii"))
+        with refused_writing(pdf):
+            shutil.copyfile(printed, pdf)
+            if comment:  # a comment behind the end marker is allowed (ISO 32000-1, 7.2.4 and 7.5.5)
+                with pdf.open("ab") as file:
+                    file.write(f"% {comment}\n".encode("ascii"))
+
+
+def _run(command: list[str]) -> str:
+    """Run a browser to its end, and return its last words; whatever stops this one ends it with all its helpers."""
+    with tempfile.TemporaryFile() as words:
+        try:
+            process = subprocess.Popen(command, stdout=words, stderr=words, stdin=subprocess.DEVNULL, **OF_ITS_OWN)
+        except OSError as error:
+            return reason(error)
+        try:
+            process.wait(TIME_LIMIT_S)
+        except subprocess.TimeoutExpired:
+            return f"not done after {TIME_LIMIT_S:g} s"
+        finally:
+            _end(process)
+        words.seek(0)
+        lines = words.read().decode(errors="replace").strip().splitlines()
+    return lines[-1] if lines else f"exit code {process.returncode}"
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """End a process and the group it leads; helpers that outlive it would write to a profile that is removed."""
+    try:
+        if OF_ITS_OWN:
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+    except (ProcessLookupError, PermissionError):  # all of them are gone
+        pass
+    process.wait()
 
 
 def find_browser() -> Path:

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, given_path
+from fatigue.files.mishaps import refused_writing
+from fatigue.files.whole import replacing
 from fatigue.results import NODES, PICTURE, Column, enlist, marked, read_codes, read_provenance, read_table
 from fatigue.weld.line import WeldLine
 
@@ -53,7 +55,7 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
     path = (into or folder) / PICTURE
     mark = marked(read_provenance(folder).get("result", ""))
     data = _point_data(folder, rows, register)
-    with path.open("w", encoding="ascii", newline="\n") as file:
+    with refused_writing(path), path.open("w", encoding="ascii", newline="\n") as file:
         file.writelines(_poly_lines(xyz, _line_points(folder, rows["top"], register), data, mark))
     if into is None:
         enlist(folder, path)
@@ -134,7 +136,7 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
         _data("outward", "f8", np.concatenate([line.outward for line in lines]), components=3),
     ]
     xyz = np.concatenate([line.xyz for line in lines])
-    with path.open("w", encoding="ascii", newline="\n") as file:
+    with replacing(path) as unfinished, unfinished.open("w", encoding="ascii", newline="\n") as file:
         file.writelines(_poly_lines(xyz, points, data))
 
 

@@ -13,6 +13,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, refuse
+from fatigue.files.mishaps import refused_writing
 from fatigue.files.misplaced import misplaced
 from fatigue.readers.neutral.columns import DAMAGE, Columns, damaged
 from fatigue.readers.neutral.csv_columns import csv_batches
@@ -25,6 +26,7 @@ from fatigue.readers.neutral.tables import Table, named
 from fatigue.readers.text.encoding import HEAD_BYTES, not_utf8_warning
 from fatigue.readers.text.layout import table_layout
 
+COPY = "give the same command again: forces in no order need a sorted copy on disk"
 BATCH = 200_000  # rows in memory together
 ROWS_OF_BUCKET = 500_000  # about
 MOST_BUCKETS = 500  # files open at the same time
@@ -62,7 +64,8 @@ def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
 
 def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: WeldCodes, scratch: Path) -> Source:
     """Source of batches of about so many ``rows`` together, dealt out to buckets of neighbouring groups."""
-    scratch.mkdir(parents=True, exist_ok=True)
+    with refused_writing(scratch):
+        scratch.mkdir(parents=True, exist_ok=True)
     groups = len(welds.groups)
     buckets = min(max(1, math.ceil(rows / ROWS_OF_BUCKET)), groups, MOST_BUCKETS)
     bucket_of_group = np.arange(groups) * buckets // groups
@@ -81,12 +84,16 @@ def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: Wel
             ordered = numbered.take(np.argsort(bucket, kind="stable"))
             ends = np.searchsorted(np.sort(bucket), np.arange(buckets + 1))
             for i in np.flatnonzero(np.diff(ends)).tolist():
-                if i not in writers:
-                    sink = stack.enter_context(pa.OSFile(str(files[i]), "wb"))
-                    options = pa.ipc.IpcWriteOptions(compression="lz4")
-                    writers[i] = stack.enter_context(pa.ipc.new_file(sink, ordered.schema, options=options))
-                writers[i].write_table(ordered.slice(ends[i], ends[i + 1] - ends[i]))
+                with refused_writing(files[i], COPY):
+                    if i not in writers:
+                        sink = stack.enter_context(pa.OSFile(str(files[i]), "wb"))
+                        options = pa.ipc.IpcWriteOptions(compression="lz4")
+                        writers[i] = pa.ipc.new_file(sink, ordered.schema, options=options)
+                    writers[i].write_table(ordered.slice(ends[i], ends[i + 1] - ends[i]))
             size += np.diff(ends)
+        for i, writer in writers.items():
+            with refused_writing(files[i], COPY):
+                writer.close()
     unknown.refuse(welds)
 
     def read(bucket: int) -> pa.Table:

@@ -56,7 +56,7 @@ def convert_record(path: Path | None) -> ConvertRecord:
             for weld, of_weld in record.get(LINES, {}).items()
         }
         return ConvertRecord(lines, tuple(map(str, record.get(COMMAND, ()))), path.parent)
-    except (OSError, ValueError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, TypeError, AttributeError, RecursionError) as error:
         what = f"is no record of a conversion ({type(error).__name__}: {error})"
         raise DataError(Problem("damaged_record", str(path), what, "Convert again, or remove the file")) from None
 

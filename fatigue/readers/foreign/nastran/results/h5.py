@@ -136,6 +136,8 @@ def _other_elements(path: Path) -> tuple[Problem, ...]:
         with h5py.File(path, "r") as file:
             tables = {name: table for name, table in file[_ELEMENTS].items() if isinstance(table, h5py.Dataset)}
             counts = {name: len(table) for name, table in tables.items() if name not in (*_SHELLS, "PLOTEL")}
+    except MemoryError:
+        raise
     except Exception as error:
         raise _damaged(path, str(error) or type(error).__name__) from error
     if not counts:
@@ -173,7 +175,7 @@ def _open(path: Path) -> Iterator[Any]:
     try:
         with h5py.File(path, "r") as file:
             yield read
-    except FatigueError:
+    except (FatigueError, MemoryError):
         raise
     except Exception as error:  # h5py raises nearly every kind of exception on a damaged file
         raise _damaged(path, str(error) or type(error).__name__) from error
