@@ -22,6 +22,7 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.block import TIERS
+from fatigue.pipeline.count.outside_band import OutsideBand
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
@@ -149,7 +150,7 @@ def assess(
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            done.warnings.add(sampling_warnings(body, done))
+            done.warnings.add((*sampling_warnings(body, done), *done.outside_band.warnings(work.loads)))
             warnings = done.warnings.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
@@ -184,7 +185,8 @@ class Tally:
     """What adds up while groups of welds stream by.
 
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
-    ``warnings`` has the warnings about the welds in the order of their groups.
+    ``warnings`` has the warnings about the welds in the order of their groups. ``outside_band`` are points that the
+    spectra miss.
     """
 
     total: int
@@ -194,6 +196,7 @@ class Tally:
     fulfilled: bool = True
     stations: dict[str, int] = field(default_factory=dict)
     warnings: WarningSummary = field(default_factory=WarningSummary)
+    outside_band: OutsideBand = field(default_factory=OutsideBand)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
@@ -206,6 +209,7 @@ class Tally:
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
         self.warnings.add(group.model.warnings)
+        self.outside_band.add(group.model.stations, result, work.plan)
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))

@@ -34,6 +34,15 @@ def _valid(of: Judgement, i: int) -> str:
     )
 
 
+def _outside_band(of: Judgement, i: int) -> str:
+    return (
+        f"{_percent(of.outside_share[i])} of the variance lies above upper_hz ({of.upper_hz:g} Hz) and makes "
+        f"{_percent(of.missed_damage[i])} of the damage (limit {of.missed_limit[i]:.0%}): the spectrum leaves it out, "
+        f"cycles contain it (Dirlik over rainflow {of.dirlik_ratio[i]:.2g}). Raise upper_hz if this stress is real, "
+        "keep it out of the simulation if it is noise, and trust rainflow."
+    )
+
+
 def _sampling(of: Judgement, i: int) -> str:
     if of.samples_per_peak[i] < FEWEST_SAMPLES_PER_PEAK:
         loss = sampling_loss(of.samples_per_peak[i], of.slope)
@@ -98,6 +107,11 @@ def _bandwidth(of: Judgement, i: int) -> str:
     )
 
 
+def _percent(share: float) -> str:
+    """Share in per cent, with enough digits that little is not nothing, nor nearly all everything."""
+    return f"{share:.2%}" if share < 0.01 or 0.99 < share < 1.0 else f"{share:.0%}"
+
+
 def _band(of: Judgement, i: int) -> str:
     return f"{of.ratio_low[i]:.2f} to {of.ratio_high[i]:.2f}"
 
@@ -135,6 +149,7 @@ def _confidence(of: Judgement, i: int) -> str:
 _SENTENCES: dict[str, Callable[[Judgement, int], str]] = {
     "not_assessed": _not_assessed,
     "valid": _valid,
+    "outside_band": _outside_band,
     "sampling": _sampling,
     "quasi_static": _quasi_static,
     "single_event": _single_event,
