@@ -22,7 +22,7 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.block import TIERS
-from fatigue.pipeline.count.outside_band import OutsideBand
+from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
@@ -150,7 +150,7 @@ def assess(
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            done.warnings.add((*sampling_warnings(body, done), *done.outside_band.warnings(work.loads)))
+            done.warnings.add((*sampling_warnings(body, done), *done.outside_band.warnings(bands_of(work.loads))))
             warnings = done.warnings.listed()
             record = provenance_record(body, work, done.stations, folder, inputs, warnings)
             write_json(unpublished / "provenance.json", {"program": "fatigue", "result": key} | record)
@@ -209,7 +209,7 @@ class Tally:
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
         self.warnings.add(group.model.warnings)
-        self.outside_band.add(group.model.stations, result, work.plan)
+        self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))

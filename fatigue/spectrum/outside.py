@@ -7,6 +7,8 @@ share of the damage, by Tovo and Benasciutti of the spectrum up to half the samp
 ratio of whole to band keeps within 0.85 and 1.35 of the counted one, where the counted one is between 1.1 and 2.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,3 +45,12 @@ def missed_damage(damage: NDArray[np.float64], damage_whole: NDArray[np.float64]
     array([0.25,  nan])
     """
     return np.clip(1.0 - quotient(damage, damage_whole), 0.0, 1.0)
+
+
+def in_percent(share: float) -> str:
+    """Digits of a share in per cent, such that little is not nothing and nearly all is not everything.
+
+    >>> [in_percent(share) for share in (2e-6, 0.0823, 0.631, 0.99998, 1.0)]
+    ['0.0002', '8.2', '63', '99.99', '100']
+    """
+    return f"{math.floor(1e4 * share) / 100:g}" if share > 0.99 else f"{100 * share:.2g}"

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from fatigue.spectrum.outside import in_percent
 from fatigue.spectrum.stationarity import FEWEST_PERIODS
 from fatigue.spectrum.trust import (
     CONFIDENT,
@@ -36,9 +37,9 @@ def _valid(of: Judgement, i: int) -> str:
 
 def _outside_band(of: Judgement, i: int) -> str:
     return (
-        f"{_percent(of.outside_share[i])} of the variance lies above upper_hz ({of.upper_hz:g} Hz) and makes "
-        f"{_percent(of.missed_damage[i])} of the damage (limit {of.missed_limit[i]:.0%}): the spectrum leaves it out, "
-        f"cycles contain it (Dirlik over rainflow {of.dirlik_ratio[i]:.2g}). Raise upper_hz if this stress is real, "
+        f"{in_percent(of.outside_share[i])}% of the variance lies above upper_hz ({of.upper_hz:g} Hz) and makes "
+        f"{in_percent(of.missed_damage[i])}% of the damage (limit {of.missed_limit[i]:.0%}): it is in the cycles and "
+        f"not in the spectrum (Dirlik over rainflow {of.dirlik_ratio[i]:.2g}). Raise upper_hz if this stress is real, "
         "keep it out of the simulation if it is noise, and trust rainflow."
     )
 
@@ -105,11 +106,6 @@ def _bandwidth(of: Judgement, i: int) -> str:
         f"and Gaussian: an error of the formula at this bandwidth (alpha2 {of.alpha2[i]:.2f}). Tovo-Benasciutti gives "
         f"{of.tb_ratio[i]:.2f}."
     )
-
-
-def _percent(share: float) -> str:
-    """Share in per cent, with enough digits that little is not nothing, nor nearly all everything."""
-    return f"{share:.2%}" if share < 0.01 or 0.99 < share < 1.0 else f"{share:.0%}"
 
 
 def _band(of: Judgement, i: int) -> str:
