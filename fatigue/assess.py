@@ -23,6 +23,7 @@ from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
+from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
@@ -213,7 +214,7 @@ class Tally:
 
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
     ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
-    forces are, ``stress`` how large their stress ranges.
+    forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss.
     """
 
     total: int
@@ -223,6 +224,7 @@ class Tally:
     fulfilled: bool = True
     stations: dict[str, int] = field(default_factory=dict)
     warnings: WarningSummary = field(default_factory=WarningSummary)
+    outside_band: OutsideBand = field(default_factory=OutsideBand)
     samples_per_peak: dict[str, float] = field(default_factory=dict)
     extents: list[LoadExtent] = field(default_factory=list)
     stress: StressExtent = field(default_factory=StressExtent)
@@ -240,6 +242,7 @@ class Tally:
         self.warnings.add(worst_at_corners(group.model, result.mission, worst))
         self.extents += group.model.extents
         self.stress.add(group.model, result)
+        self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
             self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
@@ -266,10 +269,13 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 
 def body_doubts(body: Body, work: Work, done: Tally) -> list[Problem]:
-    """Warnings that only all welds together give: loads that are not there, stress beyond metal, coarse records."""
+    """Warnings that only all welds together give: loads that are not there, stress beyond metal, coarse records,
+    content outside the band of the spectra.
+    """
     files = [event.history for event in body.case.mission.event]
     of_stress = done.stress.doubts(work.loads, body.modes.mode, files)
-    return load_doubts(body, done.extents) + of_stress + sampling_warnings(body, done)
+    of_spectra = done.outside_band.warnings(bands_of(work.loads))
+    return [*load_doubts(body, done.extents), *of_stress, *sampling_warnings(body, done), *of_spectra]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

@@ -15,6 +15,7 @@ from typing import Any
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
 from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.run.band_trial import band_warnings
 from fatigue.pipeline.run.trial import JobTime, job_time
 from fatigue.pipeline.solve.absent_loads import load_doubts
 from fatigue.pipeline.solve.body import read_body
@@ -113,6 +114,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
         estimate = job_time(plan, sample, stations, read_s, Path(scratch))
+        warnings.add(band_warnings(sample, plan, Path(scratch)))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,

@@ -169,7 +169,7 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
     """
     columns = [
         "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
-        "kurtosis", "samples_per_peak",
+        "kurtosis", "samples_per_peak", "damage_tb_whole_per_pass", "outside_share",
     ]  # fmt: skip
     events = len(plan.passes)
     expected, found = row_count(folder, "nodes") * events, row_count(folder, "damage")

@@ -48,18 +48,24 @@ NODES = (
         "life_km_dirlik",
         "float",
         "km",
-        "life by Dirlik's formula with one bending ratio per event, events with a spectrum",
+        "life by Dirlik's formula with one bending ratio per event, events with a spectrum; empty where the spectra "
+        "miss too much of the stress (dirlik_verdict outside_band)",
     ),
-    Column("life_km_tb", "float", "km", "life by Tovo-Benasciutti 2005 with one bending ratio per event, same events"),
+    Column(
+        "life_km_tb",
+        "float",
+        "km",
+        "life by Tovo-Benasciutti 2005 with one bending ratio per event, same events; empty where that by Dirlik is",
+    ),
     Column("life_km_same_ratio", "float", "km", "rainflow life with the same one bending ratio per event, same events"),
     Column("dirlik_ratio", "float", "-", "D_dirlik / D_rainflow at the same bending ratio"),
     Column(
         "dirlik_verdict",
         "text",
         "-",
-        "may the frequency domain be trusted here: not_assessed, valid, or the first reason why not (sampling, "
-        "quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth), of the event with the largest "
-        "share of the damage",
+        "may the frequency domain be trusted here: not_assessed, valid, or the first reason why not (outside_band, "
+        "sampling, quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth), of the event with "
+        "the largest share of the damage; outside_band too where all spectra together miss too much",
     ),
     Column("max_range_MPa", "float", "MPa", "largest structural stress range of all events"),
     Column(
@@ -110,9 +116,16 @@ DAMAGE = (
     Column("damage_per_pass", "float", "-", "Miner sum of one pass of the simulated record"),
     Column("damage_dirlik_per_km", "float", "1/km", "Dirlik's estimate with the one bending ratio"),
     Column("damage_tb_per_km", "float", "1/km", "Tovo-Benasciutti 2005 with the one bending ratio"),
+    Column("damage_tb_whole_per_km", "float", "1/km", "the same of the spectrum up to half the sampling rate"),
     Column("damage_same_ratio_per_km", "float", "1/km", "rainflow with the one bending ratio"),
     Column("damage_dirlik_per_pass", "float", "-", "Dirlik's estimate of one pass; empty without a spectrum"),
     Column("damage_tb_per_pass", "float", "-", "Tovo-Benasciutti 2005 of one pass; empty without a spectrum"),
+    Column(
+        "damage_tb_whole_per_pass",
+        "float",
+        "-",
+        "the same of the spectrum up to half the sampling rate: what it has more comes from above upper_hz",
+    ),
     Column("damage_same_ratio_per_pass", "float", "-", "rainflow with the one bending ratio of one pass"),
     Column("cycles_per_km", "float", "1/km", "counted cycles per km"),
     Column("cycles_per_pass", "float", "-", "counted cycles of one pass"),
@@ -127,7 +140,13 @@ DAMAGE = (
     Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress"),
     Column("kurtosis", "float", "-", "Pearson kurtosis of the structural stress, 3 for a Gaussian record"),
     Column("irregularity", "float", "-", "alpha_2 = zero up-crossings / peaks, from the spectral moments"),
-    Column("peaks_per_s", "float", "1/s", "nu_p = sqrt(m4 / m2)"),
+    Column("outside_share", "float", "-", "share of the variance of the spectrum that lies above upper_hz"),
+    Column(
+        "peaks_per_s",
+        "float",
+        "1/s",
+        "nu_p = sqrt(m4 / m2) of the spectrum up to half the sampling rate; an outside_share below 1e-4 is left out",
+    ),
     Column("samples_per_peak", "float", "-", "sampling rate of the counted record / nu_p"),
     Column(
         "verdict",
@@ -281,8 +300,8 @@ DIAGNOSIS = (
         "verdict",
         "text",
         "-",
-        "may the frequency domain be trusted in this event: not_assessed, valid, or why not, first hit (sampling, "
-        "quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth)",
+        "may the frequency domain be trusted in this event: not_assessed, valid, or why not, first hit (outside_band, "
+        "sampling, quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth)",
     ),
     Column("reason", "text", "-", "the verdict in words, with its numbers"),
     Column("record_too_short", "flag", "-", "the damage scatters by more than 25 % from record to record, or unknown"),
@@ -303,6 +322,9 @@ DIAGNOSIS = (
     Column("split_standard_error", "float", "-", "of ln A and of ln B"),
     Column("explained_share", "float", "-", "share of ln B that the modulation and the tones found explain"),
     Column("alpha2", "float", "-", "irregularity m2 / sqrt(m0 m4)"),
+    Column("outside_share", "float", "-", "of the variance of the spectrum, above upper_hz"),
+    Column("missed_damage", "float", "-", "of the damage by Tovo-Benasciutti of the whole spectrum, above upper_hz"),
+    Column("missed_limit", "float", "-", "share of the damage that may be missed"),
     Column("samples_per_peak", "float", "-", "sampling rate of the counted record over the rate of peaks"),
     Column("peaks_over_top_mode", "float", "-", "rate of peaks over the highest frequency of a normal mode"),
     Column("slow_share", "float", "-", "of the variance, slower than the record can hold ten cycles of"),

@@ -8,7 +8,7 @@ stress history, to rounding (Braccesi, Cianetti et al. published the idea for mo
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -43,6 +43,7 @@ class Spectra:
     resolution_hz : distance of the bins [Hz]
     upper_hz : upper limit asked for [Hz]
     segment_s : length of a segment [s]
+    first_bin : number of the first bin that is kept
     """
 
     history: ModalHistory
@@ -54,6 +55,7 @@ class Spectra:
     resolution_hz: float
     upper_hz: float
     segment_s: float
+    first_bin: int = 0
 
     def transforms(self) -> Iterator[NDArray[np.float64]]:
         """Transforms of one segment after the other, (m, 2 f): the real and the imaginary part of each bin.
@@ -79,7 +81,8 @@ class Spectra:
             some = slice(first, first + at_once)
             transform = np.fft.rfft(_from_first(samples[some]), axis=1)
             transform[:, 0] = 0.0  # the mean of the segment
-            np.multiply(tapered(transform, length, slice(0, bins)), self.scale, out=amplitude[some])
+            kept = slice(self.first_bin, self.first_bin + bins)
+            np.multiply(tapered(transform, length, kept), self.scale, out=amplitude[some])
         return amplitude.view(np.float64)
 
 
@@ -147,21 +150,38 @@ def segment_spectra(history: ModalHistory, segment_s: float, upper_hz: float) ->
             )
         )
     length = samples_per_segment(history.step, segment_s)
-    window = hann(length)
-    bins = np.arange(length // 2 + 1)
-    frequency = bins / (length * history.step)
+    frequency = np.arange(length // 2 + 1) / (length * history.step)
     kept = np.count_nonzero(frequency <= upper_hz * (1 + FREQUENCY_TOLERANCE))
-    one_sided = np.where((bins == 0) | (2 * bins == length), 1.0, 2.0)  # 0 Hz and Nyquist have no mirror image
+    window = hann(length)
     return Spectra(
         history=history,
         starts=segment_starts(history.q.shape[1], length),
         window=window,
         frequency=frequency[:kept],
-        scale=np.sqrt(one_sided * history.step / np.sum(window**2))[:kept],
+        scale=_welch_scale(window, history.step)[:kept],
         weight=_trapezoid_weights(frequency[:kept]),
         resolution_hz=1.0 / (length * history.step),
         upper_hz=upper_hz,
         segment_s=length * history.step,
+    )
+
+
+def spectra_above(spectra: Spectra) -> Spectra | None:
+    """Spectra of the same segments from the last bin of the band to half the sampling rate; None without a bin there.
+
+    The trapezoids of both add up to the one over all bins: moments of both add up to those of the whole record.
+    """
+    length, last = len(spectra.window), len(spectra.frequency) - 1
+    if last == length // 2:
+        return None
+    frequency = np.arange(last, length // 2 + 1) / (length * spectra.history.step)
+    return replace(
+        spectra,
+        frequency=frequency,
+        scale=_welch_scale(spectra.window, spectra.history.step)[last:],
+        weight=_trapezoid_weights(frequency),
+        upper_hz=0.5 / spectra.history.step,
+        first_bin=last,
     )
 
 
@@ -274,6 +294,13 @@ def quadratic_forms(modal_stress: NDArray[np.floating], matrices: NDArray[Real])
         for row, matrix in zip(forms, matrices, strict=True):
             np.einsum("nm,nm->n", block @ matrix, block, out=row[first : first + BLOCK_POINTS])
     return forms
+
+
+def _welch_scale(window: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """Factors from transform to amplitude, whose square is a one-sided density, (length // 2 + 1,)."""
+    bins = np.arange(len(window) // 2 + 1)
+    one_sided = np.where((bins == 0) | (2 * bins == len(window)), 1.0, 2.0)  # 0 Hz and Nyquist have no mirror image
+    return np.asarray(np.sqrt(one_sided * step / np.sum(window**2)))
 
 
 def _trapezoid_weights(frequency: NDArray[np.float64]) -> NDArray[np.float64]:

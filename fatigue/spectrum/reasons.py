@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from fatigue.spectrum.outside import in_percent
 from fatigue.spectrum.stationarity import FEWEST_PERIODS
 from fatigue.spectrum.trust import (
     CONFIDENT,
@@ -31,6 +32,15 @@ def _valid(of: Judgement, i: int) -> str:
         f"Dirlik over rainflow {of.dirlik_ratio[i]:.2f} lies within {_band(of, i)}; {_modulation(of, i)}, kurtosis "
         f"{of.kurtosis[i]:.1f}, {of.line_share[i]:.0%} of the variance in tones, {of.slow_share[i]:.0%} below "
         f"{of.slow_hz:.2g} Hz."
+    )
+
+
+def _outside_band(of: Judgement, i: int) -> str:
+    return (
+        f"{in_percent(of.outside_share[i])}% of the variance lies above upper_hz ({of.upper_hz:g} Hz) and makes "
+        f"{in_percent(of.missed_damage[i])}% of the damage (limit {of.missed_limit[i]:.0%}): it is in the cycles and "
+        f"not in the spectrum (Dirlik over rainflow {of.dirlik_ratio[i]:.2g}). Raise upper_hz if this stress is real, "
+        "keep it out of the simulation if it is noise, and trust rainflow."
     )
 
 
@@ -135,6 +145,7 @@ def _confidence(of: Judgement, i: int) -> str:
 _SENTENCES: dict[str, Callable[[Judgement, int], str]] = {
     "not_assessed": _not_assessed,
     "valid": _valid,
+    "outside_band": _outside_band,
     "sampling": _sampling,
     "quasi_static": _quasi_static,
     "single_event": _single_event,

@@ -32,6 +32,7 @@ from fatigue.spectrum.whole_record import RecordMatrices, record_matrices
 VERDICTS = (
     "not_assessed",
     "valid",
+    "outside_band",
     "sampling",
     "quasi_static",
     "single_event",
@@ -84,6 +85,8 @@ class Judgement:
     record_too_short : the damage would scatter by more than ``CONFIDENT`` from record to record, or that is unknown
     dirlik_ratio, tb_ratio : damage of Dirlik and of Tovo-Benasciutti over rainflow damage
     ratio_low, ratio_high : band in which the ratio means agreement
+    outside_share : of the variance of the whole spectrum, above ``upper_hz``
+    missed_damage, missed_limit : share of the damage that the band misses, and from where on it is too much
     alpha2 : irregularity
     samples_per_peak : of the record that was counted
     peaks_over_top_mode : rate of peaks over the highest frequency of a mode
@@ -99,6 +102,7 @@ class Judgement:
     damage_cov : coefficient of variation of the damage, of either domain, from one record of this length to the next
     slope : k the limits were chosen for
     slow_hz : frequency below which the record holds too few cycles [Hz]
+    upper_hz : upper limit of the band of the spectrum [Hz]
     segments : spectral segments of the record
     """
 
@@ -108,6 +112,9 @@ class Judgement:
     tb_ratio: NDArray[np.float64]
     ratio_low: NDArray[np.float64]
     ratio_high: NDArray[np.float64]
+    outside_share: NDArray[np.float64]
+    missed_damage: NDArray[np.float64]
+    missed_limit: NDArray[np.float64]
     alpha2: NDArray[np.float64]
     samples_per_peak: NDArray[np.float64]
     peaks_over_top_mode: NDArray[np.float64]
@@ -128,6 +135,7 @@ class Judgement:
     damage_cov: NDArray[np.float64]
     slope: float
     slow_hz: float
+    upper_hz: float
     segments: int
 
 
@@ -155,6 +163,8 @@ def judge(
     top_cycle_share: NDArray[np.float64],
     samples_per_peak: NDArray[np.float64],
     top_mode_hz: float | None,
+    outside_share: NDArray[np.float64] | None = None,
+    missed_damage: NDArray[np.float64] | None = None,
 ) -> Judgement:
     """Judgement on all points of one event: the verdict and the numbers behind it.
 
@@ -169,6 +179,7 @@ def judge(
     top_cycle_share : (n,) damage of the largest cycle over all
     samples_per_peak : (n,) sampling rate of the counted record over the rate of peaks
     top_mode_hz : highest frequency of a normal mode [Hz]; None: unknown
+    outside_share, missed_damage : (n,) shares of variance and damage above the band, see ``outside``; None: unknown
     """
     shape = spectral_shape(moments)
     record = matrices.record
@@ -182,6 +193,7 @@ def judge(
     steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
     damage_cov = 0.5 * slope * variance_cov * steadier
     low, high = _ratio_band(slope)
+    unknown = np.full(len(modal_stress), np.nan)
     chance = np.exp(1.645 * RATIO_SCATTER * np.where(np.isnan(damage_cov), 2 * CONFIDENT, damage_cov))
     judgement = Judgement(
         verdict=np.zeros(len(modal_stress), dtype=np.int8),
@@ -190,6 +202,9 @@ def judge(
         tb_ratio=tb_ratio,
         ratio_low=low / chance,
         ratio_high=high * chance,
+        outside_share=unknown if outside_share is None else outside_share,
+        missed_damage=unknown if missed_damage is None else missed_damage,
+        missed_limit=np.full(len(modal_stress), missed_limit(slope)),
         alpha2=shape.alpha2,
         samples_per_peak=samples_per_peak,
         peaks_over_top_mode=shape.peaks / (np.nan if top_mode_hz is None else top_mode_hz),
@@ -215,10 +230,20 @@ def judge(
         damage_cov=damage_cov,
         slope=slope,
         slow_hz=matrices.record.slow_hz,
+        upper_hz=matrices.moments.upper_hz,
         segments=matrices.segments,
     )
     judgement.verdict[:] = _verdict(judgement)
     return judgement
+
+
+def missed_limit(slope: float) -> float:
+    """Share of the damage that the band may miss before the spectrum is wrong for that alone: what agreement allows.
+
+    >>> round(missed_limit(3.6), 2), round(missed_limit(5.0), 2)
+    (0.2, 0.35)
+    """
+    return 1.0 - _ratio_band(slope)[0]
 
 
 def sampling_loss(samples_per_peak: NDArray[np.float64], k: float) -> NDArray[np.float64]:
@@ -254,6 +279,7 @@ def _verdict(of: Judgement) -> NDArray[np.int8]:
     tones = (of.modulation_index < STEADIER_THAN_CHANCE) & (of.line_share > LINE_SHARE)
     findings = {
         "not_assessed": ~np.isfinite(of.dirlik_ratio),
+        "outside_band": of.missed_damage > of.missed_limit,
         "sampling": (of.samples_per_peak < FEWEST_SAMPLES_PER_PEAK) | (of.peaks_over_top_mode > HIGHEST_PEAK_RATE),
         "quasi_static": of.slow_share > SLOW_SHARE,
         "single_event": of.top_cycle_share > of.top_cycle_limit,

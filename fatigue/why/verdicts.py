@@ -15,6 +15,7 @@ from fatigue.pipeline.solve.body import Body
 from fatigue.quotient import quotient
 from fatigue.spectrum.methods import dirlik_damage_rate
 from fatigue.spectrum.moments import point_moments, segment_spectra
+from fatigue.spectrum.outside import missed_damage
 from fatigue.spectrum.reasons import reason
 from fatigue.spectrum.stationarity import damage_rate_by_period
 from fatigue.spectrum.surrogates import RatioSplit, explained_share, ratio_split
@@ -26,7 +27,9 @@ Floats = NDArray[np.float64]
 
 NO_SPECTRUM = "The record is shorter than one spectral segment, so there is no frequency-domain estimate to judge."
 MEASURED = tuple(
-    field.name for field in fields(Judgement) if field.name not in {"verdict", "slope", "slow_hz", "segments"}
+    field.name
+    for field in fields(Judgement)
+    if field.name not in {"verdict", "slope", "slow_hz", "upper_hz", "segments"}
 )
 
 
@@ -108,6 +111,10 @@ def event_verdicts(
             top_cycle_share=attribution.top_cycle_share[at],
             samples_per_peak=here["samples_per_peak"].to_numpy(),
             top_mode_hz=load.top_mode_hz,
+            outside_share=here["outside_share"].to_numpy(),
+            missed_damage=missed_damage(
+                here["damage_tb_per_pass"].to_numpy(), here["damage_tb_whole_per_pass"].to_numpy()
+            ),
         )
         found.verdict[at] = np.array(VERDICTS, dtype=object)[judgement.verdict]
         found.reason[at] = [reason(judgement, i) for i in range(len(at))]

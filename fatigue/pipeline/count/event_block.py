@@ -15,6 +15,7 @@ from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import ModalStress, faces
 from fatigue.quotient import quotient
+from fatigue.spectrum.outside import missed_damage
 from fatigue.spectrum.trust import VERDICTS, judge
 from fatigue.weld.structural_stress import RawEnds
 
@@ -95,6 +96,8 @@ def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBloc
         top_cycle_share=quotient(cycle_damage(counted.max_equivalent_range.reshape(-1), law), damage),
         samples_per_peak=estimate.samples_per_peak.reshape(-1),
         top_mode_hz=load.top_mode_hz,
+        outside_share=estimate.outside_share.reshape(-1),
+        missed_damage=missed_damage(estimate.tb, estimate.tb_whole).reshape(-1),
     )
     return replace(event, verdict=found.verdict.reshape(event.verdict.shape))
 

@@ -11,6 +11,8 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import Pass, Plan, life_km, load_factor, mission_sum, range_at_2e6, straight_load_factor
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.quotient import quotient
+from fatigue.spectrum.outside import missed_damage
+from fatigue.spectrum.trust import VERDICTS, missed_limit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,7 +21,8 @@ class MissionBlock:
 
     ``life_km_raw_end`` is the life without the end treatment, NaN where it was not counted. ``governing`` is the index
     of the event with the largest share of the damage, -1 where nothing damages. ``verdict`` is the verdict of the
-    event with the largest share of the damage among the events that have a spectrum.
+    event with the largest share of the damage among the events that have a spectrum, or ``outside_band`` where the
+    bands of all events together miss too much of it: there is no ``life_km_dirlik`` and ``life_km_tb`` there (NaN).
     """
 
     damage_per_km: NDArray[np.float64]
@@ -63,6 +66,8 @@ def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> M
     passes = [plan.passes[i] for i in in_spectrum]
     dirlik = _sum([estimates[i].dirlik for i in in_spectrum], passes, damage)
     tb = _sum([estimates[i].tb for i in in_spectrum], passes, damage)
+    tb_whole = _sum([estimates[i].tb_whole for i in in_spectrum], passes, damage)
+    outside = missed_damage(tb, tb_whole) > missed_limit(float(law.slopes[0]))
     same_ratio = _sum([counts[i].damage_same_ratio for i in in_spectrum], passes, damage)
     power_sum = _sum([c.power_sum for c in counts], plan.passes, damage)
     return MissionBlock(
@@ -71,8 +76,8 @@ def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> M
         life_km_raw_end=_life(_sum([event.damage_raw_end for event in events], plan.passes, damage), plan),
         utilisation=utilisation,
         load_factor=_load_factor(counts, utilisation, plan, law, counted),
-        life_km_dirlik=_life(dirlik, plan),
-        life_km_tb=_life(tb, plan),
+        life_km_dirlik=np.where(outside, np.nan, _life(dirlik, plan)),
+        life_km_tb=np.where(outside, np.nan, _life(tb, plan)),
         life_km_same_ratio=_life(same_ratio, plan),
         dirlik_ratio=quotient(dirlik, same_ratio),
         max_range=np.stack([c.max_range for c in counts]).max(axis=0),
@@ -84,16 +89,22 @@ def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> M
         factor_if_shear=quotient(_sum([event.damage_shear for event in events], plan.passes, damage), damage),
         governing=governing,
         bending_ratio=_of_event([estimate.bending_ratio for estimate in estimates], governing),
-        verdict=_verdict(events, weights),
+        verdict=_verdict(events, weights, outside),
     )
 
 
-def _verdict(events: Sequence[EventBlock], weights: NDArray[np.float64]) -> NDArray[np.int8]:
-    """Verdict of the event that does most of the damage, of the events assessed in the frequency domain."""
+def _verdict(
+    events: Sequence[EventBlock], weights: NDArray[np.float64], outside: NDArray[np.bool_]
+) -> NDArray[np.int8]:
+    """Verdict of the event that does most of the damage, of the events assessed in the frequency domain.
+
+    Where too much is ``outside`` the bands of all events, (n, 2), that is the verdict.
+    """
     verdicts = np.stack([event.verdict for event in events])
     same_ratio = np.stack([event.count.damage_same_ratio for event in events])
     share = np.where(verdicts > 0, weights * same_ratio, -1.0)
-    return np.asarray(np.take_along_axis(verdicts, share.argmax(axis=0)[None], axis=0)[0])
+    largest = np.take_along_axis(verdicts, share.argmax(axis=0)[None], axis=0)[0]
+    return np.where(outside & (largest > 0), np.int8(VERDICTS.index("outside_band")), largest)
 
 
 def _load_factor(

@@ -11,7 +11,7 @@ from fatigue.life.counting.record import CountedRecord, SingleRecord
 from fatigue.life.counting.single.prepare import single_record
 from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
 from fatigue.life.records.spool import Samples, Spool, create_spool
-from fatigue.spectrum.moments import MomentMatrices, Spectra
+from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, spectra_above
 from fatigue.spectrum.trust import TrustMatrices, trust_matrices
 
 HELD_SINGLE = 256e6  # bytes of one record
@@ -33,6 +33,7 @@ class EventLoad:
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
     is_upsampled : whether mean and covariance are of other samples than those that are counted
     moment_pairs : matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
+    pairs_above : the same of what lies above the band of the spectrum; empty where nothing does
     top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
     """
 
@@ -46,6 +47,7 @@ class EventLoad:
     is_upsampled: bool
     moments: MomentMatrices | None
     moment_pairs: tuple[FormPair, ...]
+    pairs_above: tuple[FormPair, ...]
     trust: TrustMatrices | None
     top_mode_hz: float | None
 
@@ -90,6 +92,7 @@ def prepare_event(
         moments, (mean, covariance) = None, mean_and_covariance(history.q)
     else:
         moments, mean, covariance = trust.moments, trust.record.mean, trust.record.covariance
+    above = None if spectra is None else spectra_above(spectra)
     counted = upsampled(history, how.upsample, how.residue, scratch and scratch / "upsampled")
     known = (mean, covariance) if counted is history else None
     return EventLoad(
@@ -102,10 +105,16 @@ def prepare_event(
         covariance=covariance,
         is_upsampled=counted is not history,
         moments=moments,
-        moment_pairs=() if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])),
+        moment_pairs=_pairs(moments),
+        pairs_above=_pairs(None if above is None else moment_matrices(above)),
         trust=trust,
         top_mode_hz=top_mode_hz,
     )
+
+
+def _pairs(moments: MomentMatrices | None) -> tuple[FormPair, ...]:
+    """Moment matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; nothing of None."""
+    return () if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:]))
 
 
 def kept_single_record(

@@ -20,13 +20,16 @@ from fatigue.pipeline.solve.weld_groups import WeldGroups
 from fatigue.readers.neutral.history import read_history
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import (
+    MomentMatrices,
     Spectra,
     default_upper_hz,
     has_spectrum,
     moment_matrices,
     point_moments,
     segment_spectra,
+    spectra_above,
 )
+from fatigue.spectrum.outside import peak_rate
 
 log = logging.getLogger(__name__)
 
@@ -153,26 +156,34 @@ def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | No
     return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
 
 
+def _below_and_above(spectra: Spectra) -> tuple[MomentMatrices, MomentMatrices | None]:
+    """Moment matrices of the band of the spectra, and of what lies above it."""
+    above = spectra_above(spectra)
+    return moment_matrices(spectra), None if above is None else moment_matrices(above)
+
+
 def _automatic_factors(groups: WeldGroups, folders: Sequence[Path | None]) -> list[int]:
     """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak.
 
     ``folders`` are for the records of the events, None: in memory. One record is open at a time.
     """
     body = groups.body
-    steps, moments = [], []
+    steps: list[float] = []
+    moments: list[tuple[MomentMatrices, MomentMatrices | None] | None] = []
     for event, folder in zip(body.case.mission.event, folders, strict=True):
         history = _record(body, event, folder)
         spectra = event_spectra(body, history)
         steps.append(history.step)
-        moments.append(None if spectra is None else moment_matrices(spectra))
+        moments.append(None if spectra is None else _below_and_above(spectra))
     peaks_per_s = np.zeros(len(steps))
     for number in range(len(groups)):
         stress = solve_group(groups, number).stations.treated
         faces = np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending])
         for i, matrices in enumerate(moments):
             if matrices is not None:
-                _, _, m2, m4 = point_moments(faces, matrices)
-                fastest = np.max(np.divide(m4, m2, out=np.zeros_like(m4), where=m2 > 0.0))
-                peaks_per_s[i] = max(peaks_per_s[i], np.sqrt(fastest))
+                of_band, of_above = matrices
+                band = point_moments(faces, of_band)
+                above = np.zeros_like(band) if of_above is None else point_moments(faces, of_above)
+                peaks_per_s[i] = np.nanmax(peak_rate(band, above), initial=peaks_per_s[i])
     wanted = SAMPLES_PER_PEAK * peaks_per_s * np.array(steps)
     return [min(LARGEST_UPSAMPLE, 2 ** max(0, math.ceil(math.log2(w)))) if w > 0.0 else 1 for w in wanted]

@@ -4,14 +4,16 @@ from fatigue.case import Case, Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
+from fatigue.pipeline.mission.events import top_mode_hz
 from fatigue.pipeline.mission.record_doubts import RecordOutline, record_doubts
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.history import TimeGrid, check_history
 from fatigue.side_by_side import in_order
-from fatigue.spectrum.moments import segment_count
+from fatigue.spectrum.moments import FREQUENCY_TOLERANCE, default_upper_hz, samples_per_segment, segment_count
 
 FEW_SEGMENTS = 8  # below, the spectrum is an estimate from too little
+FEW_LINES = 8  # above 0 Hz; a line under the Hann window is four wide
 
 
 def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Problem, ...]]:
@@ -92,13 +94,26 @@ def _record_warnings(body: Body, event: Event, samples: int, step: float) -> lis
                 "Record longer or shorten segment_s if you need one",
             )
         ]
+    warnings = []
     if segments < FEW_SEGMENTS:
-        return [
+        warnings.append(
             Problem(
                 "few_segments",
                 where,
                 f"the spectrum is an average of {segments} segments of {segment_s:g} s",
                 f"Record longer, or shorten segment_s to get {FEW_SEGMENTS} segments or more",
             )
-        ]
-    return []
+        )
+    resolution_hz = 1.0 / (step * samples_per_segment(step, segment_s))
+    upper = body.case.spectrum.upper_hz or default_upper_hz(step, top_mode_hz(body))
+    lines = int(min(upper, 0.5 / step) * (1 + FREQUENCY_TOLERANCE) / resolution_hz)
+    if lines < FEW_LINES:
+        warnings.append(
+            Problem(
+                "few_lines",
+                where,
+                f"upper_hz ({upper:g} Hz) leaves {lines} lines of its spectrum, {resolution_hz:g} Hz apart",
+                f"Raise upper_hz or lengthen segment_s to get {FEW_LINES} lines or more",
+            )
+        )
+    return warnings

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.readers.neutral.body.modes import vibration_hz
 from fatigue.report import stress
 from fatigue.report.inputs import FoundInputs
 from fatigue.report.result import ShownResult
@@ -80,8 +81,8 @@ def upper_hz(result: ShownResult, inputs: FoundInputs, step: float) -> float:
     if inputs.case.spectrum.upper_hz is not None:
         return inputs.case.spectrum.upper_hz
     modes = result.record["modes"]
-    normal = [f for f, kind in zip(modes["frequency_hz"], modes["kind"], strict=True) if kind == "normal"]
-    return default_upper_hz(step, max(normal, default=None))
+    vibrating = vibration_hz(np.array(modes["frequency_hz"], dtype=np.float64), modes["kind"])
+    return default_upper_hz(step, float(vibrating.max()) if vibrating.size else None)
 
 
 def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> None:

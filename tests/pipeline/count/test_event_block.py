@@ -12,7 +12,7 @@ from fatigue.life.records.history import ModalHistory
 from fatigue.life.rule import CycleRule, ratio_factor
 from fatigue.pipeline.mission.event_load import HowCounted, prepare_event
 from fatigue.pipeline.solve.modal_stress import ModalStress
-from fatigue.spectrum.methods import dirlik_damage_rate
+from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
 from fatigue.spectrum.moments import segment_spectra
 from tests.one_event import NO_RAW_ENDS, assess_event_block, numbers_of
 
@@ -71,10 +71,16 @@ def test_dirlik_is_that_of_welchs_spectrum_of_the_equivalent_stress():
     n = round(1.0 / STEP)
     f, G = scipy.signal.welch(equivalent, 1 / STEP, "hann", n, n // 2, detrend="constant")
     kept = f <= 100.0
-    moments = np.array([[np.trapezoid(f[kept] ** p * G[kept], f[kept])] for p in (0, 1, 2, 4)])
+    moments, whole = (
+        np.array([[np.trapezoid(f[some] ** p * G[some], f[some])] for p in (0, 1, 2, 4)]) for some in (kept, f >= 0.0)
+    )
     expected = dirlik_damage_rate(moments, LAW)[0] * history.duration
     assert found.estimate.dirlik[0, 0] == pytest.approx(expected, rel=1e-10)
-    assert found.estimate.peaks_per_s[0, 0] == pytest.approx(np.sqrt(moments[3, 0] / moments[2, 0]), rel=1e-10)
+    assert found.estimate.tb_whole[0, 0] == pytest.approx(
+        tovo_benasciutti_damage_rate(whole, LAW)[0] * history.duration, rel=1e-10
+    )
+    assert found.estimate.outside_share[0, 0] == pytest.approx(1 - moments[0, 0] / whole[0, 0], rel=1e-10)
+    assert found.estimate.peaks_per_s[0, 0] == pytest.approx(np.sqrt(whole[3, 0] / whole[2, 0]), rel=1e-10)
     assert found.estimate.samples_per_peak[0, 0] == pytest.approx(
         1 / STEP / found.estimate.peaks_per_s[0, 0], rel=1e-12
     )

@@ -1,6 +1,6 @@
 """The modes of a body in the neutral format."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -40,7 +40,12 @@ class Modes:
     @property
     def vibration_hz(self) -> NDArray[np.float64]:
         """Frequencies of the normal modes [Hz]; rigid-body modes that the table takes for normal ones left out."""
-        return np.asarray(self.frequency[(np.array(self.kind) == "normal") & (self.frequency > LOWEST_HZ)])
+        return vibration_hz(self.frequency, self.kind)
+
+
+def vibration_hz(frequency: NDArray[np.float64], kind: Sequence[str]) -> NDArray[np.float64]:
+    """Those of the frequencies of some modes that belong to normal ones above ``LOWEST_HZ`` [Hz]."""
+    return np.asarray(frequency[(np.array(kind) == "normal") & (frequency > LOWEST_HZ)])
 
 
 def read_modes(path: Path, ignore_modes: Collection[int], *, strict: bool) -> tuple[Modes, list[Problem]]:

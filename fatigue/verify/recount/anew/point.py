@@ -15,6 +15,8 @@ from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
+NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not counted among the peaks
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountPoint:
@@ -94,20 +96,26 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
 
     moments = welch_moments(kept, record.step, rules)
     nothing = moments is None
-    equivalent = np.full(4, np.nan) if moments is None else moments * (size / I_one) ** 2
-    m0, _, m2, m4 = np.full(4, np.nan) if moments is None else moments
-    peaks = _quotient(m4, m2) ** 0.5
+    band, whole = (np.full(4, np.nan),) * 2 if moments is None else moments
+    to_equivalent = (size / I_one) ** 2
+    m0, _, m2, m4 = band
+    outside = 1.0 - _quotient(m0, whole[0])
+    peaks = _quotient(*((whole if outside >= NEGLIGIBLE_OUTSIDE else band)[[3, 2]])) ** 0.5
     values: Values = {
         "damage_per_pass": damage,
         "damage_same_ratio_per_pass": float(n @ curve.damage(S * size / I_one)),
-        "damage_dirlik_per_pass": np.nan if nothing else record.duration * dirlik(equivalent, curve),
-        "damage_tb_per_pass": np.nan if nothing else record.duration * tovo_benasciutti(equivalent, curve),
+        "damage_dirlik_per_pass": np.nan if nothing else record.duration * dirlik(band * to_equivalent, curve),
+        **{
+            name: np.nan if nothing else record.duration * tovo_benasciutti(m * to_equivalent, curve)
+            for name, m in (("damage_tb_per_pass", band), ("damage_tb_whole_per_pass", whole))
+        },
         "cycles_per_pass": float(n.sum()),
         "max_range_MPa": 0.0 if largest is None else float(S[largest]),
         "max_equivalent_range_dS": float(dS.max(initial=0.0)),
         "bending_ratio": one_ratio,
         "mean_stress_MPa": float(kept.mean()),
         "kurtosis": _kurtosis(s),
+        "outside_share": outside,
         "irregularity": _quotient(m2, (m0 * m4) ** 0.5),
         "peaks_per_s": peaks,
         "samples_per_peak": _quotient(1.0 / record.fine_step, peaks),
@@ -151,7 +159,10 @@ def point_values(
     def of_governing(key: str) -> float:
         return np.nan if governing is None else float(per_pass[key][governing])
 
-    D_dirlik, D_tb, D_same = (of_spectra(f"damage_{name}_per_pass") for name in ("dirlik", "tb", "same_ratio"))
+    D_dirlik, D_tb, D_whole, D_same = (
+        of_spectra(f"damage_{name}_per_pass") for name in ("dirlik", "tb", "tb_whole", "same_ratio")
+    )
+    misses = 1.0 - _quotient(D_tb, D_whole) > most_missed(curve.slopes[0])
     life = _life(damage, limit)
     return {
         "damage_per_km": damage,
@@ -160,8 +171,8 @@ def point_values(
         "utilisation": utilisation,
         "fulfilled": utilisation <= 1.0,
         "load_factor": _load_factor(passes, weights * target / limit, curve, mean_stress, utilisation),
-        "life_km_dirlik": _life(D_dirlik, limit),
-        "life_km_tb": _life(D_tb, limit),
+        "life_km_dirlik": np.nan if misses else _life(D_dirlik, limit),
+        "life_km_tb": np.nan if misses else _life(D_tb, limit),
         "life_km_same_ratio": _life(D_same, limit),
         "dirlik_ratio": _quotient(D_dirlik, D_same),
         "max_range_MPa": float(per_pass["max_range_MPa"].max()),
@@ -175,6 +186,11 @@ def point_values(
         "bending_ratio": of_governing("bending_ratio"),
         "life_km_raw_end": _life(float(weights @ np.array(raw_damage)), limit),
     }
+
+
+def most_missed(slope: float) -> float:
+    """Share of the damage that may come from above the upper frequency before there is no life from the spectrum."""
+    return float(np.interp(slope, [4.0, 5.0], [0.2, 0.35]))
 
 
 def _cycle_rows(cycles: RecountCycles, m: Floats, b: Floats, record: RecountRecord) -> dict[str, Floats]:

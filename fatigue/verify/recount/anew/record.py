@@ -120,11 +120,13 @@ def finer(q: Floats, factor: int, *, recurs: bool) -> Floats:
     return np.fft.ifft(padded, axis=1).real * factor
 
 
-def welch_moments(stress: Floats, step: float, rules: SpectrumRules) -> Floats | None:
+def welch_moments(stress: Floats, step: float, rules: SpectrumRules) -> tuple[Floats, Floats] | None:
     """Spectral moments 0, 1, 2, 4 of a stress history by Welch's method; None for a record below one segment.
 
+    First those up to the upper frequency, then those up to half the sampling rate.
+
     Segments overlap by half, lose their own mean and are tapered by a periodic Hann window; the trapezoid rule
-    integrates the one-sided density up to the upper frequency.
+    integrates the one-sided density.
     """
     n = round(rules.segment_s / step)
     if not 4 <= n <= len(stress):
@@ -141,4 +143,8 @@ def welch_moments(stress: Floats, step: float, rules: SpectrumRules) -> Floats |
         density[-1] /= 2
     f = np.arange(n // 2 + 1) / (n * step)
     used = f <= rules.upper_hz * (1 + 1e-9)
-    return np.array([np.trapezoid(f[used] ** p * density[used], f[used]) for p in (0, 1, 2, 4)])
+    band, whole = (
+        np.array([np.trapezoid(f[some] ** p * density[some], f[some]) for p in (0, 1, 2, 4)])
+        for some in (used, slice(None))
+    )
+    return band, whole

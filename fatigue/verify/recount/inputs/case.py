@@ -16,6 +16,8 @@ from fatigue.results import case_of, new_inputs
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 
+ROUND_OFF_HZ = 1e-3  # of a rigid mode
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountInputs:
@@ -42,7 +44,7 @@ class RecountModes:
     ----------
     mode : (m,) ids
     force_factor : (m,) turns the forces in the file into those on the element per unit coordinate of the simulation
-    highest_normal_hz : highest frequency of a normal mode, infinite without one
+    highest_normal_hz : highest frequency of a normal mode above round-off, infinite without one
     """
 
     mode: NDArray[np.int64]
@@ -117,9 +119,10 @@ def read_modes(inputs: RecountInputs) -> RecountModes:
     frame = inputs.frame("modes").sort_values("mode")
     frame = frame[~frame["mode"].isin(body.get("ignore_modes", []))]
     sign = {"on_element": 1.0, "on_node": -1.0}[body["force_convention"]]
-    normal = np.array([kind in ("", "normal") for kind in texts(frame, "kind")])
+    hertz = frame["frequency_hz"].to_numpy(dtype=float)
+    normal = np.array([kind in ("", "normal") for kind in texts(frame, "kind")]) & (hertz > ROUND_OFF_HZ)
     return RecountModes(
         mode=frame["mode"].to_numpy(dtype=np.int64),
         force_factor=sign * column(frame, "scale", 1.0),
-        highest_normal_hz=float(frame["frequency_hz"].to_numpy(dtype=float)[normal].max(initial=0.0)) or np.inf,
+        highest_normal_hz=float(hertz[normal].max(initial=0.0)) or np.inf,
     )

@@ -14,6 +14,7 @@ from fatigue.results import TABLES
 TOLERANCE = 1e-6  # two programs written apart agree to this
 LOAD_FACTOR_STEP = 2e-4  # below the largest factor that meets the target, where damage jumps or bends with the load
 UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa"}
+OF_SPECTRUM = {"irregularity", "outside_share", "peaks_per_s", "samples_per_peak"}  # exact where bounds stand, too
 LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
 
 
@@ -174,7 +175,7 @@ def compare_keys(table: str, found: pd.Index, keys: Sequence[Any]) -> ColumnChec
 
 def _is_undefined(name: str, row: Row) -> bool:
     """Whether a row that stands for a bound says nothing exact about a column."""
-    is_exact = "dirlik" in name or "_tb" in name or name in {"irregularity", "peaks_per_s", "samples_per_peak"}
+    is_exact = "dirlik" in name or "_tb" in name or name in OF_SPECTRUM
     missing = row.found[name] is None or row.found[name] != row.found[name]
     return missing or not (is_exact or name in UPPER_BOUNDS | LOWER_BOUNDS)
 

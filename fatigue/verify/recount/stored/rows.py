@@ -82,7 +82,7 @@ def damage_row(key: Key, event: RecountEvent, one: OnePass, found: Mapping[str, 
     largest, mean = one.quantities["max_range_MPa"], one.quantities["mean_stress_MPa"]
     if largest <= NEGLIGIBLE * abs(mean):  # a stress that stands still has no bandwidth and no bending ratio
         values = {name: value for name, value in values.items() if name.startswith(_OF_STILL_STRESS)}
-    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "mean_stress_MPa": largest}
+    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "outside_share": 1.0, "mean_stress_MPa": largest}
     return Row(f"{place(key)}, event '{event.name}'", found, values, scale, is_bound)
 
 
