@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import Event
+from fatigue.case import LARGEST_UPSAMPLE, Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
@@ -18,7 +18,6 @@ from fatigue.pipeline.count.worst import worst_points
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
-    LARGEST_UPSAMPLE,
     SAMPLES_PER_PEAK,
     load_of,
     shortened_record,
