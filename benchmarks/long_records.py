@@ -1,9 +1,9 @@
 """Peak memory of every command on long records: ``python -m benchmarks.long_records [case ...] [--keep DIR]``.
 
 Each command runs in a process of its own. ``VmHWM`` of the kernel is the largest resident memory ever; it counts pages
-of mapped files, too, which the kernel takes back when somebody needs them. ``RssAnon``, looked at every 5 ms, is what is
-the process's own. Both are given above a process that only imports what the command does. The bound is 500 MB and the
-histories as float32.
+of mapped files, too, which the kernel takes back when somebody needs them. ``RssAnon``, looked at every 5 ms, is what
+is the process's own. Both are given above a process that only imports what the commands do. The bound is 500 MB and
+the histories as float32.
 """
 
 import argparse

@@ -35,7 +35,7 @@ def slow_and_lines(q: Spool, mean: Floats, step: float, slow_hz: float, upper_hz
                 amplitude = _tapered(bins, begin + first, begin + last, samples)
                 found = stands_out_of_neighbours((amplitude.real**2 + amplitude.imag**2)[None])[0]
                 stands_out[first + inner.start : first + inner.stop] |= found[inner]
-    lines = stands_out.copy()  # a tapered tone reaches into the bins beside it, whether or not they stand out themselves
+    lines = stands_out.copy()  # a tapered tone reaches into the bins beside it
     lines[1:] |= stands_out[:-1]
     lines[:-1] |= stands_out[1:]
     chosen = begin + np.flatnonzero(lines)

@@ -1,8 +1,8 @@
 """Every cycle of a long record, piece by piece, as ``rainflow`` lists them: same cycles, same order.
 
-The stress comes in chunks of time. Of a block that recurs the largest sample is found first; counting begins there, goes
-to the end of the record and on from its first sample. Between two chunks only the reversals wait that are open, with
-their membrane and bending stress, so that memory does not grow with the record.
+The stress comes in chunks of time. Of a block that recurs the largest sample is found first; counting begins there,
+goes to the end of the record and on from its first sample. Between two chunks only the reversals wait that are open,
+with their membrane and bending stress, so that memory does not grow with the record.
 """
 
 from collections.abc import Callable, Iterator
@@ -51,7 +51,7 @@ class _Now(NamedTuple):
 
 
 def long_cycles(chunks: Chunks, side: float, residue: Residue) -> Iterator[Piece]:
-    """Cycles of ``membrane + side * bending``, whose chunks (t,) of time an iterator gives from ``chunks``, in order."""
+    """Cycles of ``membrane + side * bending``; ``chunks()`` gives both (t,), chunk of time after chunk, anew."""
     recurs = residue == "repeat"
     first = _largest_sample(chunks, side) if recurs else 0
     stack = _Open(np.empty((64, 3)), np.empty(64, np.int64))

@@ -1,7 +1,8 @@
 """Trigonometric interpolation of a long record in scratch files: shifted by parts of a sample, each shift by itself.
 
-The value p / f of a sample behind every sample is the inverse transform of ``X[k] exp(2 pi i k p / (f n))``, with k from
--n/2 to n/2 and half the Nyquist line at either end. Two real shifts are found at a time, one in the imaginary part.
+The value p / f of a sample behind every sample is the inverse transform of ``X[k] exp(2 pi i k p / (f n))``, with k
+from -n/2 to n/2 and half the Nyquist line at either end. Two real shifts are found at a time, one in the imaginary
+part.
 """
 
 import numpy as np

@@ -109,9 +109,7 @@ def _read_long(
     return ModalHistory(event, modes, q, times.step(STEP_TOLERANCE), times.first), table.warnings
 
 
-def _long(
-    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool
-) -> tuple[Table, list[str]]:
+def _long(path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool) -> tuple[Table, list[str]]:
     """Open a long table and match its columns with the modes; what is not right is left to ``_open``."""
     table = long_table(path)
     names = _columns(table, modes, ignore_modes, strict)

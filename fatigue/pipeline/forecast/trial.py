@@ -49,7 +49,7 @@ class JobTime:
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
     ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
-    points by default.
+    points by default, ``upsample`` is the factor by which records are upsampled, found at the longest one.
     """
 
     start: float
@@ -59,6 +59,7 @@ class JobTime:
     tables: float
     report: float
     screened: bool
+    upsample: int
 
     @property
     def total(self) -> float:
@@ -138,6 +139,7 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,
+        upsample=factor,
     )
 
 
