@@ -25,6 +25,9 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
+from fatigue.pipeline.forecast.needs import JobNeeds, job_needs
+from fatigue.pipeline.forecast.size import JobSize, job_size
+from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
@@ -134,7 +137,8 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            stage("preparing the records of the events (%d)", len(plan.passes))
+            needs = foretold(job_size(body, plan, share=share, threads=threads, report=report), folder)
+            stage("preparing the records of the events (%d); %s expected", len(plan.passes), needs.as_text())
             work = open_work(groups, plan, options, state.folder, threads)
             give_back()
             if executor is None:
@@ -179,6 +183,15 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
     if executor is not None and not callable(getattr(executor, "submit", None)):
         what = f"{type(executor).__name__} is no executor"
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
+
+
+def foretold(size: JobSize, folder: Path) -> JobNeeds:
+    """What a job needs, told to the log, with a warning where the machine lacks it."""
+    needs = job_needs(size)
+    for problem in shortage_warnings(needs, folder):
+        log.warning("%s", problem)
+    log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
+    return needs
 
 
 def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
@@ -269,9 +282,7 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 
 def body_doubts(body: Body, work: Work, done: Tally) -> list[Problem]:
-    """Warnings that only all welds together give: loads that are not there, stress beyond metal, coarse records,
-    content outside the band of the spectra.
-    """
+    """Warnings that only all welds together give: about loads that are not there, stress, sampling and spectra."""
     files = [event.history for event in body.case.mission.event]
     of_stress = done.stress.doubts(work.loads, body.modes.mode, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))

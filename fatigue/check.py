@@ -14,9 +14,12 @@ from typing import Any
 
 from fatigue.case import Case, given_case
 from fatigue.errors import Problem
+from fatigue.pipeline.forecast.band_trial import band_warnings
+from fatigue.pipeline.forecast.needs import job_needs, size_text
+from fatigue.pipeline.forecast.size import job_size
+from fatigue.pipeline.forecast.spare import shortage_warnings
+from fatigue.pipeline.forecast.trial import JobTime, job_time
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.run.band_trial import band_warnings
-from fatigue.pipeline.run.trial import JobTime, job_time
 from fatigue.pipeline.solve.absent_loads import load_doubts
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
@@ -34,7 +37,9 @@ class CheckedCase:
     Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded and ``candidates``
     are candidates. ``samples`` are stress samples of one face: stations times kept samples, over all events.
     ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` the time
-    with every point counted, ``estimate`` what they consist of. ``warnings`` are summed up as in an assessment.
+    with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
+    takes, ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
+    ``warnings`` are summed up as in an assessment.
     """
 
     title: str
@@ -49,6 +54,9 @@ class CheckedCase:
     distance_km: float
     estimated_s: float
     estimated_exact_s: float
+    estimated_memory_MB: float  # noqa: N815 - the unit keeps its spelling
+    estimated_scratch_MB: float  # noqa: N815
+    estimated_result_MB: float  # noqa: N815
     estimate: JobTime
     warnings: tuple[Problem, ...]
 
@@ -77,6 +85,11 @@ class CheckedCase:
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",
                 f"  estimated time   {_time_text(self.estimate)}",
+                (
+                    f"  estimated space  {size_text(1e6 * self.estimated_memory_MB)} of memory, "
+                    f"{size_text(1e6 * self.estimated_scratch_MB)} of scratch files, "
+                    f"{size_text(1e6 * self.estimated_result_MB)} of result"
+                ),
                 f"  warnings         {sum(warning.count for warning in self.warnings)}",
             ]
         )
@@ -115,6 +128,8 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         sample = solve_group(groups, len(groups) // 2)
         estimate = job_time(plan, sample, stations, read_s, Path(scratch))
         warnings.add(band_warnings(sample, plan, Path(scratch)))
+    needs = job_needs(job_size(body, plan, factors=(estimate.upsample,) * len(plan.passes)))
+    warnings.add(tuple(shortage_warnings(needs, case.path.parent)))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
         title=case.title,
@@ -129,6 +144,9 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         distance_km=sum(p.length or 0.0 for p in plan.passes),
         estimated_s=estimate.total,
         estimated_exact_s=estimate.total_exact,
+        estimated_memory_MB=round(needs.memory / 1e6, 1),
+        estimated_scratch_MB=round(needs.scratch / 1e6, 1),
+        estimated_result_MB=round(needs.result / 1e6, 1),
         estimate=estimate,
         warnings=warnings.listed(),
     )

@@ -6,9 +6,10 @@ what is wrong with it in the words of the file, ``doubts`` what is allowed and h
 
 from fatigue.case.doubts import case_doubts
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
-from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
+from fatigue.case.tables import LARGEST_UPSAMPLE, Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 
 __all__ = [
+    "LARGEST_UPSAMPLE",
     "Body",
     "Case",
     "Counting",

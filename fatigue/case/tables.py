@@ -16,6 +16,7 @@ from fatigue.life.curves import Applies, Extension, Survival, ThicknessRule
 from fatigue.life.records.history import Residue
 
 BODY_FILES = ("modes", "welds", "weld_nodes", "nodal_forces", "element_forces", "weld_elements", "nodes", "elements")
+LARGEST_UPSAMPLE = 64  # peaks come at half the sampling rate at most: 128 samples per peak, of the damage 1e-4 k lost
 
 _Positive: TypeAlias = Annotated[float, Field(gt=0)]
 _NotNegative: TypeAlias = Annotated[float, Field(ge=0)]
@@ -161,17 +162,22 @@ class Counting(_Table):
     """How cycles are counted."""
 
     residue: Residue = Field(default="repeat", description="the treatment of the residue: 'repeat' or 'half'")
-    upsample: int | Literal["auto"] = Field(
-        default=1, description="the upsampling factor before counting: 1, 2, 4, 8 ... or 'auto'"
+    upsample: Annotated[int, Field(ge=1, le=LARGEST_UPSAMPLE)] | Literal["auto"] = Field(
+        default=1, description=f"the upsampling factor before counting: 1, 2, 4 ... {LARGEST_UPSAMPLE} or 'auto'"
     )
 
     @field_validator("upsample", mode="before")
     @classmethod
     def _power_of_two(cls, value: object) -> object:
         whole = isinstance(value, int) and not isinstance(value, bool)
-        if value == "auto" or (whole and value > 0 and value & (value - 1) == 0):  # type: ignore[operator]
-            return value
-        raise ValueError(f"{value!r} is neither a power of 2 nor 'auto'")
+        if not (value == "auto" or (whole and value > 0 and value & (value - 1) == 0)):  # type: ignore[operator]
+            raise ValueError(f"{value!r} is neither a power of 2 nor 'auto'")
+        if value != "auto" and value > LARGEST_UPSAMPLE:  # type: ignore[operator]
+            raise ValueError(
+                f"{value} is above {LARGEST_UPSAMPLE}, with which no record has less than {2 * LARGEST_UPSAMPLE} "
+                "samples per peak ('auto' takes what gives 20)"
+            )
+        return value
 
 
 class Spectrum(_Table):

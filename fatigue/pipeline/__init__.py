@@ -5,4 +5,5 @@
 ``count``    stations and events -> damage, life and what goes with them, in few arrays
 ``run``      group after group, in threads or other processes, and what an interrupted run leaves
 ``tables``   these arrays -> the rows of the result tables, their provenance and the warnings
+``forecast`` the size of a job -> time, memory and disk that it will take
 """

@@ -14,6 +14,7 @@ from fatigue.files.hashes import sha256
 from fatigue.life.records.history import ModalHistory, kept
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.history import read_history
+from fatigue.readers.neutral.long_history import is_long
 from fatigue.readers.neutral.register.weld_register import REGISTER
 from fatigue.results import case_of
 
@@ -33,8 +34,10 @@ class FoundInputs:
     modes: tuple[int, ...]
     outdated: tuple[Problem, ...] = ()
 
-    def history(self, event: Event) -> ModalHistory:
+    def history(self, event: Event, scratch: Path | None = None) -> ModalHistory:
         """Read the kept record of an event as it was assessed, stress factor not applied.
+
+        A long one goes to the file ``scratch``, if one is given.
 
         Raises
         ------
@@ -42,7 +45,10 @@ class FoundInputs:
         """
         path = self._unchanged(event.history)
         ignored = self.case.body.ignore_modes
-        whole, _ = read_history(path, event.name, np.array(self.modes, dtype=np.int64), ignored, strict=False)
+        modes = np.array(self.modes, dtype=np.int64)
+        whole, _ = read_history(
+            path, event.name, modes, ignored, strict=False, scratch=scratch if is_long(path) else None
+        )
         return kept(whole, event.start_s)
 
     def mesh(self) -> Mesh | None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.life.rule import cycle_damage
 from fatigue.report.domains import Domains, read_domains
+from fatigue.report.merged_cycles import MOST_ROWS, MergedCycles, ShownPoint, merged_cycles
+from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import (
     assessed,
     read_provenance,
@@ -17,6 +21,7 @@ from fatigue.results import (
     read_table,
     read_welds,
     refuse_mixed,
+    row_count,
     rows_of_welds,
     worst_toes,
 )
@@ -42,7 +47,8 @@ class ShownResult:
     domains : both domains at the points of all welds
     detailed : the welds, worst first, whose worst point is shown in detail
     damage : the worst points of the detailed welds only
-    cycle_rows : of each detailed weld, row numbers in the table of cycles
+    cycle_rows : of each detailed weld, row numbers in the table of cycles; none where these are merged
+    merged : of each detailed weld that has cycles, its merged cycles, where the table of cycles is very long
     folder : where the tables lie
     """
 
@@ -57,6 +63,7 @@ class ShownResult:
     detailed: tuple[str, ...]
     damage: pd.DataFrame
     cycle_rows: Mapping[str, NDArray[np.int64]]
+    merged: Mapping[str, MergedCycles]
     folder: Path
 
     @property
@@ -79,7 +86,9 @@ class ShownResult:
         return self._worst_of(weld, self.nodes[self.nodes["weld"] == weld]).iloc[0]
 
     def cycles(self, weld: str, columns: Sequence[str] = _OF_CYCLE) -> pd.DataFrame:
-        """Read the cycles of a detailed weld's worst point; none where they are not kept."""
+        """Read the cycles of a detailed weld's worst point, of a very long table merged; none where not kept."""
+        if weld in self.merged:
+            return self.merged[weld].rows[list(columns)]
         cycles = read_rows(self.folder, "cycles", self.cycle_rows[weld], [*POINT, *columns]).to_pandas()
         return self._worst_of(weld, cycles).reset_index(drop=True)
 
@@ -127,6 +136,7 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     detailed = tuple(rows["weld"].head(most_detailed))
     fitting = int(np.searchsorted(rows["nodes"].cumsum(), most_stations, side="right"))
     drawn = tuple(rows["weld"].head(max(fitting, most_detailed)))
+    is_long = row_count(folder, "cycles") > MOST_ROWS
     return ShownResult(
         record=record,
         welds=welds,
@@ -138,9 +148,27 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
         domains=domains,
         detailed=detailed,
         damage=rows_of_worst_points(folder, "damage", rows, detailed),
-        cycle_rows=rows_of_welds(folder, "cycles", detailed),
+        cycle_rows=rows_of_welds(folder, "cycles", () if is_long else detailed),
+        merged=_merged(folder, record, rows[rows["weld"].isin(detailed)]) if is_long else {},
         folder=folder,
     )
+
+
+def _merged(folder: Path, record: Mapping[str, Any], welds: pd.DataFrame) -> dict[str, MergedCycles]:
+    """Merged cycles of the worst points of some welds."""
+    passes = {event["event"]: float(event["passes_per_km"]) for event in record["mission"]["events"]}
+    points = {}
+    for row in welds.to_dict("records"):
+        law = law_of(assumptions_of(record, row["curve"]))
+        points[str(row["weld"])] = ShownPoint(
+            part=int(row["worst_part"]),
+            order=int(row["worst_order"]),
+            surface=str(row["worst_surface"]),
+            slope=float(law.slopes[0]),
+            damage=partial(cycle_damage, law=law),
+            passes_per_km=passes,
+        )
+    return merged_cycles(folder, points, list(passes))
 
 
 def rows_of(folder: Path, table: str, welds: Sequence[str], columns: Sequence[str] | None = None) -> pd.DataFrame:

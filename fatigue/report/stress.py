@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.records.history import ModalHistory, mean_and_covariance, stress_history
+from fatigue.life.records.history import ModalHistory, mean_and_covariance, stress_chunks, stress_history
+from fatigue.life.records.spool import Samples, Spool, SpoolWriter
 from fatigue.spectrum.moments import cross_densities, has_spectrum, segment_spectra
 
 CLOSE_UP_SAMPLES = 75  # before and after an instant of a cycle
@@ -69,7 +70,7 @@ def spectrum(
     if not has_spectrum(record.history, segment_s):
         return None
     history = record.history
-    stress = replace(history, q=stress_history(record.stress_factor * modal_stress[None], history.q))
+    stress = replace(history, q=_stress(record.stress_factor * modal_stress[None], history.q))
     spectra = segment_spectra(stress, segment_s, upper_hz)
     return StressSpectrum(history.event, spectra.frequency, cross_densities(spectra)[:, 0, 0])
 
@@ -113,14 +114,33 @@ def excerpts(
 def envelope(record: EventRecord, modal_stress: NDArray[np.float64]) -> Envelope:
     """Extremes of the stress over the whole kept record, in at most ``ENVELOPE_BINS`` spans."""
     history = record.history
-    stress = stress_history(record.stress_factor * modal_stress, history.q)
-    starts = np.linspace(0, len(stress), min(ENVELOPE_BINS, len(stress)), endpoint=False).astype(np.int64)
+    samples = history.q.shape[1]
+    starts = np.linspace(0, samples, min(ENVELOPE_BINS, samples), endpoint=False).astype(np.int64)
+    low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
+    begin = 0
+    for stress in stress_chunks(record.stress_factor * modal_stress, history.q):
+        first = int(np.searchsorted(starts, begin, side="right")) - 1  # the span that the chunk begins in
+        last = int(np.searchsorted(starts, begin + len(stress)))
+        at = np.maximum(starts[first:last] - begin, 0)
+        low[first:last] = np.minimum(low[first:last], np.minimum.reduceat(stress, at))
+        high[first:last] = np.maximum(high[first:last], np.maximum.reduceat(stress, at))
+        begin += len(stress)
     return Envelope(
         event=history.event,
         time=np.asarray(history.start + history.step * starts, dtype=np.float64),
-        low=np.minimum.reduceat(stress, starts),
-        high=np.maximum.reduceat(stress, starts),
+        low=low,
+        high=high,
     )
+
+
+def _stress(modal_stress: NDArray[np.float64], q: Samples) -> Samples:
+    """Stress histories (n, t) [MPa], in a file beside a record that is on disk."""
+    if not isinstance(q, Spool):
+        return stress_history(modal_stress, q)
+    with SpoolWriter(q.path.with_name("stress"), len(modal_stress), np.dtype(np.float64)) as writer:
+        for chunk in stress_chunks(modal_stress, q):
+            writer.append(chunk)
+    return writer.spool()
 
 
 def deviations(record: EventRecord, modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.life.curves import Extension, SNCurve, Survival, ThicknessRule, damage_law
+from fatigue.life.curves import DamageLaw, Extension, SNCurve, Survival, ThicknessRule, damage_law
 from fatigue.life.rule import cycle_damage, ratio_factor, size_factor
 
 EXTENSIONS: dict[Extension, str] = {"none": "no knee", "haibach": "Haibach", "cutoff": "cut-off"}
@@ -56,9 +56,13 @@ def damage_per_km(
     equivalent_range: NDArray[np.float64], per_km: NDArray[np.float64], assumptions: Assumptions
 ) -> float:
     """Miner sum per km [1/km] of cycles of these equivalent ranges, each occurring ``per_km`` times."""
+    return float(np.sum(per_km * cycle_damage(equivalent_range, law_of(assumptions))))
+
+
+def law_of(assumptions: Assumptions) -> DamageLaw:
+    """Damage law of a curve under these assumptions."""
     survival = cast(Survival, assumptions.survival) if assumptions.curve.has_scatter else None
-    law = damage_law(assumptions.curve, survival, assumptions.extension, assumptions.knee_cycles)
-    return float(np.sum(per_km * cycle_damage(equivalent_range, law)))
+    return damage_law(assumptions.curve, survival, assumptions.extension, assumptions.knee_cycles)
 
 
 def variants(

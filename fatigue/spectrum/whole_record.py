@@ -1,6 +1,6 @@
 """What a record holds that no spectrum of it can: content slower than ten cycles per record, and steady tones.
 
-Both are shares of the variance, so again one matrix each serves all points.
+Both are shares of the variance, so again one matrix each serves all points. For long records see ``long_record``.
 """
 
 from dataclasses import dataclass
@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.records.history import ModalHistory, mean_and_covariance
-from fatigue.life.records.spool import Samples
+from fatigue.life.records.history import LONGEST_TRANSFORM, ModalHistory, mean_and_covariance
+from fatigue.life.records.spool import Samples, Spool
+from fatigue.spectrum.long_record import slow_and_lines
 from fatigue.spectrum.taper import tapered
+from fatigue.spectrum.tones import stands_out_of_neighbours
 
 SLOWEST_HZ = 0.3
 SLOWEST_CYCLES = 10.0  # per record; fewer are an event, not a spectrum
-LINE_OVER_MEDIAN = 20.0  # one bin of noise in a million stands out so far
 NUMBERS_AT_ONCE = 2_000_000  # of the whole record's spectra: 32 MB
 UNDER_WINDOW = 8 / 3  # variance of a tone over that under the Hann window, whose mean square is 3/8
 CACHED_NUMBERS = 250_000  # samples in double precision: 2 MB
-LINE_BLOCK = 16  # bins of a local median: narrow against resonances, wide against the four bins of a tapered tone
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,9 +45,14 @@ def record_matrices(history: ModalHistory, upper_hz: float) -> RecordMatrices:
     """Covariance of the whole record and its parts; lines are looked for between the slow part and ``upper_hz`` [Hz].
 
     Some modes are transformed at a time, at least one, in about seven times the memory of their samples in double
-    precision.
+    precision; a long record on disk is transformed in files beside it.
     """
     modes, samples = history.q.shape
+    if isinstance(history.q, Spool) and samples > LONGEST_TRANSFORM:
+        slow_hz = max(SLOWEST_HZ, SLOWEST_CYCLES / history.duration)
+        mean, covariance = mean_and_covariance(history.q)
+        slow_part, line_part = slow_and_lines(history.q, mean, history.step, slow_hz, upper_hz)
+        return RecordMatrices(mean, covariance, slow_part, UNDER_WINDOW * line_part, slow_hz)
     frequency = np.fft.rfftfreq(samples, history.step)
     slow_hz = max(SLOWEST_HZ, SLOWEST_CYCLES / history.duration)
     slow = slice(1, max(1, int(np.searchsorted(frequency, slow_hz))))
@@ -62,7 +67,7 @@ def record_matrices(history: ModalHistory, upper_hz: float) -> RecordMatrices:
         spectrum = _spectrum(history.q, some, mean)
         slowly[some] = spectrum[:, slow]
         amplitude = tapered(spectrum, samples, fast)
-        stands_out |= _stands_out(amplitude.real**2 + amplitude.imag**2).any(axis=0)
+        stands_out |= stands_out_of_neighbours(amplitude.real**2 + amplitude.imag**2).any(axis=0)
     # A tapered tone reaches into the bins beside it, whether or not they stand out themselves.
     lines = stands_out.copy()
     lines[1:] |= stands_out[:-1]
@@ -112,21 +117,3 @@ def _spectrum(q: Samples, some: slice, mean: NDArray[np.float64]) -> NDArray[np.
     spectrum = np.fft.rfft(coordinates, axis=1)
     spectrum *= np.sqrt(2) / coordinates.shape[1]
     return spectrum
-
-
-def _stands_out(power: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether each bin, (n, f), is far above the medians of its block and the blocks beside it.
-
-    So the edge of a band is no tone.
-    """
-    blocks = power.shape[1] // LINE_BLOCK
-    if blocks == 0:
-        return np.zeros(power.shape, dtype=np.bool_)
-    half = LINE_BLOCK // 2
-    block = power[:, : blocks * LINE_BLOCK].reshape(-1, blocks, LINE_BLOCK)
-    median = np.partition(block, (half - 1, half), axis=2)[:, :, half - 1 : half + 1].mean(axis=2)
-    median = np.concatenate([median[:, :1], median, median[:, -1:]], axis=1)
-    around = np.maximum(np.maximum(median[:, :-2], median[:, 1:-1]), median[:, 2:])
-    # An incomplete last block joins the one before it.
-    of_bin = np.minimum(np.arange(power.shape[1]) // LINE_BLOCK, blocks - 1)
-    return np.asarray(power > LINE_OVER_MEDIAN * around[:, of_bin])

@@ -8,10 +8,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.records.long_interpolation import interpolate_long
 from fatigue.life.records.spool import Samples, Spool, create_spool, time_slices
 
 CACHED_NUMBERS = 125_000  # in double precision: 1 MB
 SHORTEST_CHUNK = 64  # samples
+LONGEST_TRANSFORM = 1_000_000  # samples of a record on disk whose transforms are made in memory: 56 MB
 
 Residue = Literal["repeat", "half"]
 
@@ -61,11 +63,17 @@ def stress_history(modal_stress: NDArray[np.float64], q: Samples) -> NDArray[np.
     """
     stress = np.empty((*modal_stress.shape[:-1], q.shape[1]))
     first = 0
-    for chunk in cached_chunks(q):
-        end = first + chunk.shape[1]
-        stress[..., first:end] = modal_stress @ chunk.astype(np.float64, copy=False)
+    for chunk in stress_chunks(modal_stress, q):
+        end = first + chunk.shape[-1]
+        stress[..., first:end] = chunk
         first = end
     return stress
+
+
+def stress_chunks(modal_stress: NDArray[np.float64], q: Samples) -> Iterator[NDArray[np.float64]]:
+    """Chunks (..., t) of what ``stress_history`` recovers, one after the other."""
+    for chunk in cached_chunks(q):
+        yield modal_stress @ chunk.astype(np.float64, copy=False)
 
 
 def mean_and_covariance(q: Samples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -104,7 +112,8 @@ def upsampled(history: ModalHistory, factor: int, residue: Residue, scratch: Pat
 
     A record that repeats is periodic as it stands; a single pass is mirrored about its ends first, so that no jump
     between its last and first sample rings through it. One mode is transformed at a time, in about five times the
-    memory of its fine samples, ten times for a single pass. The result goes to the file ``scratch``, if one is given.
+    memory of its fine samples, ten times for a single pass. The result goes to the file ``scratch``, if one is given;
+    a long record is transformed in files beside it then.
     """
     if factor == 1:
         return history
@@ -112,7 +121,11 @@ def upsampled(history: ModalHistory, factor: int, residue: Residue, scratch: Pat
     shape = (modes, samples * factor if residue == "repeat" else (samples - 1) * factor + 1)
     double = np.dtype(np.float64)
     fine: Samples = np.empty(shape) if scratch is None else create_spool(scratch, shape, double)
+    period = samples if residue == "repeat" else 2 * (samples - 1)
     for mode in range(modes):
+        if isinstance(fine, Spool) and period * factor > LONGEST_TRANSFORM:
+            interpolate_long(history.q, fine, mode, factor, period)
+            continue
         q = history.q[mode : mode + 1, :].astype(np.float64)
         if residue == "half":
             q = np.concatenate([q, q[:, -2:0:-1]], axis=1)

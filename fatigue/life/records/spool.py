@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +60,7 @@ class Spool:
             for columns, start, width, inside in self._chunks(first, end):
                 for mode, row in zip(range(first_mode, end_mode), values, strict=True):
                     file.seek((start + mode * width + inside.start) * self.dtype.itemsize)
-                    _write(file, np.ascontiguousarray(row[columns], dtype=self.dtype))
+                    write_all(file, np.ascontiguousarray(row[columns], dtype=self.dtype))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[np.floating]:
         """Read all of it, for ``np.asarray``."""
@@ -108,12 +108,61 @@ def create_spool(path: Path, shape: tuple[int, int], dtype: np.dtype[np.floating
     return Spool(path, shape, dtype)
 
 
+class SpoolWriter:
+    """Writes modal coordinates of a length that is not known yet, samples after samples, chunk by chunk."""
+
+    def __init__(self, path: Path, modes: int, dtype: np.dtype[np.floating]) -> None:
+        self._path, self._modes, self._dtype = path, modes, dtype
+        self._waiting, self._held, self._samples = np.empty((modes, CHUNK), dtype), 0, 0
+
+    def __enter__(self) -> Self:
+        """Open the file.
+
+        Raises
+        ------
+        DataError : the place cannot be written
+        """
+        with refused_writing(self._path):
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            self._file = self._path.open("wb", buffering=0)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Write the last chunk and close the file."""
+        with refused_writing(self._path), self._file:
+            write_all(self._file, np.ascontiguousarray(self._waiting[:, : self._held]))
+
+    def append(self, samples: NDArray[np.floating]) -> None:
+        """Append samples (m, t).
+
+        Raises
+        ------
+        DataError : the disk is full
+        """
+        first = 0
+        while first < samples.shape[1]:
+            some = min(CHUNK - self._held, samples.shape[1] - first)
+            self._waiting[:, self._held : self._held + some] = samples[:, first : first + some]
+            first += some
+            self._held += some
+            self._samples += some
+            if self._held == CHUNK:
+                with refused_writing(self._path):
+                    write_all(self._file, self._waiting)
+                self._held = 0
+
+    def spool(self) -> Spool:
+        """What was written, once the file is closed."""
+        return Spool(self._path, (self._modes, self._samples), self._dtype)
+
+
 def time_slices(shape: tuple[int, ...]) -> Iterator[slice]:
     """Cut the samples of modal coordinates (m, t) so that a chunk in double precision takes 16 MB, 32 kB at least."""
     width = max(CHUNK, AT_ONCE // shape[0] // CHUNK * CHUNK)
     return (slice(first, min(first + width, shape[1])) for first in range(0, shape[1], width))
 
 
-def _write(file: BinaryIO, values: NDArray[np.floating]) -> None:
+def write_all(file: BinaryIO, values: NDArray[np.inexact]) -> None:
+    """Write numbers to a file without a buffer; an ``OSError`` where only a part could be written."""
     if file.write(values.tobytes()) != values.nbytes:
         raise OSError(errno.ENOSPC, "only a part could be written")

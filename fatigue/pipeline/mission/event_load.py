@@ -1,5 +1,6 @@
 """What an event brings to every station: its record ready to be counted, and its second-order statistics."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from fatigue.life.records.spool import Samples, Spool, create_spool
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, spectra_above
 from fatigue.spectrum.trust import TrustMatrices, trust_matrices
 
-HELD_SINGLE = 256e6  # bytes of one record
+HELD_SINGLE = 256e6  # bytes of one record, and of all that are longer than they were given
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,13 +68,14 @@ class HowCounted:
     """How the record of an event is to be counted.
 
     ``residue`` and ``stress_factor`` are the same as of ``EventLoad``; ``upsample`` is how many samples one becomes;
-    ``single``: by the kernel in single precision.
+    ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
     """
 
     residue: Residue
     stress_factor: float = 1.0
     upsample: int = 1
     single: bool = False
+    held: bool = True
 
 
 def prepare_event(
@@ -97,7 +99,7 @@ def prepare_event(
     known = (mean, covariance) if counted is history else None
     return EventLoad(
         counted=counted,
-        single=kept_single_record(counted.q, scratch, known) if how.single else None,
+        single=kept_single_record(counted.q, scratch, known, held=how.held) if how.single else None,
         residue=how.residue,
         stress_factor=how.stress_factor,
         duration=history.duration,
@@ -117,19 +119,37 @@ def _pairs(moments: MomentMatrices | None) -> tuple[FormPair, ...]:
     return () if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:]))
 
 
+def held_copies(modes: int, given: Sequence[int], counted: Sequence[int]) -> list[bool]:
+    """Whether the copy in single precision of each event is held in memory.
+
+    ``given`` and ``counted`` are the samples of its record as it was read, and as it is counted. Copies that are no
+    longer than ``HELD_SINGLE`` are held, the shortest first, as long as all of them together are no longer than that
+    or than all records were.
+    """
+    sizes = 4.0 * modes * np.asarray(counted)
+    order = np.argsort(sizes, kind="stable")
+    held = np.empty(len(sizes), dtype=np.bool_)
+    held[order] = np.cumsum(sizes[order]) <= max(HELD_SINGLE, 4.0 * modes * sum(given))
+    return [bool(fits) for fits in held & (sizes <= HELD_SINGLE)]
+
+
 def kept_single_record(
-    q: Samples, scratch: Path | None, known: tuple[NDArray[np.float64], NDArray[np.float64]] | None
+    q: Samples,
+    scratch: Path | None,
+    known: tuple[NDArray[np.float64], NDArray[np.float64]] | None,
+    *,
+    held: bool,
 ) -> SingleRecord:
     """Modal coordinates prepared for the kernel in single precision.
 
-    Of a record on disk the copy in single precision is held in memory if it is not longer than ``HELD_SINGLE``; else it
-    goes to the folder ``scratch``. ``known`` are their mean and covariance, None: to be computed.
+    Of a record on disk the copy in single precision is ``held`` in memory or goes to the folder ``scratch``. ``known``
+    are their mean and covariance, None: to be computed.
 
     Raises
     ------
     NumericalError : a sample is not finite; DataError : the disk is full
     """
-    if not isinstance(q, Spool) or scratch is None or 4 * q.shape[0] * q.shape[1] <= HELD_SINGLE:
+    if held or not isinstance(q, Spool) or scratch is None:
         return single_record(q, known=known)
     path = scratch / f"{q.path.parent.name}-{q.path.name}-normalised"  # one folder may serve several events
     return single_record(q, create_spool(path, q.shape, np.dtype(np.float32)), known)

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Event
+from fatigue.case import LARGEST_UPSAMPLE, Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import ModalHistory, kept
-from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, prepare_event
+from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, held_copies, prepare_event
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
@@ -34,7 +34,6 @@ from fatigue.spectrum.outside import peak_rate
 log = logging.getLogger(__name__)
 
 SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
-LARGEST_UPSAMPLE = 64
 DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (3e-7 of damage)
 RECORD = "record"  # file of the samples as they were read
 HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
@@ -63,19 +62,29 @@ def event_loads(
             log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
 
-    def prepared(job: tuple[Event, int, Path | None]) -> EventLoad:
-        event, upsample, folder = job
-        return event_load(body, event, upsample, single=single, scratch=folder)
+    given = [p.samples for p in plan.passes]
+    held = held_copies(len(body.modes.mode), given, [f * n for f, n in zip(factors, given, strict=True)])
 
-    jobs = zip(events, factors, _folders(bytes_held, scratch), strict=True)
+    def prepared(job: tuple[Event, int, Path | None, bool]) -> EventLoad:
+        event, upsample, folder, holds = job
+        return event_load(body, event, upsample, single=single, scratch=folder, holds_single=holds)
+
+    jobs = zip(events, factors, _folders(bytes_held, scratch), held, strict=True)
     return tuple(in_order(prepared, jobs, threads))
 
 
 def event_load(
-    body: Body, event: Event, upsample: int, *, single: bool = False, scratch: Path | None = None
+    body: Body,
+    event: Event,
+    upsample: int,
+    *,
+    single: bool = False,
+    scratch: Path | None = None,
+    holds_single: bool = True,
 ) -> EventLoad:
     """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
-    load = load_of(body, event, _record(body, event, scratch), upsample, single=single, scratch=scratch)
+    how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single, holds_single)
+    load = _load_of(body, _record(body, event, scratch), how, scratch)
     if upsample > 1 and scratch is not None:
         (scratch / RECORD).unlink()
     return load
@@ -89,28 +98,31 @@ def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> M
     return shortened
 
 
-def load_of(
-    body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool, scratch: Path | None = None
-) -> EventLoad:
+def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool) -> EventLoad:
+    """What all stations share of a record in memory."""
+    return _load_of(body, history, HowCounted(body.case.residue(event), event.stress_factor, upsample, single))
+
+
+def _load_of(body: Body, history: ModalHistory, how: HowCounted, scratch: Path | None = None) -> EventLoad:
     """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
     try:
         with np.errstate(over="raise", invalid="raise"):
-            how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
             return prepare_event(history, how, event_spectra(body, history), top_mode_hz(body), scratch)
     except FloatingPointError:
-        raise NumericalError(_too_large(event, history)) from None
+        raise NumericalError(_too_large(body, history)) from None
 
 
-def _too_large(event: Event, history: ModalHistory) -> Problem:
+def _too_large(body: Body, history: ModalHistory) -> Problem:
     """Refusal of a record whose squares exceed double precision, with the largest value in it."""
+    file = next(event.history for event in body.case.mission.event if event.name == history.event)
     largest, mode, at = 0.0, 0, 0
     for i in range(len(history.mode)):
         size = np.abs(history.q[i : i + 1, :])[0]
         if size.max() >= largest:
             largest, mode, at = float(size.max()), i, int(size.argmax())
-    what = f"modal coordinates of event '{event.name}' are so large that their squares exceed double precision: "
+    what = f"modal coordinates of event '{history.event}' are so large that their squares exceed double precision: "
     what += f"q_{history.mode[mode]} is {largest:g} at {history.start + at * history.step:g} s"
-    return Problem("overflow", event.history, what, "Look for a value that is far too large")
+    return Problem("overflow", file, what, "Look for a value that is far too large")
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:

@@ -5,10 +5,11 @@ from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.events import top_mode_hz
-from fatigue.pipeline.mission.record_doubts import RecordOutline, record_doubts
+from fatigue.pipeline.mission.record_doubts import EventRecord, record_doubts
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.history import TimeGrid, check_history
+from fatigue.readers.neutral.record_outline import RecordOutline
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import FREQUENCY_TOLERANCE, default_upper_hz, samples_per_segment, segment_count
 
@@ -25,27 +26,27 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
     warnings: list[Problem] = []
     problems: list[Problem] = []
     passes: list[Pass] = []
-    outlines: list[RecordOutline] = []
+    records: list[EventRecord] = []
     for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
         if isinstance(checked, FatigueError):
             problems += checked.problems
         else:
             passes.append(checked[0])
             warnings += checked[1]
-            outlines.append(checked[2])
+            records.append(checked[2])
     refuse(DataError, problems)
-    warnings += record_doubts(outlines, body.modes, body.case.path.name)
+    warnings += record_doubts(records, body.modes, body.case.path.name)
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], RecordOutline] | FatigueError:
-    """The passes of an event, the warnings about its record and its outline, or what is wrong with the record."""
+def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], EventRecord] | FatigueError:
+    """The passes of an event, the warnings about its record and the record, or what is wrong with the record."""
     case = body.case
     path = case.resolve(event.history)
-    outline = RecordOutline(event, path.name)
+    outline = RecordOutline(event.start_s)
     try:
         grid, warnings = check_history(
-            path, body.modes.mode, case.body.ignore_modes, strict=body.strict, look=outline.look
+            path, body.modes.mode, case.body.ignore_modes, strict=body.strict, outline=outline
         )
         refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
         samples = _kept_samples(case, event, grid)
@@ -59,7 +60,11 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], RecordOutli
         per_1000_km=event.per_1000_km,
     )
     warnings += step_warnings(grid, body.modes, path.name, event.name)
-    return one, warnings + _record_warnings(body, event, samples, grid.step), outline
+    return (
+        one,
+        warnings + _record_warnings(body, event, samples, grid.step),
+        EventRecord(event, path.name, grid, outline),
+    )
 
 
 def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:

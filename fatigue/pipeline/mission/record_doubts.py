@@ -5,9 +5,8 @@ stands for two events by mistake counts one of them twice and the other not at a
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,41 +18,21 @@ from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.record_units import FEWEST_SAMPLES
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.history import TimeGrid
+from fatigue.readers.neutral.record_outline import RecordOutline
 from fatigue.shown import few, shortened
 
-STILL = 1e-12  # of the largest value: what rounding leaves of a constant
-SAME = 1e-6  # of the range of a column: records in single and in double precision are the same
+SAME_STEP = 1e-6  # relative: times in single and in double precision
 _TOLD_APART = ("share", "per_1000_km", "speed_km_h", "length_km", "start_s", "residue")  # keys of two events
 
 
-@dataclass(slots=True, eq=False)
-class RecordOutline:
-    """What is kept of the record of one event once it has been read: where each mode begins, how far it goes.
-
-    Attributes
-    ----------
-    event : the event
-    file : name of its file
-    grid : its times
-    moves : (m,) whether each modal coordinate changes behind the start-up
-    samples : (m, 7) smallest, largest and mean value, and four samples, of the whole record
-    """
+@dataclass(frozen=True, slots=True, eq=False)
+class EventRecord:
+    """The record of an event once it has been read: name of its file, its times, and what is kept of its samples."""
 
     event: Event
     file: str
-    grid: TimeGrid = field(default_factory=lambda: TimeGrid(0, 0.0, 0.0))
-    moves: list[bool] = field(default_factory=list)
-    samples: list[NDArray[np.float64]] = field(default_factory=list)
-
-    def look(self, grid: TimeGrid, values: NDArray[Any]) -> None:
-        """Take in the samples of the next mode."""
-        self.grid = grid
-        kept = values[first_kept(grid.step, self.event.start_s) :]
-        low, high = float(kept.min(initial=np.inf)), float(kept.max(initial=-np.inf))
-        with np.errstate(over="ignore", invalid="ignore"):
-            self.moves.append(high - low > STILL * max(abs(low), abs(high)))
-            some = values[[0, values.size // 3, 2 * values.size // 3, -1]]
-            self.samples.append(np.array([values.min(), values.max(), values.mean(dtype=np.float64), *some]))
+    grid: TimeGrid
+    outline: RecordOutline
 
     @property
     def kept_samples(self) -> int:
@@ -62,19 +41,16 @@ class RecordOutline:
 
     def bends(self, modes: Modes) -> bool:
         """Whether any mode moves that bends the body."""
-        return bool(np.any(np.array(self.moves) & _bends(modes)))
+        return bool(np.any(self.outline.moves & _bends(modes)))
 
-    def equals(self, other: "RecordOutline") -> bool:
+    def equals(self, other: "EventRecord") -> bool:
         """Whether both records have the same samples."""
-        if self.grid.samples != other.grid.samples or not np.isclose(self.grid.step, other.grid.step, rtol=SAME):
-            return False
-        mine, its = np.array(self.samples), np.array(other.samples)
-        with np.errstate(over="ignore", invalid="ignore"):
-            size = np.maximum(mine[:, 1] - mine[:, 0], np.abs(mine[:, 1]) * SAME)[:, np.newaxis]
-            return bool(np.all((mine == its) | (np.abs(mine - its) <= SAME * size)))
+        mine, its = self.grid, other.grid
+        alike = mine.samples == its.samples and bool(np.isclose(mine.step, its.step, rtol=SAME_STEP, atol=0.0))
+        return alike and self.outline.equals(other.outline)
 
 
-def record_doubts(records: Sequence[RecordOutline], modes: Modes, case_file: str) -> list[Problem]:
+def record_doubts(records: Sequence[EventRecord], modes: Modes, case_file: str) -> list[Problem]:
     """Warnings about the records of all events together, each kind once."""
     moving = [record for record in records if record.bends(modes)]
     return [
@@ -85,7 +61,7 @@ def record_doubts(records: Sequence[RecordOutline], modes: Modes, case_file: str
     ]
 
 
-def _speed_doubts(records: Sequence[RecordOutline], case_file: str) -> list[Problem]:
+def _speed_doubts(records: Sequence[EventRecord], case_file: str) -> list[Problem]:
     """Warning about the speeds that lengths and durations make; a speed that is given is told with the case."""
     found = []
     for record in records:
@@ -107,7 +83,7 @@ def _speed_doubts(records: Sequence[RecordOutline], case_file: str) -> list[Prob
     return [Problem("unusual_speed", where, what, remedy, len(found))]
 
 
-def _at_rest_doubts(still: Sequence[RecordOutline]) -> list[Problem]:
+def _at_rest_doubts(still: Sequence[EventRecord]) -> list[Problem]:
     """Warning about events in which nothing that bends the body moves."""
     if not still:
         return []
@@ -119,12 +95,12 @@ def _at_rest_doubts(still: Sequence[RecordOutline]) -> list[Problem]:
     return [Problem("event_at_rest", f"{worst.file}: columns q_", what, remedy, len(still))]
 
 
-def _lost_mode_doubts(records: Sequence[RecordOutline], modes: Modes) -> list[Problem]:
+def _lost_mode_doubts(records: Sequence[EventRecord], modes: Modes) -> list[Problem]:
     """Warning about normal modes that stand still in a simulation in which more modes move than do not."""
     normal = np.array([kind == "normal" for kind in modes.kind])
-    found: list[tuple[RecordOutline, list[int]]] = []
+    found: list[tuple[EventRecord, list[int]]] = []
     for record in records:
-        moves = np.array(record.moves)
+        moves = record.outline.moves
         lost, moving = normal & ~moves, moves & _bends(modes)
         if record.grid.samples >= FEWEST_SAMPLES and 0 < np.count_nonzero(lost) < np.count_nonzero(moving):
             found.append((record, modes.mode[lost].tolist()))
@@ -138,7 +114,7 @@ def _lost_mode_doubts(records: Sequence[RecordOutline], modes: Modes) -> list[Pr
     return [Problem("mode_at_rest", f"{worst.file}: column q_{lost_modes[0]}", what, remedy, len(found))]
 
 
-def _same_record_doubts(records: Sequence[RecordOutline]) -> list[Problem]:
+def _same_record_doubts(records: Sequence[EventRecord]) -> list[Problem]:
     """Warning about events with one record; those that scale it by factors of their own are told apart."""
     pairs = [
         (one, other)
@@ -169,7 +145,7 @@ def _said(value: object) -> str:
     return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _names(records: Sequence[RecordOutline]) -> str:
+def _names(records: Sequence[EventRecord]) -> str:
     return few([f"'{record.event.name}'" for record in records])
 
 

@@ -11,7 +11,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.bounds import Screening
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
-from fatigue.pipeline.mission.event_load import EventLoad, kept_single_record
+from fatigue.pipeline.mission.event_load import EventLoad, held_copies, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.run.checkpoint import state_key
 from fatigue.pipeline.solve.body import conversion_file, register_file
@@ -74,13 +74,18 @@ def screening_of(
     share: float, proves_worst: bool, loads: Sequence[EventLoad], scratch: Path, threads: int | None
 ) -> Screening:
     """What settles points without counting, prepared on some threads; see ``ScreeningOptions`` and ``open_work``."""
+    samples = [load.counted.q.shape[1] for load in loads]
+    given = [0 if load.is_upsampled else n for load, n in zip(loads, samples, strict=True)]
+    held = held_copies(loads[0].counted.q.shape[0], given, samples)
     return Screening(
         share=share,
         proves_worst=proves_worst,
         extents=tuple(in_order(lambda load: modal_extent(load.counted.q, load.residue, load.known), loads, threads)),
         records=tuple(
             in_order(
-                lambda load: load.single or kept_single_record(load.counted.q, scratch, load.known), loads, threads
+                lambda job: job[0].single or kept_single_record(job[0].counted.q, scratch, job[0].known, held=job[1]),
+                zip(loads, held, strict=True),
+                threads,
             )
         ),
     )

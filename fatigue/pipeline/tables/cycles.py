@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.counting.rainflow import rainflow
-from fatigue.life.records.history import stress_history
+from fatigue.life.counting.long_rainflow import long_cycles
+from fatigue.life.counting.rainflow import Cycles, rainflow
+from fatigue.life.counting.signal import middle
+from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -87,7 +89,11 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[
 
     A cycle has the stress ranges between its own two instants.
     """
-    at_once = max(1, _SAMPLES_AT_ONCE // (2 * load.counted.q.shape[1]))
+    at_once = _SAMPLES_AT_ONCE // (2 * load.counted.q.shape[1])
+    if at_once < 2:
+        for point in points:
+            yield from _long_rows(point, load)
+        return
     for first in range(0, len(points), at_once):
         some = points[first : first + at_once]
         stress = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
@@ -96,18 +102,42 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[
             yield _cycle_rows(point, load, membrane[i], bending[i])
 
 
+def _long_rows(point: KeptPoint, load: EventLoad) -> Iterator[dict[str, Any]]:
+    """Rows of one point in a record whose stress is not held in memory, some cycles at a time."""
+    modal = load.stress_factor * np.stack([point.membrane, point.bending])
+
+    def chunks() -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        return ((membrane, bending) for membrane, bending in stress_chunks(modal, load.counted.q))
+
+    for piece in long_cycles(chunks, 1.0 if point.face == 0 else -1.0, load.residue):
+        (start, end), (s_i, s_j) = piece.at.T, piece.stress.T
+        cycles = Cycles(np.abs(s_j - s_i), middle(s_i, s_j), piece.weight, start, end)
+        dm, db = (np.abs(np.diff(part, axis=1)[:, 0]) for part in (piece.membrane, piece.bending))
+        yield _rows(point, load, cycles, dm, db, np.minimum(s_i, s_j))
+
+
 def _cycle_rows(
     point: KeptPoint, load: EventLoad, membrane: NDArray[np.float64], bending: NDArray[np.float64]
 ) -> dict[str, Any]:
     """Rows of one point with these stress histories (t,) [MPa]."""
-    rated, rule = point.rated, point.rated.rule
     stress = membrane + bending if point.face == 0 else membrane - bending
-
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
+    return _rows(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]))
+
+
+def _rows(
+    point: KeptPoint,
+    load: EventLoad,
+    cycles: Cycles,
+    dm: NDArray[np.float64],
+    db: NDArray[np.float64],
+    minimum: NDArray[np.float64],
+) -> dict[str, Any]:
+    """Rows of some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa]."""
+    rated, rule = point.rated, point.rated.rule
     r = bending_ratio(dm, db)
     size = rated.size(np.array([point.thickness]))
-    minimum = np.minimum(stress[cycles.start], stress[cycles.end])
     f_M = rule.mean_stress_factor(minimum, minimum + cycles.range)
     dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
 

@@ -1,20 +1,21 @@
 """Histories of modal coordinates in the neutral format: ``time_s`` and one column ``q_<mode>`` for every mode.
 
-One column of a Parquet file is in memory at a time, beside the samples read so far where an array is wanted.
+A short record is read column by column, a long one block of rows after block, see ``long_history``.
 """
 
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.life.records.history import ModalHistory
-from fatigue.life.records.spool import Samples, create_spool
+from fatigue.life.records.spool import Samples, SpoolWriter, create_spool
+from fatigue.readers.neutral.long_history import Irregular, Times, blocks, is_long, long_table
+from fatigue.readers.neutral.record_outline import RecordOutline
 from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.readers.units.channel_names import channel
 
@@ -49,9 +50,13 @@ def read_history(
         a mode of the body without column or the reverse, unless it is ignored; fewer than 2 samples; steps that differ
         by more than 1e-3; a value that is no finite number; no room for ``scratch``
     """
+    if is_long(path):
+        try:
+            return _read_long(path, event, modes, ignore_modes, strict, scratch)
+        except Irregular:
+            pass  # what is wrong is told below
     table, names, grid = _open(path, modes, ignore_modes, strict)
-    kind: np.dtype[np.floating] = np.dtype(np.float32) if table.single_precision(names) else np.dtype(np.float64)
-    shape = (modes.size, grid.samples)
+    kind, shape = _precision(table, names), (modes.size, grid.samples)
     q: Samples = np.empty(shape, dtype=kind) if scratch is None else create_spool(scratch, shape, kind)
     for i, name in enumerate(names):
         q[i : i + 1, :] = table.numbers(name)[None]
@@ -65,17 +70,68 @@ def check_history(
     ignore_modes: Collection[int],
     *,
     strict: bool,
-    look: Callable[[TimeGrid, NDArray[Any]], None] = lambda grid, samples: None,
+    outline: RecordOutline,
 ) -> tuple[TimeGrid, list[Problem]]:
     """Times of a record that is read, checked and not kept; raises what ``read_history`` raises.
 
-    ``look`` is called with the samples of each mode, in the order of ``modes``.
+    ``outline`` takes in the samples, all of a mode or some of all modes at a time.
     """
+    if is_long(path):
+        try:
+            table, names = _long(path, modes, ignore_modes, strict)
+            times = Times()
+            for block in blocks(table, names, _precision(table, names)):
+                times.add(block.time)
+                for i, samples in enumerate(block.q):
+                    outline.add(i, samples, times.mean_step)
+            return TimeGrid(times.samples, times.step(STEP_TOLERANCE), times.first), table.warnings
+        except Irregular:
+            outline.forget()  # what is wrong is told below
     table, names, grid = _open(path, modes, ignore_modes, strict)
-    for name in names:
-        look(grid, table.numbers(name))
+    for i, name in enumerate(names):
+        outline.add(i, table.numbers(name), grid.step)
     table.refuse()
     return grid, table.warnings
+
+
+def _read_long(
+    path: Path,
+    event: str,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    strict: bool,
+    scratch: Path | None,
+) -> tuple[ModalHistory, list[Problem]]:
+    """Read a long record block by block."""
+    table, names = _long(path, modes, ignore_modes, strict)
+    kind, times = _precision(table, names), Times()
+    if scratch is None:
+        parts = []
+        for block in blocks(table, names, kind):
+            times.add(block.time)
+            parts.append(block.q)
+        q: Samples = np.concatenate(parts, axis=1)
+    else:
+        with SpoolWriter(scratch, modes.size, kind) as writer:
+            for block in blocks(table, names, kind):
+                times.add(block.time)
+                writer.append(block.q)
+        q = writer.spool()
+    return ModalHistory(event, modes, q, times.step(STEP_TOLERANCE), times.first), table.warnings
+
+
+def _long(path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool) -> tuple[Table, list[str]]:
+    """Open a long table and match its columns with the modes; what is not right is left to ``_open``."""
+    table = long_table(path)
+    names = _columns(table, modes, ignore_modes, strict)
+    if table.problems:
+        raise Irregular
+    return table, names
+
+
+def _precision(table: Table, names: Collection[str]) -> np.dtype[np.floating]:
+    """Single precision where all columns are in it."""
+    return np.dtype(np.float32) if table.single_precision(names) else np.dtype(np.float64)
 
 
 def _open(
@@ -83,14 +139,20 @@ def _open(
 ) -> tuple[Table, list[str], TimeGrid]:
     """Open a table, match its columns with the modes, and check its times."""
     table = open_table(path)
-    _check_statements(table)
-    names = _mode_columns(table, modes, ignore_modes)
-    ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
-    table.expect(("time_s", *names), ignored, strict=strict)
+    names = _columns(table, modes, ignore_modes, strict)
     table.refuse()
     time = table.numbers("time_s").astype(np.float64)
     table.refuse()
     return table, names, TimeGrid(table.rows, _step(table, time), float(time[0]))
+
+
+def _columns(table: Table, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool) -> list[str]:
+    """Names of the columns of the modes; what is wrong with the head of the table is noted."""
+    _check_statements(table)
+    names = _mode_columns(table, modes, ignore_modes)
+    ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
+    table.expect(("time_s", *names), ignored, strict=strict)
+    return names
 
 
 def _check_statements(table: Table) -> None:

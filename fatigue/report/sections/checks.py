@@ -29,7 +29,12 @@ def recomputed(result: ShownResult) -> list[Recomputed]:
         known = result.worst(weld)["damage_per_km"]
         cycles = result.cycles(weld, ["event", "count", "equivalent_range_dS"])
         used = assumptions_of(result.record, welds.loc[weld, "curve"])
-        again = damage_per_km(cycles["equivalent_range_dS"].to_numpy(), how_often(cycles, result.passes_per_km), used)
+        if weld in result.merged:  # from its cycles one by one all the same
+            again = result.merged[weld].damage_per_km
+        else:
+            again = damage_per_km(
+                cycles["equivalent_range_dS"].to_numpy(), how_often(cycles, result.passes_per_km), used
+            )
         of_weld = result.damage[result.damage["weld"] == weld]
         summed = float((of_weld["damage_per_pass"] * of_weld["event"].map(result.passes_per_km)).sum())
         if len(cycles) or known == 0.0:  # of a screened job, not every weld's cycles are kept

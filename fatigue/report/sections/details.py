@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pandas as pd
@@ -63,16 +65,17 @@ def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, De
     welds = _welds(result)
     details = {weld: Detail() for weld in welds}
     steps = {}
-    for event in inputs.case.mission.event:
-        record = stress.event_record(inputs.history(event), event.stress_factor)
-        steps[event.name] = record.history.step
-        upper = upper_hz(result, inputs, record.history.step)
-        for name, weld in welds.items():
-            spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
-            if spectrum is not None:
-                details[name].spectra.append(spectrum)
-            if weld.governing_event == event.name:
-                _add_records(details[name], record, weld)
+    with TemporaryDirectory(prefix="fatigue-") as scratch:
+        for event in inputs.case.mission.event:
+            record = stress.event_record(inputs.history(event, Path(scratch) / "record"), event.stress_factor)
+            steps[event.name] = record.history.step
+            upper = upper_hz(result, inputs, record.history.step)
+            for name, weld in welds.items():
+                spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
+                if spectrum is not None:
+                    details[name].spectra.append(spectrum)
+                if weld.governing_event == event.name:
+                    _add_records(details[name], record, weld)
     return details, steps
 
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from fatigue.errors import DataError
 from fatigue.life.records.spool import Spool
 from fatigue.readers.neutral.history import TimeGrid, check_history, read_history
+from fatigue.readers.neutral.record_outline import RecordOutline
 from tests.readers.neutral_tables import changed, history, picked, without, write
 
 MODES = np.array([3, 7, 12])
@@ -23,7 +24,7 @@ def refusal_of(path: Path, ignore_modes=(), strict=False) -> str:
     with pytest.raises(DataError) as refusal:
         read_history(path, "run", MODES, ignore_modes, strict=strict)
     with pytest.raises(DataError) as same:
-        check_history(path, MODES, ignore_modes, strict=strict)
+        check_history(path, MODES, ignore_modes, strict=strict, outline=RecordOutline())
     assert str(same.value) == str(refusal.value)
     return str(refusal.value)
 
@@ -53,7 +54,7 @@ def test_a_history_may_go_to_disk(tmp_path, suffix):
     assert isinstance(spooled.q, Spool)
     assert spooled.q.dtype == read.q.dtype
     np.testing.assert_array_equal(np.asarray(spooled.q), read.q)
-    grid, _ = check_history(path, MODES, (), strict=True)
+    grid, _ = check_history(path, MODES, (), strict=True, outline=RecordOutline())
     assert grid == TimeGrid(5, read.step, read.start)
 
 

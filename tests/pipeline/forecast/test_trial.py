@@ -6,8 +6,8 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from fatigue.case import load_case
+from fatigue.pipeline.forecast.trial import CELL, CYCLE, DETAIL, PAGE, START, job_time
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.run.trial import CELL, CYCLE, DETAIL, PAGE, START, job_time
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
@@ -52,7 +52,7 @@ def test_more_stations_take_as_much_more(tmp_path):
 
 def test_large_jobs_are_screened_and_both_are_foretold(tmp_path, monkeypatch):
     """Above the limit bounds settle what they can; all points counted is another number."""
-    monkeypatch.setattr("fatigue.pipeline.run.trial.DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.forecast.trial.DOUBLE_PRECISION_SAMPLES", 0.0)
     time = needed(small_case(), tmp_path)
     assert time.screened
     assert time.counting > 0.0

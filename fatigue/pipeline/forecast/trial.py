@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import Event
+from fatigue.case import LARGEST_UPSAMPLE, Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
@@ -18,7 +18,6 @@ from fatigue.pipeline.count.worst import worst_points
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
-    LARGEST_UPSAMPLE,
     SAMPLES_PER_PEAK,
     load_of,
     shortened_record,
@@ -50,7 +49,7 @@ class JobTime:
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
     ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
-    points by default.
+    points by default, ``upsample`` is the factor by which records are upsampled, found at the longest one.
     """
 
     start: float
@@ -60,6 +59,7 @@ class JobTime:
     tables: float
     report: float
     screened: bool
+    upsample: int
 
     @property
     def total(self) -> float:
@@ -139,6 +139,7 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,
+        upsample=factor,
     )
 
 

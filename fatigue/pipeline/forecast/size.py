@@ -1,0 +1,87 @@
+"""How large a job is: the numbers that time, memory and scratch files follow from."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from fatigue.life.mission import Plan
+from fatigue.pipeline.mission.events import DOUBLE_PRECISION_SAMPLES
+from fatigue.pipeline.run.work import SHARE
+from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.weld_groups import GROUPS, LARGEST_GROUP, SMALLEST_GROUP
+
+AUTOMATIC = 4  # upsampling assumed where the program finds it: a record of 5 samples per peak needs it
+
+
+@dataclass(frozen=True, slots=True)
+class JobSize:
+    """How large a job is.
+
+    Attributes
+    ----------
+    modes, stations, welds : how many there are
+    samples : of the kept record of each event
+    factors : by which each is upsampled
+    share : of the damage limit below which points need no counting; 0: every point is counted
+    has_knees : whether any curve has knees, so that ranges are kept in histograms
+    threads : that work side by side
+    report : whether a page is written
+    """
+
+    modes: int
+    stations: int
+    welds: int
+    samples: tuple[int, ...]
+    factors: tuple[int, ...]
+    share: float
+    has_knees: bool
+    threads: int
+    report: bool
+
+    @property
+    def counted(self) -> tuple[int, ...]:
+        """Samples of each event that cycles are counted on."""
+        return tuple(n * factor for n, factor in zip(self.samples, self.factors, strict=True))
+
+    @property
+    def is_single(self) -> bool:
+        """Whether the counter in single precision serves."""
+        return 2 * self.stations * sum(self.counted) > DOUBLE_PRECISION_SAMPLES
+
+    @property
+    def is_screened(self) -> bool:
+        """Whether bounds settle points."""
+        return self.share > 0.0
+
+    @property
+    def group(self) -> int:
+        """Stations of a group of welds."""
+        return min(self.stations, LARGEST_GROUP, max(SMALLEST_GROUP, self.stations // GROUPS))
+
+
+def job_size(
+    body: Body,
+    plan: Plan,
+    *,
+    factors: Sequence[int] = (),
+    share: float | None = None,
+    threads: int | None = None,
+    report: bool = True,
+) -> JobSize:
+    """Size of a job; ``factors`` where they are known, ``share`` and ``threads`` None as in an assessment."""
+    asked = body.case.counting.upsample
+    assumed = tuple(factors) or (AUTOMATIC if asked == "auto" else asked,) * len(plan.passes)
+    stations, samples = int(body.lines.begin[-1]), tuple(one.samples for one in plan.passes)
+    counted = sum(n * factor for n, factor in zip(samples, assumed, strict=True))
+    by_default = SHARE if 2 * stations * counted > DOUBLE_PRECISION_SAMPLES else 0.0
+    return JobSize(
+        modes=len(body.modes.mode),
+        stations=stations,
+        welds=len(body.welds),
+        samples=samples,
+        factors=assumed,
+        share=by_default if share is None else share,
+        has_knees=not all(rated.rule.law.is_straight for rated in body.curves.values()),
+        threads=threads or os.cpu_count() or 1,
+        report=report,
+    )
