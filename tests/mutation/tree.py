@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -168,9 +169,14 @@ def _test(root: Path, code: Path, selection: list[str], said: Path) -> None:
         for name in [n for n in sys.modules if n.split(".")[0] in ("tests", "fatigue")]:
             del sys.modules[name]
         sys.path[:] = [str(root), *(p for p in sys.path if p and Path(p).resolve() != ROOT)]
-        status = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", *selection]))
-        sys.stdout.flush()
+        quietly = ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # plugins are loaded before
+        asked = ["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", *quietly, *selection]
+        status = int(pytest.main(asked))
+    except BaseException:  # noqa: BLE001
+        traceback.print_exc()
     finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
         os._exit(status)
 
 
