@@ -40,6 +40,7 @@ TWINS = (
     *(("any", "all"), ("floor", "ceil"), ("sin", "cos"), ("zeros", "ones"), ("startswith", "endswith")),
 )
 SWAPPED = {a: b for pair in TWINS for a, b in (pair, pair[::-1])}
+TOLERANCE = 1e-4  # numbers below are limits of rounding, of which only the power of ten means something
 SPARED = (ast.Import, ast.ImportFrom, ast.JoinedStr)  # no mistakes in these; text is not a number
 Defaults = Mapping[str, frozenset[str]]
 """The parameters that may be left out, by the name of the function or class."""
@@ -168,7 +169,8 @@ def _constants(value: object) -> Iterator[str]:
         if value > 0:
             yield str(value - 1)
     elif isinstance(value, float):
-        yield repr(float(f"{1.1 * value:.12g}") if value else 1.0)
+        factor = 1.1 if value >= TOLERANCE else 1e4
+        yield repr(float(f"{factor * value:.12g}") if value else 1.0)
 
 
 def _calls(node: ast.Call, defaults: Defaults) -> Iterator[str]:

@@ -172,7 +172,7 @@ def _test(root: Path, code: Path, selection: list[str], said: Path) -> None:
         quietly = ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # plugins are loaded before
         asked = ["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", *quietly, *selection]
         status = int(pytest.main(asked))
-    except BaseException:  # noqa: BLE001
+    except BaseException:
         traceback.print_exc()
     finally:
         sys.stdout.flush()
