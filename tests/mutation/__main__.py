@@ -19,7 +19,7 @@ from itertools import chain
 from pathlib import Path
 
 from tests.mutation.mutants import Mutant, defaults_of, mutants
-from tests.mutation.tree import ROOT, Tree, copy_of_tree, files_by_line, tried
+from tests.mutation.tree import ROOT, Tree, copy_of_tree, files_by_line, reaching, sound_nearby, stages, tried
 
 ROOMS = ("weld", "life", "spectrum", "case", "results", "readers")
 EQUIVALENTS = Path(__file__).with_name("equivalents.toml")
@@ -35,6 +35,7 @@ def main() -> int:
     parser.add_argument(
         "--at", nargs="+", default=[], help="FILE or FILE:LINE, all mutants there, in place of a sample"
     )
+    parser.add_argument("--near", action="store_true", help="only tests in the folder of the module's: a lower bound")
     parser.add_argument("--list", action="store_true", help="print the mutants and try none")
     parser.add_argument("--silent-s", type=float, default=180, help="seconds without a word that mean a hang")
     parser.add_argument("--tree", type=Path, help="folder of the copy, kept for the next run with its machine code")
@@ -46,7 +47,7 @@ def main() -> int:
     os.nice(10)
     with tempfile.TemporaryDirectory(prefix="mutation-") as name:
         tree = copy_of_tree(asked.tree or Path(name))
-        survivors = {room: _survivors(tree, room, chosen, asked.silent_s) for room, chosen in by_room.items()}
+        survivors = {room: _survivors(tree, room, chosen, asked) for room, chosen in by_room.items()}
     for mutant in chain.from_iterable(survivors.values()):
         print("\n" + _diff(mutant))
     print()
@@ -94,14 +95,20 @@ def _at(places: list[str]) -> dict[str, list[Mutant]]:
     return chosen
 
 
-def _survivors(tree: Tree, room: str, chosen: list[Mutant], silent_s: float) -> list[Mutant]:
+def _survivors(tree: Tree, room: str, chosen: list[Mutant], asked: argparse.Namespace) -> list[Mutant]:
     """Give what the tests of a room do not notice; every verdict is printed as it falls."""
-    reached = files_by_line(tree, room, silent_s)
+    silent_s: float = asked.silent_s
+    reached = {} if asked.near else files_by_line(tree, room, silent_s)
     kinds: Counter[str] = Counter()
     survivors = []
     for number, mutant in enumerate(chosen):
+        if asked.near:
+            selection = sound_nearby(tree, mutant.module, silent_s)
+        else:
+            files = reaching(tree.root / mutant.module, mutant.line, reached.get(mutant.module, {}))
+            selection = stages(tree.root, mutant.module, files)
         started = time.monotonic()
-        verdict = tried(tree, mutant, number, reached.get(mutant.module, {}), silent_s)
+        verdict = tried(tree, mutant, number, selection, silent_s)
         kinds[verdict] += 1
         print(f"{verdict:8} {time.monotonic() - started:5.0f} s  {_told(mutant)}", flush=True)
         if verdict == "survived":

@@ -14,6 +14,7 @@ import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Literal
 
@@ -84,13 +85,22 @@ def files_by_line(tree: Tree, room: str, silent_s: float) -> dict[str, dict[int,
     return {module: {int(line): files for line, files in lines.items()} for module, lines in stored.items()}
 
 
-def tried(tree: Tree, mutant: Mutant, number: int, reached: dict[int, list[str]], silent_s: float) -> Verdict:
-    """What the tests say of a mutant: those of its module, then all others of its room that reach its function."""
+@cache
+def sound_nearby(tree: Tree, module: str, silent_s: float) -> list[list[str]]:
+    """Test files of a module and of its folder, which pass on the sound tree; their run compiles the loops."""
+    files = nearby(tree.root, module)
+    if any(_run(tree, tree.sound_code, some, silent_s) != "survived" for some in files):
+        raise SystemExit(f"{files} fail without any mutant: {tree.root / 'said.txt'}")
+    return files
+
+
+def tried(tree: Tree, mutant: Mutant, number: int, selection: list[list[str]], silent_s: float) -> Verdict:
+    """What the tests say of a mutant, one selection of files after the other."""
     shutil.rmtree(tree.used_code, ignore_errors=True)
     shutil.copytree(tree.sound_code, tree.used_code)
     _remove_code_that_contains(tree, mutant.module)
     with _spoilt(tree.root / mutant.module, mutant.text, number):
-        for files in stages(tree.root, mutant.module, _reaching(tree.root / mutant.module, mutant.line, reached)):
+        for files in selection:
             verdict = _run(tree, tree.used_code, files, silent_s)
             if verdict != "survived":
                 return verdict
@@ -108,7 +118,17 @@ def stages(root: Path, module: str, reaching: list[str] | None) -> list[list[str
     return [files for files in (own, others) if files]
 
 
-def _reaching(path: Path, line: int, reached: dict[int, list[str]]) -> list[str] | None:
+def nearby(root: Path, module: str) -> list[list[str]]:
+    """Test files of a module by itself, then those beside them in their folder, or the nearest folder above."""
+    near = Path("tests", *Path(module).relative_to("fatigue").parts)
+    files = stages(root, module, None)
+    own = files[0] if Path(files[0][0]).name == f"test_{near.name}" and len(files[0]) == 1 else []
+    folder = Path(own[0]).parent if own else next(p for p in near.parents if any((root / p).glob("test_*.py")))
+    beside = [f for some in files for f in some if Path(f).parent == folder and f not in own]
+    return [some for some in (own, beside) if some]
+
+
+def reaching(path: Path, line: int, reached: dict[int, list[str]]) -> list[str] | None:
     """Give the test files that reach the function of a line; None for machine code and what all files load."""
     around = [n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.FunctionDef)]
     around = [n for n in around if n.lineno <= line <= (n.end_lineno or 0)]
