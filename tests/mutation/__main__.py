@@ -57,9 +57,9 @@ def main() -> int:
 
 
 def equivalents() -> dict[tuple[str, str, str, str], str]:
-    """The reason why a mutant is as good as the sound program, by its key."""
+    """The reason why a mutant is as good as the sound program, by its key; ``after`` is empty for all of a line."""
     rows = tomllib.loads(EQUIVALENTS.read_text()).get("equivalent", [])
-    return {(r["module"], r["function"], r["before"], r["after"]): r["reason"] for r in rows}
+    return {(r["module"], r["function"], r["before"], r.get("after", "")): r["reason"] for r in rows}
 
 
 def every_mutant(room: str) -> list[Mutant]:
@@ -68,7 +68,7 @@ def every_mutant(room: str) -> list[Mutant]:
     defaults = defaults_of(sorted((ROOT / "fatigue").rglob("*.py")))
     known = equivalents()
     found = [m for path in files for m in mutants(path.read_text(), str(path.relative_to(ROOT)), defaults)]
-    return [mutant for mutant in found if mutant.key not in known]
+    return [mutant for mutant in found if mutant.key not in known and (*mutant.key[:3], "") not in known]
 
 
 def score(room: str, killed: int, of: int) -> str:

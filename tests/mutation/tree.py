@@ -161,16 +161,20 @@ def _run(tree: Tree, code: Path, selection: list[str], silent_s: float) -> Verdi
     child = os.fork()
     if child == 0:
         _test(tree.root, code, selection, said)
-    size, since = 0, time.monotonic()
-    while not (ended := os.waitpid(child, os.WNOHANG))[0]:
-        time.sleep(0.05)
-        if said.stat().st_size != size:
-            size, since = said.stat().st_size, time.monotonic()
-        if time.monotonic() - since > silent_s:
+    size, since, status = 0, time.monotonic(), None
+    try:
+        while not (ended := os.waitpid(child, os.WNOHANG))[0]:
+            time.sleep(0.05)
+            if said.stat().st_size != size:
+                size, since = said.stat().st_size, time.monotonic()
+            if time.monotonic() - since > silent_s:
+                return "hang"
+        status = os.waitstatus_to_exitcode(ended[1])
+    finally:  # also where somebody interrupts the program
+        if status is None:
             os.killpg(child, signal.SIGKILL)
             os.waitpid(child, 0)
-            return "hang"
-    return "survived" if os.waitstatus_to_exitcode(ended[1]) in (0, 5) else "killed"  # 5: no test there
+    return "survived" if status in (0, 5) else "killed"  # 5: no test there
 
 
 def _test(root: Path, code: Path, selection: list[str], said: Path) -> None:
