@@ -35,7 +35,7 @@ def main() -> int:
     parser.add_argument(
         "--at", nargs="+", default=[], help="FILE or FILE:LINE, all mutants there, in place of a sample"
     )
-    parser.add_argument("--near", action="store_true", help="only tests in the folder of the module's: a lower bound")
+    parser.add_argument("--near", action="store_true", help="only tests that import the module: a lower bound")
     parser.add_argument("--list", action="store_true", help="print the mutants and try none")
     parser.add_argument("--silent-s", type=float, default=180, help="seconds without a word that mean a hang")
     parser.add_argument("--tree", type=Path, help="folder of the copy, kept for the next run with its machine code")

@@ -87,7 +87,7 @@ def files_by_line(tree: Tree, room: str, silent_s: float) -> dict[str, dict[int,
 
 @cache
 def sound_nearby(tree: Tree, module: str, silent_s: float) -> list[list[str]]:
-    """Test files of a module and of its folder, which pass on the sound tree; their run compiles the loops."""
+    """Test files near a module, which pass on the sound tree; their run compiles the loops."""
     files = nearby(tree.root, module)
     if any(_run(tree, tree.sound_code, some, silent_s) != "survived" for some in files):
         raise SystemExit(f"{files} fail without any mutant: {tree.root / 'said.txt'}")
@@ -119,13 +119,15 @@ def stages(root: Path, module: str, reaching: list[str] | None) -> list[list[str
 
 
 def nearby(root: Path, module: str) -> list[list[str]]:
-    """Test files of a module by itself, then those beside them in their folder, or the nearest folder above."""
+    """Test files of a module by itself, then those of its room that import it; where there is neither, its folder's."""
     near = Path("tests", *Path(module).relative_to("fatigue").parts)
-    files = stages(root, module, None)
-    own = files[0] if Path(files[0][0]).name == f"test_{near.name}" and len(files[0]) == 1 else []
-    folder = Path(own[0]).parent if own else next(p for p in near.parents if any((root / p).glob("test_*.py")))
-    beside = [f for some in files for f in some if Path(f).parent == folder and f not in own]
-    return [some for some in (own, beside) if some]
+    every = [f for files in stages(root, module, None) for f in files]
+    own = [f for f in every if Path(f).name == f"test_{near.name}" and near.is_relative_to(Path(f).parent)]
+    name = ".".join(Path(module).with_suffix("").parts).removesuffix(".__init__")
+    users = [f for f in every if f not in own and name in _imported(root / f)]
+    folder = next(p for p in near.parents if any((root / p).glob("test_*.py")))
+    found = [files for files in (own, users) if files]
+    return found or [[f for f in every if Path(f).parent == folder]]
 
 
 def reaching(path: Path, line: int, reached: dict[int, list[str]]) -> list[str] | None:
