@@ -68,7 +68,7 @@ def test_folders_stay_readable():
 
 def test_tests_mirror_the_package():
     """A folder of tests is named for the room it tests, those for sources, damaged files and a solver apart."""
-    apart = {"validation", "fuzz", "mystran"}
+    apart = {"validation", "fuzz", "mutation", "mystran"}
     folders = {p.parent.relative_to(ROOT / "tests") for p in (ROOT / "tests").rglob("test_*.py")}
     assert not [
         str(f)

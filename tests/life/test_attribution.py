@@ -157,3 +157,33 @@ def test_nothing_happens_nothing_is_owed():
     assert (found.damage, found.top_cycle, found.slope) == (0.0, 0.0, 0.0)
     assert not found.share.any()
     assert not found.by_bending.any()
+
+
+@pytest.mark.parametrize("stress", [(100.0, 200.0), (200.0, 100.0)], ids=["rises", "falls"])
+def test_the_largest_stress_of_a_cycle_has_a_slope_of_its_own(stress):
+    """One cycle by hand: x = S^(1 - 1/m) max^(1/m) times a constant, so the peak counts in the range and beside it."""
+    rule = CycleRule(LAWS["straight"].law, False, 120.0, True)
+    membrane = np.array(stress)
+    found = count(membrane, 0.0 * membrane, 1.0, rule, "repeat")
+    k, m, S, maximum = rule.law.slopes[0], 3.6, 100.0, 200.0
+    of_range, of_peak = (1.0 - 1.0 / m) / S, 1.0 / (m * maximum)
+    expected = np.where(membrane == maximum, of_range + of_peak, -of_range)
+    assert found.by_membrane == pytest.approx(k * found.damage * expected, rel=1e-12)
+    assert found.slope == pytest.approx(k * found.damage, rel=1e-12)
+
+
+@SIDES
+def test_a_mean_stress_that_grows_has_its_own_slope(side):
+    """The same constant on all samples: what the gradient adds up to, by finite differences; 0 without the rule."""
+    q, S_m, S_b = record()
+    q = mean_tension(LAWS["mean stress"], q)
+    membrane = S_m @ q - (S_m @ q + side * (S_b @ q)).mean() + 110.0  # some cycles in tension, some across zero
+    bending = S_b @ q
+    stress = membrane + side * bending
+    assert stress.min() < 0.0 < stress.mean()
+    for name, rule in LAWS.items():
+        found = count(membrane, bending, side, rule, "repeat").by_membrane.sum()
+        above, below = (damage(membrane + shift, bending, side, rule, "repeat") for shift in (1e-4, -1e-4))
+        scale = damage(membrane, bending, side, rule, "repeat")
+        assert found == pytest.approx((above - below) / 2e-4, rel=1e-5, abs=1e-9 * scale)
+        assert (found > 1e-5 * scale) == (name == "mean stress")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -148,3 +149,28 @@ def test_a_missing_or_damaged_table_is_named(tmp_path, folder):
     (tmp_path / "nodes.parquet").write_bytes((folder / "nodes.parquet").read_bytes()[:-20])
     with pytest.raises(DataError, match="the table cannot be read"):
         read_codes(tmp_path, "nodes", "weld")
+
+
+def test_a_table_without_statistics_is_read_as_a_whole(folder, whole, tmp_path):
+    """A file that another program wrote again says nothing of its row groups: every one is looked into."""
+    pq.write_table(
+        pq.read_table(folder / "nodes.parquet"), tmp_path / "nodes.parquet", row_group_size=64, write_statistics=False
+    )
+    found = rows_of_welds(tmp_path, "nodes", ["Z", "nowhere"])
+    assert found["Z"].tolist() == np.flatnonzero(whole["weld"] == "Z").tolist()
+    assert found["nowhere"].tolist() == []
+
+
+def test_only_row_groups_that_may_hold_a_weld_are_read(folder, whole, monkeypatch):
+    """Of 16 row groups those between whose first and last name the weld lies, and no other."""
+    read = []
+    original = pq.ParquetFile.read_row_group
+
+    def looked_into(file, number, columns):
+        read.append(number)
+        return original(file, number, columns)
+
+    monkeypatch.setattr(pq.ParquetFile, "read_row_group", looked_into)
+    rows_of_welds(folder, "nodes", ["a"])
+    groups = whole["weld"].groupby(np.arange(ROWS) // 64)
+    assert read == [n for n, names in groups if names.min() <= "a" <= names.max()] != [*range(16)]

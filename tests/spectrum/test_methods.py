@@ -220,3 +220,19 @@ def test_points_are_independent():
         for law in (straight_law(3.6), bent_law([3.0, 5.0], [30.0], cutoff=2.0)):
             alone = [method(moments[:, [i]], law)[0] for i in range(3)]
             np.testing.assert_allclose(method(moments, law), alone, rtol=1e-14)
+
+
+@pytest.mark.parametrize("order", [0, 2, 3], ids=["m0", "m2", "m4"])
+@pytest.mark.parametrize("value", [0.0, -1e-30])
+def test_one_moment_that_vanishes_is_a_point_that_stays_still(order, value):
+    """Rounding may take away any one of m0, m2 and m4 alone: no rates, a narrow band, no damage, and no warning."""
+    moments = np.array([[4.0, 4.0], [10.0, 10.0], [36.0, 36.0], [900.0, 900.0]])
+    moments[order, 0] = value
+    shape = spectral_shape(moments)
+    assert (shape.zero_crossings[0], shape.peaks[0]) == (0.0, 0.0)
+    assert (shape.alpha1[0], shape.alpha2[0]) == (1.0, 1.0)
+    assert (shape.zero_crossings[1], shape.peaks[1]) == (3.0, 5.0)
+    for method in METHODS:
+        rate = method(moments, straight_law(3.6))
+        assert rate[0] == 0.0
+        assert rate[1] > 0.0

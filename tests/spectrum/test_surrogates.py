@@ -123,3 +123,24 @@ def test_no_damage_no_split():
     split = ratio_split(record, lambda _: zero, dirlik_rate=zero, rainflow_rate=zero, segment_s=4.0, surrogates=2)
     assert np.isnan(split.formula[0])
     assert np.isnan(split.process[0])
+
+
+def test_a_surrogate_has_no_mean():
+    """Gravity a thousand times the motion, a trend, a slow wave: none of it moves a surrogate off zero."""
+    rng = np.random.default_rng(8)
+    q = rng.normal(size=(3, 29 * 512)) + np.array([[1000.0], [-5.0], [0.0]])
+    q[1] += np.linspace(0.0, 20.0, q.shape[1])
+    surrogate = gaussian_surrogate(history(q), 4.0, rng).q
+    assert surrogate.std(axis=1).min() > 0.5
+    np.testing.assert_allclose(surrogate.mean(axis=1), 0.0, atol=1e-12)
+    assert surrogate[0].std() == pytest.approx(1.0, rel=0.1)
+
+
+def test_the_scatter_of_the_split_is_that_of_the_mean():
+    """Rates of 1 and 3 per second: mean 2, deviation sqrt 2, so an error of ln A of 1 / 2 from two surrogates."""
+    rates = iter([np.array([1.0]), np.array([3.0])])
+    record = history(stationary(np.random.default_rng(6), 29 * 512))
+    two = {"dirlik_rate": np.array([4.0]), "rainflow_rate": np.array([0.5]), "segment_s": 4.0, "surrogates": 2}
+    split = ratio_split(record, lambda _: next(rates), **two)
+    assert (split.formula[0], split.process[0]) == (2.0, 4.0)
+    assert split.standard_error[0] == pytest.approx(0.5, rel=1e-12)

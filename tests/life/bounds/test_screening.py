@@ -14,6 +14,7 @@ from fatigue.life.bounds.screening import (
     extent_bound,
     may_need_mean_stress,
     modal_extent,
+    size_bound,
 )
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.counting.rows import count_histories
@@ -158,3 +159,53 @@ def test_points_in_high_mean_tension_are_told() -> None:
     """From half the yield stress at the largest possible stress on."""
     found = may_need_mean_stress(np.array([100.0, 100.0, -50.0]), np.array([24.0, 26.0, 100.0]), 250.0)
     assert found.tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("residue", ["half", "repeat"])
+@pytest.mark.parametrize("level", [0.9, -3.0, 50.0])
+def test_where_the_record_lies_moves_no_bound(level: float, residue: Residue) -> None:
+    """All sizes are about the mean: with a constant added to the coordinates they stay what they are."""
+    rng = np.random.default_rng(7)
+    q = rng.normal(size=(4, 300)) ** 3  # a few far peaks, so that the largest size is not the deviation
+    S_m, S_b = rng.normal(size=(2, 30, 4))
+    moved = q + level * rng.normal(size=(4, 1))
+    here, there = (modal_extent(x, residue) for x in (q, moved))
+    assert there.reach == pytest.approx(here.reach, rel=1e-9)
+    for found, expected in zip(size_bound(S_m, S_b, there), size_bound(S_m, S_b, here), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+    largest, sums = bound_of(S_m, S_b, there)
+    np.testing.assert_allclose(largest, bound_of(S_m, S_b, here)[0], rtol=1e-9)
+    np.testing.assert_allclose(sums[2], bound_of(S_m, S_b, here)[1][2], rtol=1e-9)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.integers(-9, 9), min_size=2, max_size=40), st.sampled_from(["half", "repeat"]))
+def test_the_sizes_of_one_mode_are_those_of_its_stress(signal: list[int], residue: Residue) -> None:
+    """Of one mode the bounds are the numbers themselves: max |s|, sqrt(sum s^2), sqrt(sum ds^2), about the mean."""
+    q = np.array([signal], dtype=float)
+    s = 3.0 * (q[0] - q[0].mean())
+    steps = np.diff(np.append(s, s[0]) if residue == "repeat" else s)
+    found = size_bound(np.array([[2.0]]), np.array([[1.0]]), modal_extent(q, residue))
+    expected = (np.abs(s).max(), np.sqrt(np.sum(s**2)), np.sqrt(np.sum(steps**2)))
+    for (top, bottom), wanted in zip((size[0] for size in found), expected, strict=True):
+        assert top == pytest.approx(wanted, rel=1e-6, abs=1e-6)
+        assert bottom == pytest.approx(wanted / 3.0, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize("residue", ["half", "repeat"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_stress_is_larger_than_its_sizes(kind: str, residue: Residue) -> None:
+    """Largest stress, sum of squares and of squared steps of 1500 points, about the mean, against their bounds."""
+    rng = np.random.default_rng(40 + KINDS.index(kind))
+    for _ in range(5):
+        q = modal_coordinates(rng, kind)
+        S_m, S_b = 30.0 * rng.normal(size=(2, 30, len(q)))
+        s = np.stack([S_m + S_b, S_m - S_b], axis=1) @ q
+        noise = 1e-12 * (np.abs(S_m) + np.abs(S_b)) @ np.abs(q).max(axis=1) * s.shape[-1]
+        s -= s.mean(axis=-1, keepdims=True)
+        steps = np.diff(np.concatenate([s, s[..., :1]], axis=-1) if residue == "repeat" else s, axis=-1)
+        peak, size, of_steps = size_bound(S_m, S_b, modal_extent(q, residue))
+        above = 1.0 + 1e-9
+        assert (np.abs(s).max(axis=-1) <= above * peak + noise[:, None]).all()
+        assert (np.linalg.norm(s, axis=-1) <= above * size + noise[:, None]).all()
+        assert (np.linalg.norm(steps, axis=-1) <= above * of_steps + noise[:, None]).all()

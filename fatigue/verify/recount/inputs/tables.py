@@ -70,6 +70,8 @@ def _may_hold(file: pq.ParquetFile, number: int, key: str, values: Sequence[Any]
     of_one_kind = all(isinstance(value, type(least)) for value in values[:1])
     if not of_one_kind or (isinstance(least, str) and (least != least.strip() or greatest != greatest.strip())):
         return True  # texts of numbers, and names with blanks around them, are ordered otherwise than these values
+    if isinstance(least, str) and not all(value.isascii() for value in values):
+        return True  # a letter with an accent may stand there as two characters, and is ordered by the first of them
     return any(least <= value <= greatest for value in values)
 
 
