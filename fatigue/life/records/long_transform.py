@@ -18,7 +18,8 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.records.spool import refused_writing, write_all
+from fatigue.files.mishaps import refused_writing
+from fatigue.life.records.spool import COPY, write_all
 
 Complex = NDArray[np.complex128]
 Values = Callable[[int, int], NDArray[np.inexact]]  # numbers between two places
@@ -46,7 +47,7 @@ class _Plane:
 
     def write(self, rows: slice, columns: slice, values: Complex) -> None:
         """Write a part."""
-        with refused_writing(self.path):
+        with refused_writing(self.path, COPY):
             for part, row in zip(values, range(rows.start, rows.stop), strict=True):
                 self.file.seek(16 * (row * self.columns + columns.start))
                 write_all(self.file, part)
@@ -54,7 +55,7 @@ class _Plane:
     def fill(self, values: Values, length: int) -> None:
         """Write so many numbers row after row, and zeros behind them."""
         size = self.rows * self.columns
-        with refused_writing(self.path):
+        with refused_writing(self.path, COPY):
             self.file.seek(0)
             for first in range(0, size, AT_ONCE):
                 block = np.zeros(min(AT_ONCE, size - first), dtype=np.complex128)
@@ -160,7 +161,7 @@ def _around(n: NDArray[np.int64], size: int, length: int) -> Complex:
 @contextmanager
 def _plane(path: Path, rows: int, columns: int) -> Iterator[_Plane]:
     """Open a scratch file, which is removed at the end."""
-    with refused_writing(path):
+    with refused_writing(path, COPY):
         path.parent.mkdir(parents=True, exist_ok=True)
         file = path.open("w+b", buffering=0)
     try:

@@ -122,14 +122,14 @@ class SpoolWriter:
         ------
         DataError : the place cannot be written
         """
-        with refused_writing(self._path):
+        with refused_writing(self._path, COPY):
             self._path.parent.mkdir(parents=True, exist_ok=True)
             self._file = self._path.open("wb", buffering=0)
         return self
 
     def __exit__(self, *_: object) -> None:
         """Write the last chunk and close the file."""
-        with refused_writing(self._path), self._file:
+        with refused_writing(self._path, COPY), self._file:
             write_all(self._file, np.ascontiguousarray(self._waiting[:, : self._held]))
 
     def append(self, samples: NDArray[np.floating]) -> None:
@@ -147,7 +147,7 @@ class SpoolWriter:
             self._held += some
             self._samples += some
             if self._held == CHUNK:
-                with refused_writing(self._path):
+                with refused_writing(self._path, COPY):
                     write_all(self._file, self._waiting)
                 self._held = 0
 
