@@ -1,5 +1,6 @@
 """What several tests share: results assessed once per run."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -8,7 +9,16 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from tests.small_case import small_case
 
+MOST_WORKERS = 8  # each of them holds up to 1 GB
+
 EXAMPLE = Path(__file__).parents[1] / "data" / "carbody"
+
+
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
+    """One worker per processor for the whole suite; none for what is named on the command line, which begins sooner."""
+    whole = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(MOST_WORKERS, processors) if whole else 0
 
 
 @pytest.fixture(scope="session")

@@ -131,7 +131,7 @@ def test_finite_signals_are_counted_as_ever_and_others_refused(signal, residue):
         (np.ma.array(PLAIN, mask=[0, 1, 0, 0, 0]), "masked array"),
         (np.ma.array(PLAIN), "masked array"),
     ],
-    ids=str,
+    ids=lambda given: given if isinstance(given, str) else type(given).__name__,
 )  # fmt: skip
 def test_what_is_no_signal_is_refused(signal, words):
     """One line that says what it is instead."""
@@ -151,7 +151,7 @@ def test_what_is_no_signal_is_refused(signal, words):
         ([-1.7e308, 1.7e308], r"the range from -1.7e\+308 to 1.7e\+308 exceeds"),
         ([1e308, 0.0, -1e308], "exceeds what double precision can hold"),
     ],
-    ids=str,
+    ids=lambda given: given if isinstance(given, str) else type(given).__name__,
 )
 def test_numbers_that_cannot_be_counted_are_refused(signal, words):
     """A missing or infinite sample by its index; samples too far apart."""
