@@ -7,6 +7,7 @@ records     modal coordinates of events, in memory or on disk
 counting    histories to cycles, and cycles to the damage of a block of points
 bounds      proven upper bounds of that damage, for points that need no counting
 mission     damage of single passes to kilometres
+load_factor the factor on all stresses that just meets the target
 attribution which modes, instants and frequencies owe the damage
 shear       what shear would add
 =========== ========================================================================================================

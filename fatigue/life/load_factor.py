@@ -61,14 +61,13 @@ def load_factor_of_counts(
         for row, face in np.argwhere(first[rows] > 0.0):
             at = rows[row], face
             u, f, h = utilisation[row, face], first[at], step[at]
-            above = np.flatnonzero(u > 1.0)
+            above, wider = np.flatnonzero(u > 1.0), max(2.0 * h * (FACTORS - 1), WIDE)
             if not above.size:  # all of them meet the target
-                first[at], step[at] = f * np.exp(h * (FACTORS - 1)), max(h, WIDE / (FACTORS - 1))
+                first[at], step[at] = f * np.exp(h * (FACTORS - 1)), wider / (FACTORS - 1)
                 if first[at] > LARGEST:
                     first[at], found[at] = 0.0, np.inf
             elif above[0] == 0:  # none does
-                span = max(h * (FACTORS - 1), WIDE)
-                first[at], step[at] = f * np.exp(-span), span / (FACTORS - 1)
+                first[at], step[at] = f * np.exp(-wider), wider / (FACTORS - 1)
                 if first[at] < SMALLEST:
                     first[at], found[at] = 0.0, 0.0
             else:

@@ -78,7 +78,9 @@ def straight_load_factor(utilisation: NDArray[np.float64], slope: float) -> NDAr
 def load_factor(
     count: NDArray[np.float64], power_sum: NDArray[np.float64], law: DamageLaw, target_km: float, damage_limit: float
 ) -> NDArray[np.float64]:
-    """Scale on all stresses that just meets the target on a curve with a knee, from the stored spectrum.
+    """Scale on all stresses that about meets the target on a curve with a knee, from the stored spectrum.
+
+    It says where ``load_factor.load_factor_of_counts`` has to look.
 
     Parameters
     ----------

@@ -23,6 +23,7 @@ class Assumptions:
     thickness_rule: ThicknessRule
     extension: Extension
     knee_cycles: float
+    mean_stress: bool = False
 
 
 def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
@@ -44,6 +45,7 @@ def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
         thickness_rule=rules["thickness_rule"],
         extension=rules["extension"],
         knee_cycles=rules["knee_cycles"],
+        mean_stress=rules["mean_stress"] == "asme",
     )
 
 
@@ -93,7 +95,7 @@ def variants(
 
     counted = [*_curve_variants(used, factor), *_stress_variants(point, cycles, used, factor)]
     kept = len(cycles) > 0 or point["damage_per_km"] == 0.0
-    rows = [*(counted if kept else ()), *_point_variants(point)]
+    rows = [*(counted if kept else ()), *_point_variants(point, used)]
     return pd.DataFrame(rows, columns=["assumption", "choice", "used", "damage_factor"])
 
 
@@ -123,14 +125,14 @@ def _stress_variants(
         yield "bending ratio", words, False, factor(used, of_cycle / ratio_factor(np.array(ratio)))
 
 
-def _point_variants(point: pd.Series) -> Iterator[tuple[str, str, bool, float]]:
+def _point_variants(point: pd.Series, used: Assumptions) -> Iterator[tuple[str, str, bool, float]]:
     others = (
-        ("mean stress", "ASME factor for high mean stress", "damage_factor_if_mean_stress"),
-        ("shear", "combined as in ASME VIII-2 5.5.5.3", "damage_factor_if_shear"),
+        ("mean stress", "ASME factor for high mean stress", "damage_factor_if_mean_stress", used.mean_stress),
+        ("shear", "combined as in ASME VIII-2 5.5.5.3", "damage_factor_if_shear", False),
     )
-    for assumption, choice, column in others:
+    for assumption, choice, column, is_used in others:
         if pd.notna(point[column]):
-            yield assumption, choice, False, float(point[column])
+            yield assumption, choice, is_used, float(point[column])
     if point["at_end"] and np.isfinite(point["life_km"]) and point["life_km_raw_end"] > 0.0:
         yield (
             "weld end",

@@ -48,16 +48,11 @@ NODES = (
         "life_km_dirlik",
         "float",
         "km",
-        "life by Dirlik's formula with one bending ratio per event, events with a spectrum; empty where the spectra "
-        "miss too much of the stress (dirlik_verdict outside_band)",
+        "life by Dirlik's formula with one bending ratio per event, events with a spectrum, without mean stress; empty "
+        "where the spectra miss too much of the stress (dirlik_verdict outside_band)",
     ),
-    Column(
-        "life_km_tb",
-        "float",
-        "km",
-        "life by Tovo-Benasciutti 2005 with one bending ratio per event, same events; empty where that by Dirlik is",
-    ),
-    Column("life_km_same_ratio", "float", "km", "rainflow life with the same one bending ratio per event, same events"),
+    Column("life_km_tb", "float", "km", "life by Tovo-Benasciutti 2005, likewise; empty where that by Dirlik is"),
+    Column("life_km_same_ratio", "float", "km", "rainflow life, likewise"),
     Column("dirlik_ratio", "float", "-", "D_dirlik / D_rainflow at the same bending ratio"),
     Column(
         "dirlik_verdict",

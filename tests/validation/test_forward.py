@@ -9,6 +9,8 @@ import pandas as pd
 import pytest
 
 from fatigue.assess import assess
+from fatigue.report.result import read_result
+from fatigue.report.variants import assumptions_of, variants
 from tests.small_case import SmallCase, small_case
 
 KEY = ["weld", "part", "order", "surface"]
@@ -146,3 +148,53 @@ def test_load_factors_of_bounds_are_bounds(name, tmp_path):
     assert (bounds >= 1.0).all()
     counted = screened.load_factor[screened.screened == ""]
     np.testing.assert_allclose(counted, exact.load_factor[counted.index], rtol=1e-12)
+
+
+YIELD = {"yield_MPa": 150.0}
+CHOICES = [  # of the table of a weld: assumption, choice, and what it is in the case
+    ("survival", "mean", {"survival": "mean"}),
+    ("survival", "mean-3sigma", {"survival": "mean-3sigma"}),
+    ("below the knee", "Haibach at 3e+05 cycles", {"extension": "haibach"}),
+    ("below the knee", "cut-off at 3e+05 cycles", {"extension": "cutoff"}),
+    ("thickness in dS", "ASME, at least 16 mm", {"thickness_rule": "asme"}),
+    ("mean stress", "ASME factor for high mean stress", {"mean_stress": "asme"}),
+]
+
+
+@pytest.fixture(scope="module")
+def as_it_is(tmp_path_factory) -> tuple[SmallCase, pd.DataFrame, pd.DataFrame]:
+    """A case with a dead load, its points, and the table of assumptions of the worst point of weld A."""
+    case = case_of(curve=YIELD | {"knee_cycles": 3e5}, dead_load=45.0)
+    folder = tmp_path_factory.mktemp("as-it-is")
+    nodes, _ = assessed(case, folder)
+    result = read_result(folder / "result", 2, 100, 50)
+    used = assumptions_of(result.record, "master-aluminium")
+    return case, nodes, variants(result.worst("A"), result.cycles("A"), result.passes_per_km, used)
+
+
+@pytest.mark.parametrize(("assumption", "choice", "change"), CHOICES, ids=[choice for _, choice, _ in CHOICES])
+def test_a_life_under_another_assumption_is_that_of_another_run(as_it_is, tmp_path, assumption, choice, change):
+    """What the report says of survival, knee, thickness rule and mean stress is what the case with them gives."""
+    case, nodes, table = as_it_is
+    said = table[(table.assumption == assumption) & (table.choice == choice)].damage_factor.item()
+    other = copy.deepcopy(case)
+    other.curve |= change
+    again, _ = assessed(other, tmp_path)
+    assert said == pytest.approx(largest(again, "A") / largest(nodes, "A"), rel=1e-9)
+    assert said != pytest.approx(1.0, rel=1e-3)
+
+
+def test_ends_and_limit_are_those_of_another_run(tmp_path):
+    """Life without end treatment is that of a weld whose ends are not treated; twice the limit is twice the life."""
+    case = case_of(curve={"extension": "haibach"})
+    ends = case.nodal_forces.node.isin([100, 106, 200, 206])
+    case.nodal_forces.loc[ends, ["fx_N", "fy_N", "fz_N"]] *= 1.4
+    nodes, _ = assessed(case, tmp_path / "treated")
+    raw, doubled = copy.deepcopy(case), copy.deepcopy(case)
+    raw.welds["end_length_mm"] = 0.0
+    doubled.mission["damage_limit"] = 2.0
+    untreated, _ = assessed(raw, tmp_path / "raw")
+    np.testing.assert_allclose(nodes.life_km_raw_end, untreated.life_km, rtol=1e-9)
+    assert (nodes.life_km_raw_end / nodes.life_km).min() < 0.9
+    twice, _ = assessed(doubled, tmp_path / "doubled")
+    np.testing.assert_allclose(twice.life_km, 2.0 * nodes.life_km, rtol=1e-12)

@@ -22,12 +22,14 @@ class BlockStress:
     membrane, bending : (n, m) membrane stress, and bending stress of the top surface [MPa per unit modal coordinate]
     size : (n,) factor of the thickness on the range
     same_ratio : (n, 2) the one bending ratio of ``BlockCount.damage_same_ratio``
+    shear_factor : (n, 2) factor on dS of ``BlockCount.damage_with_shear``; None: not wanted
     """
 
     membrane: Floats
     bending: Floats
     size: Floats
     same_ratio: Floats
+    shear_factor: Floats | None = None
 
     def __len__(self) -> int:
         """Count the points."""
@@ -35,11 +37,21 @@ class BlockStress:
 
     def at(self, rows: slice | NDArray[np.intp]) -> Self:
         """Take some points."""
-        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))
+        shear = None if self.shear_factor is None else self.shear_factor[rows]
+        return type(self)(self.membrane[rows], self.bending[rows], self.size[rows], self.same_ratio[rows], shear)
 
     def beside(self, others: Self) -> Self:
-        """Put other points behind these."""
-        return type(self)(*(np.concatenate([getattr(one, f.name) for one in (self, others)]) for f in fields(self)))
+        """Put other points behind these; a shear factor stays where both have one."""
+        shear = None
+        if self.shear_factor is not None and others.shear_factor is not None:
+            shear = np.concatenate([self.shear_factor, others.shear_factor])
+        return type(self)(
+            np.concatenate([self.membrane, others.membrane]),
+            np.concatenate([self.bending, others.bending]),
+            np.concatenate([self.size, others.size]),
+            np.concatenate([self.same_ratio, others.same_ratio]),
+            shear,
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +62,7 @@ class BlockCount:
     ----------
     damage : sum of n d(dS)
     damage_same_ratio : sum of n d(dS) with one bending ratio for all cycles of a point, without the mean-stress factor
+    damage_with_shear : sum of n d(dS) with the shear factor on dS; 0 for a straight law, where damage scales with it
     damage_mean_stress : sum of n d(dS) with the mean-stress factor; NaN without a yield stress
     cycles : sum of n
     power_sum : sum of n S**k of the structural stress ranges, k the first slope of the law [MPa**k]
@@ -64,6 +77,7 @@ class BlockCount:
 
     damage: Floats
     damage_same_ratio: Floats
+    damage_with_shear: Floats
     damage_mean_stress: Floats
     cycles: Floats
     power_sum: Floats

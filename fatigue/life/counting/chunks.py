@@ -32,6 +32,7 @@ from fatigue.life.counting.tally import (
     nothing_counted,
     plain,
     refuse_not_finite,
+    shear_factors,
     tally,
 )
 from fatigue.life.rule import CycleRule
@@ -67,6 +68,7 @@ class _Block(NamedTuple):
 
     size: Floats
     same_ratio: Floats
+    shear_factor: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
@@ -119,7 +121,7 @@ def _count_points(
     totals, histogram, trials = counted
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
-        own = plain(stress.size)[some], plain(stress.same_ratio)[some]
+        own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factors(stress)[some]
         block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
         _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_rule(rule), chunk)
 
@@ -352,7 +354,8 @@ def count_chunk(
             cycles, left = close_all(n, stage.recurs, room), 0
         else:
             cycles, left = close_open(room.s, state.waiting[row, surface], n, stage.recurs, room.buffers)
-        point = Surface(room.m, room.b, side, block.size[row], block.same_ratio[row, surface])
+        own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
+        point = Surface(room.m, room.b, side, own[0], own[1], own[2])
         if block.trials.damage.shape[2] > 0:
             at_first, step = block.trials.first[row, surface], block.trials.step[row, surface]
             tally_trials(point, at_first, step, block.trials.damage[row, surface], rule, room.buffers, cycles)

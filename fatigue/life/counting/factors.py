@@ -29,8 +29,8 @@ Floats = NDArray[np.float64]
 class Trials(NamedTuple):
     """Factors ``first exp(i step)`` on all stresses of some points and their damage.
 
-    ``first`` and ``step`` (n, 2) of top and bottom surface, 0: not wanted; ``damage`` (n, 2, g) at the g factors;
-    g = 0: the stresses are counted as they are.
+    ``first`` and ``step`` (n, 2) of top and bottom surface, 0: not wanted; ``damage`` (n, 2, g) at the g factors; for
+    g = 0 the stresses are counted as they are.
     """
 
     first: Floats

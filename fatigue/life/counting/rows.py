@@ -25,6 +25,7 @@ from fatigue.life.counting.tally import (
     nothing_counted,
     plain,
     refuse_not_finite,
+    shear_factors,
     tally,
 )
 from fatigue.life.records.history import Residue, stress_history
@@ -42,6 +43,7 @@ class _Histories(NamedTuple):
     bending: Floats
     size: Floats
     same_ratio: Floats
+    shear_factor: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
@@ -54,7 +56,7 @@ def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> B
     for first in range(0, len(stress), rows):
         some = stress.at(slice(first, first + rows))
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
-        counts.append(count_histories(membrane, bending, some.size, some.same_ratio, record.residue, rule))
+        counts.append(_count_some(some, (membrane, bending), record.recurs, rule))
     return BlockCount(*(np.concatenate([getattr(count, f.name) for count in counts]) for f in fields(BlockCount)))
 
 
@@ -67,7 +69,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
         refuse_not_finite(membrane, bending)
         totals, histogram = nothing_counted(len(membrane), rule.law)
-        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio)
+        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
         trials = Trials(*(part[at] for part in tried))
         block = _Histories(*of_points, totals, histogram, trials)
         _count(block, record.recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
@@ -87,15 +89,17 @@ def count_histories(
     ------
     NumericalError : a sample is not finite
     """
+    return _count_some(BlockStress(membrane, bending, size, same_ratio), (membrane, bending), residue == "repeat", rule)
+
+
+def _count_some(some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule) -> BlockCount:
+    """Count some points, of which membrane and bending stress over time are given."""
+    membrane, bending = histories
     refuse_not_finite(membrane, bending)
     totals, histogram = nothing_counted(len(membrane), rule.law)
-    of_points = plain(membrane), plain(bending), plain(size), plain(same_ratio)
-    _count(
-        _Histories(*of_points, totals, histogram, no_trials(len(membrane))),
-        residue == "repeat",
-        compiled_rule(rule),
-        buffers_for(membrane.shape[1]),
-    )
+    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+    block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
+    _count(block, recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
     return block_count(totals, histogram, rule)
 
 
@@ -109,8 +113,8 @@ def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
-            same_ratio = block.same_ratio[row, surface]
-            point = Surface(block.membrane[row], block.bending[row], side, block.size[row], same_ratio)
+            own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
+            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2])
             cycles = find_cycles(s, recurs, buffers)
             if block.trials.damage.shape[2] > 0:
                 first, step = block.trials.first[row, surface], block.trials.step[row, surface]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled, inlined
 from fatigue.life import rule as master
-from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount
+from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount, BlockStress
 from fatigue.life.counting.reversals import Buffers
 from fatigue.life.counting.signal import not_finite
 from fatigue.life.curves import DamageLaw
@@ -40,6 +40,7 @@ class Surface(NamedTuple):
     side: float
     size: float
     same_ratio: float
+    shear_factor: float
 
 
 def compiled_rule(rule: CycleRule) -> CompiledRule:
@@ -53,6 +54,11 @@ def nothing_counted(points: int, law: DamageLaw) -> tuple[NDArray[np.void], Floa
     """Totals and histogram of a block before its first cycle."""
     totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
     return totals, np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
+
+
+def shear_factors(stress: BlockStress) -> Floats:
+    """Shear factor of each point and surface; 1 where none is wanted."""
+    return plain(np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor)
 
 
 def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule) -> BlockCount:
@@ -135,6 +141,7 @@ def tally(
             total["r_largest"] = minimum / maximum if maximum != 0.0 else math.nan
         if histogram.shape[0] > 0:
             total["damage_same_ratio"] += n * cycle_damage(S * same_scale, rule)
+            total["damage_with_shear"] += n * cycle_damage(dS * point.shear_factor, rule)
             decades = math.log10(max(dS, 1e-3)) + 3.0
             bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
             histogram[bin_, 0] += n

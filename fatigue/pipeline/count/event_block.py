@@ -63,15 +63,18 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> Eve
 
     The equivalent range of a cycle has the bending ratio of this cycle (ASME VIII-2 5.5.5).
     """
-    counted, damage_raw_end = _counted(stress, load, estimate.one_ratio)
     var, shear_var, covar, shear_bending_ratio = _variances(stress, load)
     rule = stress.rule
     I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
-    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)) ** rule.law.slopes[0]
+    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t))
+    counted, damage_raw_end = _counted(stress, load, estimate.one_ratio, with_shear)
+    damage_shear = counted.damage_with_shear
+    if rule.law.is_straight:
+        damage_shear = np.where(counted.damage > 0.0, counted.damage * with_shear ** rule.law.slopes[0], 0.0)
     return EventBlock(
         estimate=estimate,
         count=counted,
-        damage_shear=np.where(counted.damage > 0.0, counted.damage * with_shear, 0.0),
+        damage_shear=damage_shear,
         shear_ratio=quotient(np.sqrt(shear_var), np.sqrt(var)),
         damage_raw_end=damage_raw_end,
         verdict=_not_assessed(var),
@@ -115,7 +118,7 @@ def _not_assessed(like: NDArray[np.float64]) -> NDArray[np.int8]:
 
 
 def _counted(
-    stress: ModalStress, load: EventLoad, one_ratio: NDArray[np.float64]
+    stress: ModalStress, load: EventLoad, one_ratio: NDArray[np.float64], with_shear: NDArray[np.float64]
 ) -> tuple[BlockCount, NDArray[np.float64]]:
     """The count of a block, and its damage (n, 2) with raw ends in place of treated ones, NaN where they do not matter.
 
@@ -123,10 +126,11 @@ def _counted(
     """
     n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
     rows = ends.rows[matters]
-    block = BlockStress(f * stress.membrane, f * stress.bending, stress.size, one_ratio)
+    with_shear = np.nan_to_num(with_shear, nan=1.0)  # no stress, no cycles
+    block = BlockStress(f * stress.membrane, f * stress.bending, stress.size, one_ratio, with_shear)
     if rows.size:
         membrane, bending = f * ends.stress.membrane[matters], f * ends.stress.bending[matters]
-        block = block.beside(BlockStress(membrane, bending, stress.size[rows], one_ratio[rows]))
+        block = block.beside(BlockStress(membrane, bending, stress.size[rows], one_ratio[rows], with_shear[rows]))
     everything = count(block, load.record, stress.rule)
     counted = everything.at(slice(n))
     damage_raw_end = counted.damage.copy()

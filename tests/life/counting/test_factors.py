@@ -1,4 +1,6 @@
-"""Damage under many factors from one count, against a count of the scaled stress for each of them."""
+"""Damage under factors on all stresses and on dS, against a count of the scaled stress for each of them."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -57,3 +59,18 @@ def test_every_factor_is_a_count_of_the_scaled_stress(law: DamageLaw, mean_stres
     assert (found[0] > 0.0).any()
     assert not found[2].any()
     assert not found[1, 1].any()
+
+
+@pytest.mark.parametrize("mean_stress", [False, True])
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
+def test_a_shear_factor_is_on_the_equivalent_range(law: DamageLaw, mean_stress: bool) -> None:
+    """As a size factor would be; f_M, of the normal stress, stays. A straight law needs no sum of its own."""
+    rule = CycleRule(law, True, 150.0, mean_stress)
+    block, q = a_block(2)
+    record, factor = CountedRecord(q, "repeat"), np.array([1.3, 1.1, 1.0])
+    with_shear = replace(block, shear_factor=np.repeat(factor[:, None], 2, axis=1))
+    expected = count_rows(replace(block, size=factor * block.size), record, rule).damage
+    for counter in (count_rows, count_chunks):
+        found = counter(with_shear, record, rule)
+        np.testing.assert_array_equal(found.damage, counter(block, record, rule).damage)
+        np.testing.assert_allclose(found.damage_with_shear, 0.0 if law.is_straight else expected, rtol=1e-12)

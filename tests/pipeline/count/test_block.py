@@ -11,7 +11,7 @@ from tests.small_case import small_case
 
 @pytest.mark.parametrize("share", [0.0, 0.5])
 def test_a_curve_with_a_knee_is_counted_some_stations_at_a_time(tmp_path, monkeypatch, share):
-    """Histograms are large; the load factor, which is taken from them, and all else stays what it was."""
+    """Histograms are large; the load factor, which is looked for where they say, and all else stays what it was."""
     case = small_case()
     case.curve |= {"extension": "haibach"}
     case.weld_nodes["x_mm"] *= 1.0 + 0.3 * (case.weld_nodes["x_mm"] > 30.0)

@@ -183,6 +183,7 @@ def _evaluated(
     return BlockCount(
         damage=to_damage * found["damage"],
         damage_same_ratio=to_damage * I_same**-k * found["power_sum"],
+        damage_with_shear=np.zeros_like(nan),
         damage_mean_stress=nan,
         cycles=found["cycles"].copy(),
         power_sum=block.scale**k * found["power_sum"],

@@ -123,7 +123,7 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         "power_sum": float(n @ S**k),
         "R_largest": np.nan if largest is None else _stress_ratio(s[cycles.start[largest]], s[cycles.end[largest]]),
         "with_mean_stress": float(n @ curve.damage(x / f_M)) if _is_known(mean_stress, curve) else np.nan,
-        "with_shear": damage * _shear_factor(kept, t_m, t_b, I_one, curve) ** k if damage > 0 else 0.0,
+        "with_shear": float(n @ curve.damage(dS * np.nan_to_num(_shear_factor(kept, t_m, t_b, I_one, curve), nan=1.0))),
     }
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
     kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
