@@ -56,8 +56,8 @@ def test_an_outward_vector_into_the_side():
     assert codes == ["outward_into_plate"]
     assert texts[0] == (
         f"weld_nodes.csv: weld W2, node {LINE.node[0]} (order 1) and 10 more: the outward vector points into the "
-        "assessed side that weld_elements.csv names: it lies where the vector points to, and not behind it. Give a vector from "
-        "the assessed plate across the line: tension is read as compression now."
+        "assessed side that weld_elements.csv names: it lies where the vector points to, and not behind it. Give a "
+        "vector from the assessed plate across the line: tension is read as compression now."
     )
 
 
