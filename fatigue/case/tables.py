@@ -55,9 +55,13 @@ class Body(_Table):
         default=None, description="the file of the elements of each weld's assessed side"
     )
     nodes: _Text | None = Field(
-        default=None, description="the file of all nodes [mm], for the balance check and for pictures"
+        default=None,
+        description="the file of all nodes [mm], for the balance check, the comparison with the welds and pictures",
     )
-    elements: _Text | None = Field(default=None, description="the file of the elements' corner nodes, for pictures")
+    elements: _Text | None = Field(
+        default=None,
+        description="the file of the elements' nodes and thickness, for the comparison with the welds and pictures",
+    )
     weld_register: _Text | None = Field(
         default=None,
         alias="register",  # which is a method of every class that has abstract ones

@@ -7,7 +7,7 @@ load zigzags from node to node as the edges are marked, and does not with other 
 wrongly all of it zigzags; where a few nodes are, the load zigzags round them.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +25,7 @@ Marks = NDArray[np.bool_]
 ZIGZAG_SHARE = 0.5  # of the line load as it is marked; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing
 ZIGZAG_DROP = 0.3  # of it left with other marks; white noise over six components keeps more than half
 STRETCH_DROP = 0.2  # where stretches are marked one by one, which has more freedom to fit noise
+ROUNDS = 3  # of marking stretches anew
 SHORTEST, SHORTEST_MARKED = 5, 3  # nodes: on a single edge that marks no mid-side node one zigzag proves nothing
 
 
@@ -65,11 +66,19 @@ def _other_marks(line: WeldLine) -> Iterator[Marks]:
 
 
 def _mended(line: WeldLine, nodal: NDArray[np.floating], load: Floats) -> Marks:
-    """Marks of a line after those stretches whose load zigzags are marked in the way that leaves the least of it."""
+    """Marks of a line after those stretches whose load zigzags are marked in the way that leaves the least of it.
+
+    A stretch may reach too far at first, so what zigzags then is marked anew.
+    """
     marks = line.edge_mid
-    for stretch in _stretches(line, _zigzags(line, *_jumps(line, load))):
-        ways = [marks, *_ways(line, marks, stretch)]
-        marks = min(ways, key=lambda way: _zigzag(replace(line, edge_mid=way), nodal))
+    for _ in range(ROUNDS):
+        before = marks
+        for stretch in _stretches(line, _zigzags(line, *_jumps(line, load))):
+            ways = [marks, *_ways(line, marks, stretch)]
+            marks = min(ways, key=lambda way: _zigzag(replace(line, edge_mid=way), nodal))
+        if np.array_equal(marks, before):
+            break
+        load = line_load(replace(line, edge_mid=marks), nodal)
     return marks
 
 
@@ -85,22 +94,29 @@ def _stretches(line: WeldLine, zigzags: Marks) -> list[NDArray[np.int64]]:
 
 
 def _ways(line: WeldLine, marks: Marks, stretch: NDArray[np.int64]) -> Iterator[Marks]:
-    """Other ways to mark a stretch: not at all, or every other of its nodes that lie amid unmarked neighbours."""
-    n = line.node.size
+    """Other ways to mark a stretch: not at all, or every other of its nodes that lie amid unmarked neighbours.
+
+    Where a stretch reaches too far, its first or its last mark is one too many.
+    """
     if marks[stretch].any():
         way = marks.copy()
         way[stretch] = False
         yield way
-    steps = step_lengths(replace(line, edge_mid=np.zeros_like(marks)))
     for phase in (0, 1):
-        way = marks.copy()
-        for at in stretch[phase::2].tolist():
-            before, after = (at - 1) % n, (at + 1) % n
-            is_end = not line.closed and at in (0, n - 1)
-            if not is_end and not way[[before, at, after]].any() and _amid(steps[[before, at]]):
-                way[at] = True
-        if not np.array_equal(way, marks):
-            yield way
+        added = _markable(line, marks, stretch[phase::2].tolist())
+        for some in dict.fromkeys(tuple(added[a:b]) for a in (0, 1) for b in (len(added), len(added) - 1)):
+            if some:
+                way = marks.copy()
+                way[list(some)] = True
+                yield way
+
+
+def _markable(line: WeldLine, marks: Marks, some: Sequence[int]) -> list[int]:
+    """Those of some nodes, no two of them neighbours, that lie amid two unmarked neighbours and are not marked."""
+    n, steps = line.node.size, step_lengths(replace(line, edge_mid=np.zeros_like(marks)))
+    inner = [at for at in some if line.closed or 0 < at < n - 1]
+    around = [(at, [at - 1, at, (at + 1) % n]) for at in inner]
+    return [at for at, nodes in around if not marks[nodes].any() and _amid(steps[nodes[:2]])]
 
 
 def _problem(line: WeldLine, marks: Marks, where: str) -> Problem:

@@ -22,8 +22,8 @@ from fatigue.readers.neutral.register.registered import Registered, registered, 
 from fatigue.readers.neutral.register.registered_lines import Joints, registered_lines, unconfirmed_thickness
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.readers.neutral.spare_memory import give_back
+from fatigue.weld.doubts.summed_corners import summed_corners
 from fatigue.weld.line_units import unit_problems, unit_warnings
-from fatigue.weld.summed_corners import summed_corners
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,7 +7,7 @@ import numpy as np
 
 from fatigue.errors import Problem
 from fatigue.readers.neutral.against_mesh.directions import astray
-from fatigue.readers.neutral.against_mesh.edges import other_edges
+from fatigue.readers.neutral.against_mesh.edges import Sides, other_edges, sides_of
 from fatigue.readers.neutral.against_mesh.findings import Doubt, worst_first
 from fatigue.readers.neutral.against_mesh.positions import moved_nodes, unknown_nodes
 from fatigue.readers.neutral.against_mesh.shells import TouchingShells, arms, touching_shells
@@ -38,13 +38,14 @@ def mesh_warnings(
     knows_sides : whether the case names the elements of each plate side, by which directions are judged later
     """
     shells = touching_shells(mesh, lines.node)
+    sides = sides_of(shells)
     found: list[Doubt] = []
     begin = 0
     while begin < len(lines):
         end = int(np.searchsorted(lines.begin, lines.begin[begin] + NODES_AT_ONCE, side="right")) - 1
         end = max(end, begin + 1)
         some = lines.lines(slice(begin, end))
-        found += _of_some(some, mesh, shells, names, confirmed, knows_sides=knows_sides)
+        found += _of_some(some, mesh, shells, sides, names, confirmed, knows_sides=knows_sides)
         begin = end
     return worst_first(found)
 
@@ -53,6 +54,7 @@ def _of_some(
     lines: LineStack,
     mesh: Mesh,
     shells: TouchingShells,
+    sides: Sides,
     names: TableNames,
     confirmed: Mapping[str, Sequence[float]],
     *,
@@ -67,4 +69,4 @@ def _of_some(
         stays = ~np.repeat(is_moved, np.diff(lines.begin))[at]
         at, arm = arms(lines, at[stays], shells, shell[stays], mesh)
         found += astray(lines, at, arm, f"the nearest shell of {names.elements}", names.lines)
-    return found + other_edges(lines, shells, names.lines, names.elements)
+    return found + other_edges(lines, shells, sides, names.lines, names.elements)

@@ -13,10 +13,11 @@ Ids = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Sides:
-    """Sides of shells by their two ends: those without a mid-side node, those with one and which, and their halves.
+class Sides:
+    """Sides of shells between nodes of weld lines: those without a mid-side node, those with one, and their halves.
 
-    Sides are numbers that ``key`` gives, ascending; ``mid`` are positions in ``node``, which is ascending.
+    Sides are numbers that ``key`` gives, ascending; ``node`` are the nodes of weld lines, ascending, ``mid`` the ids of
+    the mid-side nodes.
     """
 
     node: Ids
@@ -24,6 +25,7 @@ class _Sides:
     parabolic: Ids
     mid: Ids
     halves: Ids
+    mids: Ids
 
     def key(self, a: Ids, b: Ids) -> Ids:
         """Number of each pair of nodes; -1 where a node is unknown."""
@@ -42,30 +44,28 @@ class _Sides:
             return np.zeros(a.size, dtype=bool)
         key = self.key(a, b)
         place = np.searchsorted(self.parabolic, key).clip(max=self.parabolic.size - 1)
-        has: NDArray[np.bool_] = (self.parabolic[place] == key) & (self.node[self.mid[place]] == mid)
+        has: NDArray[np.bool_] = (key >= 0) & (self.parabolic[place] == key) & (self.mid[place] == mid)
         return has
 
 
-def other_edges(lines: LineStack, shells: TouchingShells, file: str, elements_file: str) -> list[Doubt]:
+def other_edges(lines: LineStack, shells: TouchingShells, sides: Sides, file: str, elements_file: str) -> list[Doubt]:
     """Warnings of welds that mark other mid-side nodes than the shells have, leave some out, or leave the edges."""
     if not shells.element.size:
         return []
-    sides = _sides(shells)
     before, after = neighbours(lines)
     here, next_ = lines.node, lines.node[after]
     key = sides.key(here, next_)
     has_next = np.ones(here.size, dtype=bool)
     has_next[lines.begin[1:] - 1] = is_closed(lines)
-    linear, half = np.isin(key, sides.linear), np.isin(key, sides.halves)
-    whole = np.isin(key, sides.parabolic)
-    touched = np.isin(here, shells.node) & np.isin(next_, shells.node)
+    linear, whole, half = (_among(key, some) for some in (sides.linear, sides.parabolic, sides.halves))
+    touched = _among(here, shells.node) & _among(next_, shells.node)
     marked = lines.edge_mid
     unmarked_pair = has_next & ~marked & ~marked[after]
 
     confirmed = marked & sides.has_mid(lines.node[before], here, next_)
     not_mid = marked & ~confirmed & (linear | linear[before])
     forgotten = unmarked_pair & half & ~linear
-    is_mid = np.isin(here, shells.nodes[:, CORNERS:])
+    is_mid = _among(here, sides.mids)
     forgotten_node = (forgotten & is_mid) | (forgotten[before] & is_mid)
     skipped = unmarked_pair & whole & ~linear & ~half
     no_edge = touched & unmarked_pair & ~linear & ~whole & ~half
@@ -82,7 +82,7 @@ def other_edges(lines: LineStack, shells: TouchingShells, file: str, elements_fi
     def of_skipped(worst: int, nodes: Ids) -> tuple[str, str]:
         at = int(np.flatnonzero(sides.parabolic == key[worst])[0])
         what = (
-            f"the line leaves out node {sides.node[sides.mid[at]]}, which shells of {elements_file} have amid the side "
+            f"the line leaves out node {sides.mid[at]}, which shells of {elements_file} have amid the side "
             f"to node {next_[worst]}"
         )
         return what, "Add the mid-side nodes with their forces, marked in edge_mid: they carry two thirds of the load"
@@ -100,25 +100,38 @@ def other_edges(lines: LineStack, shells: TouchingShells, file: str, elements_fi
     ]
 
 
-def _sides(shells: TouchingShells) -> _Sides:
-    """Sides of the shells that touch weld lines."""
+def sides_of(shells: TouchingShells) -> Sides:
+    """Sides of the shells that touch weld lines, as far as their ends are nodes of the lines."""
     corner, mid = shells.nodes[:, :CORNERS], shells.nodes[:, CORNERS:]
     last = np.roll(corner, -1, axis=1)
     triangle = corner[:, 3] == 0
     last[triangle, 2] = corner[triangle, 0]
-    used = (corner != 0) & (last != 0)
-    used[triangle, 3] = False
-    a, m, b = corner[used], mid[used], last[used]
-    node = np.unique(shells.nodes[shells.nodes != 0])
+    last[triangle, 3] = 0
+    on_line = np.stack([_among(nodes, shells.node) for nodes in (corner, mid, last)])
     nothing = np.zeros(0, dtype=np.int64)
-    of = _Sides(node, nothing, nothing, nothing, nothing)
-    with_mid = m != 0
-    halves = np.concatenate([of.key(a[with_mid], m[with_mid]), of.key(m[with_mid], b[with_mid])])
-    parabolic, one = np.unique(of.key(a[with_mid], b[with_mid]), return_index=True)
-    return _Sides(
-        node=node,
-        linear=np.unique(of.key(a[~with_mid], b[~with_mid])),
-        parabolic=parabolic,
-        mid=np.searchsorted(node, m[with_mid])[one],
-        halves=np.unique(halves),
+    keys = Sides(shells.node, nothing, nothing, nothing, nothing, nothing)
+
+    def of(a: Ids, b: Ids, wanted: NDArray[np.bool_]) -> Ids:
+        return keys.key(a[wanted], b[wanted])
+
+    whole = on_line[0] & on_line[2]
+    parabolic, mids = of(corner, last, whole & (mid != 0)), mid[whole & (mid != 0)]
+    order = np.argsort(parabolic, kind="stable")
+    halves = [of(corner, mid, on_line[0] & on_line[1]), of(mid, last, on_line[1] & on_line[2])]
+    return Sides(
+        node=shells.node,
+        linear=np.sort(of(corner, last, whole & (mid == 0))),
+        parabolic=parabolic[order],
+        mid=mids[order],
+        halves=np.sort(np.concatenate(halves)),
+        mids=np.sort(mid[on_line[1]]),
     )
+
+
+def _among(values: Ids, ascending: Ids) -> NDArray[np.bool_]:
+    """Whether each value is one of those."""
+    if not ascending.size:
+        return np.zeros(values.shape, dtype=bool)
+    place = np.searchsorted(ascending, values).clip(max=ascending.size - 1)
+    found: NDArray[np.bool_] = ascending[place] == values
+    return found

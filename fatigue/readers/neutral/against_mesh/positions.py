@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.against_mesh.findings import Doubt, doubts, one_factor, unit_of
+from fatigue.readers.neutral.against_mesh.findings import SAME_FACTOR, Doubt, doubts, one_factor, unit_of
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.weld.line import LineStack, line_of_node
 from fatigue.weld.line_geometry import edge_nodes, edge_points
@@ -13,6 +13,7 @@ from fatigue.weld.line_geometry import edge_nodes, edge_points
 Floats = NDArray[np.float64]
 
 OF_EDGE = 0.01  # of the mean edge of the line: forces per length are wrong by as much, stress by 1 %, life by 4 %
+SAME_SHAPE = 1e-3  # relative, of the distances between the nodes: what is left is a shift or a turn
 ROUNDING = 4 * float(np.finfo(np.float32).eps)  # of the largest coordinate: either table may be in single precision
 
 
@@ -64,8 +65,8 @@ def _shape(here: Floats, there: Floats, known: NDArray[np.bool_], nodes_file: st
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.linalg.norm(here[i] - here[j], axis=1) / np.linalg.norm(there[i] - there[j], axis=1)
     factor = one_factor(ratio) if np.isfinite(ratio).all() else None
-    if factor is None:
+    if factor is None or (abs(factor - 1) <= SAME_FACTOR and np.abs(ratio - 1).max() > SAME_SHAPE):
         return ""
-    if abs(factor - 1) <= 1e-3:
+    if abs(factor - 1) <= SAME_SHAPE:
         return "; the line has the same shape there, shifted or turned"
     return f"; the line is {factor:.4g} times as long here{unit_of(factor, 'the weld table', nodes_file)}"

@@ -51,11 +51,11 @@ class TouchingShells:
 
 
 def shells_of_forces(forces: ElementForces, mesh: Mesh) -> TouchingShells:
-    """Elements with forces, at all their nodes, as far as the mesh has these; of no known thickness."""
+    """Elements with forces, all nodes of which the mesh has; of no known thickness."""
     one_mode = forces.mode == forces.mode[:1]
     element, node = forces.element[one_mode], forces.node[one_mode]
     place = np.searchsorted(mesh.node, node).clip(max=mesh.node.size - 1)
-    known = mesh.node[place] == node
+    known = ~np.isin(element, element[mesh.node[place] != node])
     element, node, place = element[known], node[known], place[known]
     ids, shell = np.unique(element, return_inverse=True)
     total = np.column_stack([np.bincount(shell, x, minlength=ids.size) for x in mesh.xyz[place].T])
