@@ -68,6 +68,10 @@ def every_mutant(room: str) -> list[Mutant]:
     defaults = defaults_of(sorted((ROOT / "fatigue").rglob("*.py")))
     known = equivalents()
     found = [m for path in files for m in mutants(path.read_text(), str(path.relative_to(ROOT)), defaults)]
+    keys = {key for mutant in found for key in (mutant.key, (*mutant.key[:3], ""))}
+    for key in known:
+        if key[0].startswith(f"fatigue/{room}/") and key not in keys:
+            print(f"{EQUIVALENTS.name}: no mutant any more: {key[0]} {key[1]} {key[2]}", file=sys.stderr)
     return [mutant for mutant in found if mutant.key not in known and (*mutant.key[:3], "") not in known]
 
 
