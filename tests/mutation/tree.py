@@ -208,7 +208,7 @@ def _test(root: Path, code: Path, selection: list[str], said: Path) -> None:
 
 def _remove_code_that_contains(tree: Tree, module: str) -> None:
     """Remove the machine code of a module and of all that import it: numba looks only at the file of the function."""
-    imports = {path: _imported(path) for room in LOOPS for path in (tree.root / "fatigue" / room).rglob("*.py")}
+    imports = _imports_of_loops(tree)
     names = {path: ".".join(path.relative_to(tree.root).with_suffix("").parts) for path in imports}
     stale = {tree.root / module}
     while more := {p for p, seen in imports.items() if p not in stale and seen & {names.get(s) for s in stale}}:
@@ -216,6 +216,12 @@ def _remove_code_that_contains(tree: Tree, module: str) -> None:
     for path in stale:
         for kept in tree.used_code.glob(f"{path.parent.name}_*/{path.stem}.*"):
             kept.unlink()
+
+
+@cache
+def _imports_of_loops(tree: Tree) -> dict[Path, set[str]]:
+    """Give the modules that each file of the rooms with machine code imports."""
+    return {path: _imported(path) for room in LOOPS for path in (tree.root / "fatigue" / room).rglob("*.py")}
 
 
 def _imported(path: Path) -> set[str]:
