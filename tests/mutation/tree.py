@@ -99,6 +99,7 @@ def tried(tree: Tree, mutant: Mutant, number: int, selection: list[list[str]], s
     shutil.rmtree(tree.used_code, ignore_errors=True)
     shutil.copytree(tree.sound_code, tree.used_code)
     _remove_code_that_contains(tree, mutant.module)
+    verdict: Verdict = "survived"
     with _spoilt(tree.root / mutant.module, mutant.text, number):
         for files in selection:
             verdict = _run(tree, tree.used_code, files, silent_s)
