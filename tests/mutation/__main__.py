@@ -108,7 +108,7 @@ def _survivors(tree: Tree, room: str, chosen: list[Mutant], asked: argparse.Name
     reached = {} if asked.near else files_by_line(tree, room, silent_s)
     kinds: Counter[str] = Counter()
     survivors = []
-    for number, mutant in enumerate(chosen):
+    for mutant in chosen:
         try:
             if asked.near:
                 selection = sound_nearby(tree, mutant.module, silent_s)
@@ -116,7 +116,7 @@ def _survivors(tree: Tree, room: str, chosen: list[Mutant], asked: argparse.Name
                 files = reaching(tree.root / mutant.module, mutant.line, reached.get(mutant.module, {}))
                 selection = stages(tree.root, mutant.module, files)
             started = time.monotonic()
-            verdict = tried(tree, mutant, number, selection, silent_s)
+            verdict = tried(tree, mutant, selection, silent_s)
         except KeyboardInterrupt:
             break
         kinds[verdict] += 1

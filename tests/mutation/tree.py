@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import traceback
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ from numba.core import config
 from tests.mutation.mutants import Mutant
 
 ROOT = Path(__file__).parents[2]
-DATE = 1_000_000_000  # of every sound file; a spoilt one is younger, machine code younger still
+DATE = 1_000_000_000  # from which the dates of files are counted, far in the past: machine code has to be younger
 MEMORY, FILE = 12 << 30, 1 << 30  # bytes that a mutant may take
 LOOPS = ("weld", "life", "spectrum")  # rooms with machine code
 IN_CODE = ("compiled", "inlined", "overload", "intrinsic")  # what makes machine code of a function
@@ -49,14 +50,26 @@ def copy_of_tree(folder: Path) -> Tree:
     listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\0")
     tree = Tree(folder / "tree", folder / "sound_code", folder / "used_code")
+    changed: list[str] = []
     for name in filter(None, names):
         source, target = ROOT / name, tree.root / name
         if source.is_file() and not (target.exists() and target.read_bytes() == source.read_bytes()):
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
-            os.utime(target, (DATE, DATE))
+            _write(target, source.read_bytes())
+            changed.append(name)
+    if any(name.startswith("fatigue/") for name in changed):
+        shutil.rmtree(tree.sound_code, ignore_errors=True)
+    for known in folder.glob("reached_*.json") if changed else ():  # what an earlier run found holds no longer
+        known.unlink()
     tree.sound_code.mkdir(exist_ok=True)
     return tree
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file under a date that its content makes: compiled code is told by date and size alone."""
+    path.write_bytes(content)
+    date = DATE + zlib.crc32(content) % 10**8
+    os.utime(path, (date, date))
 
 
 def files_by_line(tree: Tree, room: str, silent_s: float) -> dict[str, dict[int, list[str]]]:
@@ -94,13 +107,13 @@ def sound_nearby(tree: Tree, module: str, silent_s: float) -> list[list[str]]:
     return files
 
 
-def tried(tree: Tree, mutant: Mutant, number: int, selection: list[list[str]], silent_s: float) -> Verdict:
+def tried(tree: Tree, mutant: Mutant, selection: list[list[str]], silent_s: float) -> Verdict:
     """What the tests say of a mutant, one selection of files after the other."""
     shutil.rmtree(tree.used_code, ignore_errors=True)
     shutil.copytree(tree.sound_code, tree.used_code)
     _remove_code_that_contains(tree, mutant.module)
     verdict: Verdict = "survived"
-    with _spoilt(tree.root / mutant.module, mutant.text, number):
+    with _spoilt(tree.root / mutant.module, mutant.text):
         for files in selection:
             verdict = _run(tree, tree.used_code, files, silent_s)
             if verdict != "survived":
@@ -146,16 +159,14 @@ def reaching(path: Path, line: int, reached: dict[int, list[str]]) -> list[str] 
 
 
 @contextmanager
-def _spoilt(path: Path, text: str, number: int) -> Iterator[None]:
-    """Hold the mutant in place of a file, under a date of its own: byte code is told by date and size."""
+def _spoilt(path: Path, text: str) -> Iterator[None]:
+    """Hold a mutant in place of a file."""
     sound = path.read_bytes()
     try:
-        path.write_text(text)
-        os.utime(path, (DATE + 2 * (number + 1) + time.time_ns() % 10**8,) * 2)
+        _write(path, text.encode())
         yield
     finally:
-        path.write_bytes(sound)
-        os.utime(path, (DATE, DATE))
+        _write(path, sound)
 
 
 def _run(tree: Tree, code: Path, selection: list[str], silent_s: float) -> Verdict:
