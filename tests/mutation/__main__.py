@@ -47,13 +47,13 @@ def main() -> int:
     os.nice(10)
     with tempfile.TemporaryDirectory(prefix="mutation-") as name:
         tree = copy_of_tree(asked.tree or Path(name))
-        survivors = {room: _survivors(tree, room, chosen, asked) for room, chosen in by_room.items()}
-    for mutant in chain.from_iterable(survivors.values()):
+        found = {room: _survivors(tree, room, chosen, asked) for room, chosen in by_room.items()}
+    for mutant in chain.from_iterable(survivors for survivors, _ in found.values()):
         print("\n" + _diff(mutant))
     print()
-    for room, chosen in by_room.items():
-        print(score(room, len(chosen) - len(survivors[room]), len(chosen)))
-    return int(any(survivors.values()))
+    for room, (survivors, count) in found.items():
+        print(score(room, count - len(survivors), count))
+    return int(any(survivors for survivors, _ in found.values()))
 
 
 def equivalents() -> dict[tuple[str, str, str, str], str]:
@@ -68,6 +68,10 @@ def every_mutant(room: str) -> list[Mutant]:
     defaults = defaults_of(sorted((ROOT / "fatigue").rglob("*.py")))
     known = equivalents()
     found = [m for path in files for m in mutants(path.read_text(), str(path.relative_to(ROOT)), defaults)]
+    keys = {key for mutant in found for key in (mutant.key, (*mutant.key[:3], ""))}
+    for key in known:
+        if key[0].startswith(f"fatigue/{room}/") and key not in keys:
+            print(f"{EQUIVALENTS.name}: no mutant any more: {key[0]} {key[1]} {key[2]}", file=sys.stderr)
     return [mutant for mutant in found if mutant.key not in known and (*mutant.key[:3], "") not in known]
 
 
@@ -95,26 +99,32 @@ def _at(places: list[str]) -> dict[str, list[Mutant]]:
     return chosen
 
 
-def _survivors(tree: Tree, room: str, chosen: list[Mutant], asked: argparse.Namespace) -> list[Mutant]:
-    """Give what the tests of a room do not notice; every verdict is printed as it falls."""
+def _survivors(tree: Tree, room: str, chosen: list[Mutant], asked: argparse.Namespace) -> tuple[list[Mutant], int]:
+    """Give what the tests of a room do not notice, and how many were tried; every verdict is printed as it falls.
+
+    Who interrupts the program gets what was found until then.
+    """
     silent_s: float = asked.silent_s
     reached = {} if asked.near else files_by_line(tree, room, silent_s)
     kinds: Counter[str] = Counter()
     survivors = []
-    for number, mutant in enumerate(chosen):
-        if asked.near:
-            selection = sound_nearby(tree, mutant.module, silent_s)
-        else:
-            files = reaching(tree.root / mutant.module, mutant.line, reached.get(mutant.module, {}))
-            selection = stages(tree.root, mutant.module, files)
-        started = time.monotonic()
-        verdict = tried(tree, mutant, number, selection, silent_s)
+    for mutant in chosen:
+        try:
+            if asked.near:
+                selection = sound_nearby(tree, mutant.module, silent_s)
+            else:
+                files = reaching(tree.root / mutant.module, mutant.line, reached.get(mutant.module, {}))
+                selection = stages(tree.root, mutant.module, files)
+            started = time.monotonic()
+            verdict = tried(tree, mutant, selection, silent_s)
+        except KeyboardInterrupt:
+            break
         kinds[verdict] += 1
         print(f"{verdict:8} {time.monotonic() - started:5.0f} s  {_told(mutant)}", flush=True)
         if verdict == "survived":
             survivors.append(mutant)
     print(f"{room}: " + ", ".join(f"{kind} {count}" for kind, count in kinds.most_common()), flush=True)
-    return survivors
+    return survivors, kinds.total()
 
 
 def _told(mutant: Mutant) -> str:

@@ -108,8 +108,8 @@ def _changes(node: ast.AST, function: str, defaults: Defaults) -> Iterator[tuple
         if name in ("annotation", "returns", "decorator_list", "type_params"):
             continue
         for child in value if isinstance(value, list) else [value]:
-            if isinstance(child, ast.keyword) and child.arg == "strict":
-                continue  # of ``zip``: a guard that sound programs never need
+            if isinstance(child, ast.keyword) and child.arg in ("strict", "axis"):
+                continue  # a guard of ``zip`` that sound programs never need; an axis is turned with its call
             if not isinstance(child, ast.AST) or isinstance(child, SPARED) or _is_type(child):
                 continue
             if isinstance(child, ast.Assign) and _assigned(child) <= known:

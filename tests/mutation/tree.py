@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import traceback
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ from numba.core import config
 from tests.mutation.mutants import Mutant
 
 ROOT = Path(__file__).parents[2]
-DATE = 1_000_000_000  # of every sound file; a spoilt one is younger, machine code younger still
+DATE = 1_000_000_000  # from which the dates of files are counted, far in the past: machine code has to be younger
 MEMORY, FILE = 12 << 30, 1 << 30  # bytes that a mutant may take
 LOOPS = ("weld", "life", "spectrum")  # rooms with machine code
 IN_CODE = ("compiled", "inlined", "overload", "intrinsic")  # what makes machine code of a function
@@ -49,14 +50,26 @@ def copy_of_tree(folder: Path) -> Tree:
     listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\0")
     tree = Tree(folder / "tree", folder / "sound_code", folder / "used_code")
+    changed: list[str] = []
     for name in filter(None, names):
         source, target = ROOT / name, tree.root / name
         if source.is_file() and not (target.exists() and target.read_bytes() == source.read_bytes()):
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
-            os.utime(target, (DATE, DATE))
+            _write(target, source.read_bytes())
+            changed.append(name)
+    if any(name.startswith("fatigue/") for name in changed):
+        shutil.rmtree(tree.sound_code, ignore_errors=True)
+    for known in folder.glob("reached_*.json") if changed else ():  # what an earlier run found holds no longer
+        known.unlink()
     tree.sound_code.mkdir(exist_ok=True)
     return tree
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file under a date that its content makes: compiled code is told by date and size alone."""
+    path.write_bytes(content)
+    date = DATE + zlib.crc32(content) % 10**8
+    os.utime(path, (date, date))
 
 
 def files_by_line(tree: Tree, room: str, silent_s: float) -> dict[str, dict[int, list[str]]]:
@@ -87,24 +100,27 @@ def files_by_line(tree: Tree, room: str, silent_s: float) -> dict[str, dict[int,
 
 @cache
 def sound_nearby(tree: Tree, module: str, silent_s: float) -> list[list[str]]:
-    """Test files near a module, which pass on the sound tree; their run compiles the loops."""
+    """Test files near a module; the first of them pass on the sound tree."""
     files = nearby(tree.root, module)
-    if any(_run(tree, tree.sound_code, some, silent_s) != "survived" for some in files):
-        raise SystemExit(f"{files} fail without any mutant: {tree.root / 'said.txt'}")
+    if _run(tree, tree.sound_code, files[0], silent_s) != "survived":
+        raise SystemExit(f"{files[0]} fail without any mutant: {tree.root / 'said.txt'}")
     return files
 
 
-def tried(tree: Tree, mutant: Mutant, number: int, selection: list[list[str]], silent_s: float) -> Verdict:
+def tried(tree: Tree, mutant: Mutant, selection: list[list[str]], silent_s: float) -> Verdict:
     """What the tests say of a mutant, one selection of files after the other."""
     shutil.rmtree(tree.used_code, ignore_errors=True)
     shutil.copytree(tree.sound_code, tree.used_code)
     _remove_code_that_contains(tree, mutant.module)
-    with _spoilt(tree.root / mutant.module, mutant.text, number):
+    verdict: Verdict = "survived"
+    with _spoilt(tree.root / mutant.module, mutant.text):
         for files in selection:
             verdict = _run(tree, tree.used_code, files, silent_s)
             if verdict != "survived":
-                return verdict
-    return "survived"
+                break
+    _remove_code_that_contains(tree, mutant.module)  # what is left was compiled of sound files
+    shutil.copytree(tree.used_code, tree.sound_code, dirs_exist_ok=True)
+    return verdict
 
 
 def stages(root: Path, module: str, reaching: list[str] | None) -> list[list[str]]:
@@ -143,16 +159,14 @@ def reaching(path: Path, line: int, reached: dict[int, list[str]]) -> list[str] 
 
 
 @contextmanager
-def _spoilt(path: Path, text: str, number: int) -> Iterator[None]:
-    """Hold the mutant in place of a file, under a date of its own: byte code is told by date and size."""
+def _spoilt(path: Path, text: str) -> Iterator[None]:
+    """Hold a mutant in place of a file."""
     sound = path.read_bytes()
     try:
-        path.write_text(text)
-        os.utime(path, (DATE + 2 * (number + 1) + time.time_ns() % 10**8,) * 2)
+        _write(path, text.encode())
         yield
     finally:
-        path.write_bytes(sound)
-        os.utime(path, (DATE, DATE))
+        _write(path, sound)
 
 
 def _run(tree: Tree, code: Path, selection: list[str], silent_s: float) -> Verdict:
@@ -208,7 +222,7 @@ def _test(root: Path, code: Path, selection: list[str], said: Path) -> None:
 
 def _remove_code_that_contains(tree: Tree, module: str) -> None:
     """Remove the machine code of a module and of all that import it: numba looks only at the file of the function."""
-    imports = {path: _imported(path) for room in LOOPS for path in (tree.root / "fatigue" / room).rglob("*.py")}
+    imports = _imports_of_loops(tree)
     names = {path: ".".join(path.relative_to(tree.root).with_suffix("").parts) for path in imports}
     stale = {tree.root / module}
     while more := {p for p, seen in imports.items() if p not in stale and seen & {names.get(s) for s in stale}}:
@@ -216,6 +230,12 @@ def _remove_code_that_contains(tree: Tree, module: str) -> None:
     for path in stale:
         for kept in tree.used_code.glob(f"{path.parent.name}_*/{path.stem}.*"):
             kept.unlink()
+
+
+@cache
+def _imports_of_loops(tree: Tree) -> dict[Path, set[str]]:
+    """Give the modules that each file of the rooms with machine code imports."""
+    return {path: _imported(path) for room in LOOPS for path in (tree.root / "fatigue" / room).rglob("*.py")}
 
 
 def _imported(path: Path) -> set[str]:

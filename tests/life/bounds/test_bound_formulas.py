@@ -104,3 +104,5 @@ def test_the_rounding_of_a_form_is_told_and_small():
     told = pair.rounding[:, None, None] * ((np.abs(S_m) + np.abs(S_b)) @ pair.size)[None, None] ** 2
     assert (np.abs(face_forms(S_m, S_b, pair) - exact.transpose(0, 2, 1)) <= told.transpose(0, 2, 1)).all()
     assert (told / exact).max() < 1e-9
+    of_product = 4.0 * (30 + 4) * np.finfo(float).eps  # a sum of 30 products, a square of it, and what is beside it
+    assert (pair.rounding >= of_product * np.array([1.0, np.mean(np.diag(B) / np.diag(A))])).all()
