@@ -13,7 +13,6 @@ from typing import Any
 from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.files.hashes import sha256
 from fatigue.results.provenance import PROVENANCE, hashes_on_record, input_register, parsed_provenance
-from fatigue.side_by_side import in_order
 
 
 def recorded(record: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
@@ -33,8 +32,8 @@ def altered(folder: Path, record: Mapping[str, Any], names: Iterable[str]) -> di
         return {}
     known = {entry["file"]: entry for entry in record["outputs"]}
     looked_at = [name for name in names if name in known or (folder / name).exists()]
-    found = in_order(lambda name: _alteration(folder / name, known.get(name)), looked_at, threads=None)
-    return {name: what for name, what in zip(looked_at, found, strict=True) if what}
+    found = {name: _alteration(folder / name, known.get(name)) for name in looked_at}
+    return {name: what for name, what in found.items() if what}
 
 
 def told_without_hashes(folder: Path, record: Mapping[str, Any]) -> Iterator[Problem]:

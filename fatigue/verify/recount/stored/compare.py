@@ -1,7 +1,7 @@
 """Stored numbers against recounted ones: the largest difference in each column and where it is."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,8 @@ from fatigue.results import TABLES
 TOLERANCE = 1e-6  # two programs written apart agree to this
 HISTOGRAM_BIN = 10 ** (1 / 64) - 1  # the load factor on a curve with a knee comes from bins this wide
 UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa"}
+INVERSE = {"life_km", "life_years", "life_km_raw_end", "life_km_dirlik", "life_km_tb", "life_km_same_ratio",
+           "load_factor"}  # fmt: skip
 LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
 
 
@@ -104,7 +106,8 @@ class Row:
     """Recounted values of one row of a table.
 
     ``scale`` gives the size a difference in a column is relative to where that is not the value itself;
-    ``is_bound`` marks a row that stands for a proven bound.
+    ``is_bound`` marks a row that stands for a proven bound. ``bounds`` are what rounding may do to a column, of lives
+    and load factors to their inverse.
     """
 
     where: str
@@ -112,6 +115,7 @@ class Row:
     expected: Mapping[str, Any]
     scale: Mapping[str, float]
     is_bound: bool = False
+    bounds: Mapping[str, float] = field(default_factory=dict)
 
 
 def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> list[ColumnCheck]:
@@ -182,6 +186,8 @@ def _is_undefined(name: str, row: Row) -> bool:
 def _difference(name: str, row: Row) -> float:
     """Relative difference of a value, 1 between texts and flags that differ, infinite between a number and none."""
     found, expected = row.found[name], row.expected[name]
+    if _is_rounding(name, found, expected, row.bounds.get(name, 0.0)):
+        return 0.0
     if isinstance(expected, str):
         return float(expected != ("" if pd.isna(found) else found))
     if not isinstance(expected, float):
@@ -197,6 +203,17 @@ def _difference(name: str, row: Row) -> float:
         excess = min(excess, 0.0) if name in UPPER_BOUNDS else max(excess, 0.0)
     size = max(row.scale.get(name, 0.0), abs(expected))
     return abs(excess) / size if size > 0 else np.inf
+
+
+def _is_rounding(name: str, found: Any, expected: Any, bound: float) -> bool:
+    """Whether a difference is within what rounding may do."""
+    if bound == 0.0 or isinstance(expected, bool | str) or found is None:
+        return bound == np.inf
+    found, expected = float(found), float(expected)
+    if name in INVERSE:
+        with np.errstate(divide="ignore"):
+            found, expected = (float(np.divide(1.0, value)) for value in (found, expected))
+    return bound == np.inf or abs(found - expected) <= bound
 
 
 def _shown(value: Any) -> str:
