@@ -7,7 +7,6 @@ SHA-256 of tables and documents alike, see ``outputs``.
 """
 
 import json
-import logging
 import re
 import zipfile
 import zlib
@@ -22,10 +21,8 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
 from fatigue.results.json_records import write_json
-from fatigue.results.outputs import altered, told_without_hashes
+from fatigue.results.outputs import altered, warn_without_hashes
 from fatigue.results.provenance import hashes_on_record
-
-log = logging.getLogger(__name__)
 
 PICTURE = "weld_lines.vtp"
 PAGE = "report.html"
@@ -190,7 +187,6 @@ def refuse_mixed(
     ------
     DataError : all tables that belong to another result than this provenance, were changed, or are missing
     """
-    for problem in told_without_hashes(folder, record):
-        log.warning("%s", problem)
+    warn_without_hashes(folder, record)
     hashed = None if read is None else [f"{table}.parquet" for table in read]
     refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables], hashed))

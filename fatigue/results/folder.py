@@ -99,7 +99,11 @@ def _record_in(folder: Path) -> dict[str, Any] | None:
 @contextmanager
 def result_log(folder: Path) -> Iterator[None]:
     """Write what the run does to ``fatigue.log`` in the result folder."""
-    handler = logging.FileHandler(folder / LOG, mode="a", encoding="utf-8")
+    try:
+        handler = logging.FileHandler(folder / LOG, mode="a", encoding="utf-8")
+    except OSError as error:
+        what = f"cannot be written ({error.strerror})"
+        raise DataError(Problem("cannot_write", str(folder / LOG), what, "Move it away")) from None
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     handler.setLevel(logging.INFO)
     program = logging.getLogger("fatigue")

@@ -5,6 +5,7 @@ damaged or edited is found before any number of it is shown. Files of another si
 some 1 GB a second is hashed, and only those that a command is about to read.
 """
 
+import logging
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +14,8 @@ from typing import Any
 from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.files.hashes import sha256
 from fatigue.results.provenance import PROVENANCE, hashes_on_record, input_register, parsed_provenance
+
+log = logging.getLogger(__name__)
 
 
 def recorded(record: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
@@ -36,11 +39,11 @@ def altered(folder: Path, record: Mapping[str, Any], names: Iterable[str]) -> di
     return {name: what for name, what in found.items() if what}
 
 
-def told_without_hashes(folder: Path, record: Mapping[str, Any]) -> Iterator[Problem]:
-    """Warning of an older result, of which nothing tells whether its files are as they were written."""
+def warn_without_hashes(folder: Path, record: Mapping[str, Any]) -> None:
+    """Warn of an older result, of which nothing tells whether its files are as they were written."""
     if hashes_on_record(record) is None:
         what = "no hashes on record, as an older version wrote it: nothing tells whether its tables are as written"
-        yield Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them")
+        log.warning("%s", Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them"))
 
 
 @contextmanager

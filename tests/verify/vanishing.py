@@ -12,7 +12,7 @@ FORCES = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
 
 def case(*changes: Callable[[SmallCase], None]) -> SmallCase:
     """The small case with two of its events, short, and changed."""
-    made = small_case(seconds=4.0)
+    made = small_case(seconds=2.4)
     made.nodal_forces = made.nodal_forces[made.nodal_forces["node"] % 100 < 3]
     made.weld_nodes = made.weld_nodes[made.weld_nodes["order"] <= 3]
     for change in changes:
