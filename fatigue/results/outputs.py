@@ -39,28 +39,25 @@ def altered(folder: Path, record: Mapping[str, Any], names: Iterable[str]) -> di
     return {name: what for name, what in found.items() if what}
 
 
-def warn_without_hashes(folder: Path, record: Mapping[str, Any]) -> None:
-    """Warn of an older result, of which nothing tells whether its files are as they were written."""
-    if hashes_on_record(record) is None:
-        what = "no hashes on record, as an older version wrote it: nothing tells whether its tables are as written"
-        log.warning("%s", Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them"))
-
-
 @contextmanager
 def damage_told(folder: Path) -> Iterator[None]:
-    """Take what cannot be made sense of in an older result, one without hashes, for damage.
+    """Warn of an older result, one without hashes, and take what cannot be made sense of in it for damage.
 
     Raises
     ------
     DataError : reading or showing such a result failed
     """
+    record = parsed_provenance(folder)
+    if hashes_on_record(record) is not None:  # as it was written: whatever fails, the program is at fault
+        yield
+        return
+    what = "no hashes on record, as an older version wrote it: nothing tells whether its tables are as written"
+    log.warning("%s", Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them"))
     try:
         yield
     except (FatigueError, OSError, MemoryError):
         raise
     except Exception as error:
-        if hashes_on_record(parsed_provenance(folder)) is not None:  # as it was written: the program is at fault
-            raise
         why = f"{type(error).__name__}: {error}".splitlines()[0][:200]
         what = f"holds what does not fit together ({why})"
         raise DataError(Problem("damaged_result", str(folder), what, "Run the assessment again")) from error

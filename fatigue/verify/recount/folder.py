@@ -14,7 +14,6 @@ import numpy as np
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
-from fatigue.results.outputs import warn_without_hashes
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
 from fatigue.verify.recount.anew.point import (
@@ -114,7 +113,6 @@ def recount(
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     record = read_provenance(folder)
-    warn_without_hashes(folder, record)
     astray = tuple(strangers(folder, record))
     tables = [problem for problem in astray if Path(problem.where).name in {f"{table}.parquet" for table in ASSESSED}]
     if any(problem.code == "other_result" for problem in tables):

@@ -154,13 +154,16 @@ def test_a_failure_of_half_replaced_inputs_names_them(case_file, tmp_path, monke
     """Whatever goes wrong with rows of two files: the file is named, not what went wrong."""
 
     def fail(*_args):
+        raise IndexError
+
+    def replace_and_fail(*_args):
         rewritten(case_file.parent / "nodal_forces.csv")
         raise IndexError
 
-    monkeypatch.setattr(story, "write_group", fail)
+    monkeypatch.setattr(story, "write_group", replace_and_fail)
     with pytest.raises(DataError, match=r"nodal_forces\.csv: was replaced while the run was going on"):
         assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
-    monkeypatch.setattr(story, "write_group", lambda *_: iter(()).throw(IndexError))
+    monkeypatch.setattr(story, "write_group", fail)
     with pytest.raises(IndexError):
         assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
 
