@@ -7,7 +7,6 @@ SHA-256 of tables and documents alike, see ``outputs``.
 """
 
 import json
-import logging
 import re
 import zipfile
 import zlib
@@ -22,10 +21,8 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, TABLES
 from fatigue.results.json_records import write_json
-from fatigue.results.outputs import altered, told_without_hashes
+from fatigue.results.outputs import altered
 from fatigue.results.provenance import hashes_on_record
-
-log = logging.getLogger(__name__)
 
 PICTURE = "weld_lines.vtp"
 PAGE = "report.html"
@@ -183,14 +180,11 @@ def refuse_mixed(
 ) -> None:
     """Refuse a folder some of whose tables are of another result, or not as they were written.
 
-    ``read`` are the tables that are about to be read and therefore hashed, by default all of them; an older result
-    without hashes is warned of.
+    ``read`` are the tables that are about to be read and therefore hashed, by default all of them.
 
     Raises
     ------
     DataError : all tables that belong to another result than this provenance, were changed, or are missing
     """
-    for problem in told_without_hashes(folder, record):
-        log.warning("%s", problem)
     hashed = None if read is None else [f"{table}.parquet" for table in read]
     refuse(DataError, strangers(folder, record, [f"{table}.parquet" for table in tables], hashed))

@@ -5,6 +5,7 @@ damaged or edited is found before any number of it is shown. Files of another si
 some 1 GB a second is hashed, and only those that a command is about to read.
 """
 
+import logging
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +14,8 @@ from typing import Any
 from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.files.hashes import sha256
 from fatigue.results.provenance import PROVENANCE, hashes_on_record, input_register, parsed_provenance
-from fatigue.side_by_side import in_order
+
+log = logging.getLogger(__name__)
 
 
 def recorded(record: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
@@ -33,32 +35,29 @@ def altered(folder: Path, record: Mapping[str, Any], names: Iterable[str]) -> di
         return {}
     known = {entry["file"]: entry for entry in record["outputs"]}
     looked_at = [name for name in names if name in known or (folder / name).exists()]
-    found = in_order(lambda name: _alteration(folder / name, known.get(name)), looked_at, threads=None)
-    return {name: what for name, what in zip(looked_at, found, strict=True) if what}
-
-
-def told_without_hashes(folder: Path, record: Mapping[str, Any]) -> Iterator[Problem]:
-    """Warning of an older result, of which nothing tells whether its files are as they were written."""
-    if hashes_on_record(record) is None:
-        what = "no hashes on record, as an older version wrote it: nothing tells whether its tables are as written"
-        yield Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them")
+    found = {name: _alteration(folder / name, known.get(name)) for name in looked_at}
+    return {name: what for name, what in found.items() if what}
 
 
 @contextmanager
 def damage_told(folder: Path) -> Iterator[None]:
-    """Take what cannot be made sense of in an older result, one without hashes, for damage.
+    """Warn of an older result, one without hashes, and take what cannot be made sense of in it for damage.
 
     Raises
     ------
     DataError : reading or showing such a result failed
     """
+    record = parsed_provenance(folder)
+    if hashes_on_record(record) is not None:  # as it was written: whatever fails, the program is at fault
+        yield
+        return
+    what = "no hashes on record, as an older version wrote it: nothing tells whether its tables are as written"
+    log.warning("%s", Problem("no_hashes", str(folder / PROVENANCE), what, "Assess again to have them"))
     try:
         yield
     except (FatigueError, OSError, MemoryError):
         raise
     except Exception as error:
-        if hashes_on_record(parsed_provenance(folder)) is not None:  # as it was written: the program is at fault
-            raise
         why = f"{type(error).__name__}: {error}".splitlines()[0][:200]
         what = f"holds what does not fit together ({why})"
         raise DataError(Problem("damaged_result", str(folder), what, "Run the assessment again")) from error

@@ -22,11 +22,13 @@ from fatigue.verify.recount.anew.point import (
     OnePass,
     RecountEvent,
     Values,
+    bounds_of_point,
     one_pass,
     point_of,
     point_values,
 )
 from fatigue.verify.recount.anew.record import read_record, spectrum_rules
+from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
 from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, open_inputs, read_modes
 from fatigue.verify.recount.layout import FACES, Key, Layout
@@ -36,6 +38,7 @@ from fatigue.verify.recount.stored.rows import (
     Station,
     cycle_row,
     damage_row,
+    largest_stress,
     node_row,
     stress_rows,
     weld_row,
@@ -63,10 +66,14 @@ CYCLE_COLUMNS = [column.name for column in TABLES["cycles"] if column.type == "f
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Passes:
-    """One pass of every event at a point, the damage of each without end treatment, and its cycles compared."""
+    """One pass of every event at a point, the damage of each without end treatment, and its cycles compared.
+
+    ``raw_bounds`` are what rounding may do to the damage without end treatment.
+    """
 
     treated: list[OnePass]
     raw_damage: list[float]
+    raw_bounds: list[float]
     cycles: list[Row]
 
 
@@ -157,17 +164,21 @@ def _recount(
         stations = _stations(body, welds, group)
         points = choice.points[np.isin(weld_of_point, group)]
         values: dict[Key, Values] = {}
+        bounds: dict[Key, Bounds] = {}
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
             passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
             of_few = _values(inputs, few, passes, mission)
-            found += _compared(few, stored, of_few, passes, mission, raw_life_enough, _steps(inputs, few.values()))
+            rounding = _rounding(inputs, few, passes, mission, of_few)
+            steps = _steps(inputs, few.values())
+            found += _compared(few, stored, of_few, rounding, passes, mission, raw_life_enough, steps)
             values |= {body.key(point): of_few[point] for point in few}
+            bounds |= {body.key(point): rounding[point] for point in few}
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
         found += _compared_stress(modes, recounted, stored)
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
-        found += _compared_welds(chosen, stored, values, all_counted=all_counted)
+        found += _compared_welds(chosen, stored, values, bounds, all_counted=all_counted)
     checks += merged(found)
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
@@ -222,7 +233,11 @@ def _stations(body: Layout, welds: Mapping[str, RecountWeld], group: Sequence[in
     stations: dict[int, Station] = {}
     for index in group:
         weld = welds[body.welds[index]]
-        places = (Station(weld, solved, at) for solved in weld.parts for at in range(len(solved.line.order)))
+        places = (
+            Station(weld, solved, at, largest)
+            for solved, largest in zip(weld.parts, map(largest_stress, weld.parts), strict=True)
+            for at in range(len(solved.line.order))
+        )
         stations |= dict(enumerate(places, start=int(body.first[index])))
     return stations
 
@@ -237,7 +252,7 @@ def _count(
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
     """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once."""
     mean_stress = _mean_stress(inputs)
-    counted = {point: Passes([], [], []) for point in stations}
+    counted = {point: Passes([], [], [], []) for point in stations}
     events = []
     for number, given in enumerate(inputs.case["mission"]["event"]):
         record = read_record(inputs, given, modes, fastest[number])
@@ -246,15 +261,16 @@ def _count(
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
         for point, station in stations.items():
             solved, at, curve, key = station.solved, station.at, station.weld.curve, stored.body.key(point)
-            thickness = float(solved.line.thickness[at])
-            one = one_pass(point_of(solved.treated[at], key[3], curve, thickness), record, rules, mean_stress)
+            largest, thickness = station.largest, float(solved.line.thickness[at])
+            one = one_pass(point_of(solved.treated[at], largest, key[3], curve, thickness), record, rules, mean_stress)
             raw = one
             if not np.array_equal(solved.raw[at], solved.treated[at]):
-                raw = one_pass(point_of(solved.raw[at], key[3], curve, thickness), record, rules, mean_stress)
+                raw = one_pass(point_of(solved.raw[at], largest, key[3], curve, thickness), record, rules, mean_stress)
             if point in there:
                 counted[point].cycles.append(cycle_row(key, events[-1], one, there[point]))
             counted[point].treated.append(replace(one, rows={}))
             counted[point].raw_damage.append(raw.quantities["damage_per_pass"])
+            counted[point].raw_bounds.append(raw.bounds["damage_per_pass"])
     return counted, events
 
 
@@ -274,10 +290,26 @@ def _values(
     }
 
 
+def _rounding(
+    inputs: RecountInputs,
+    stations: Mapping[int, Station],
+    passes: Mapping[int, Passes],
+    events: Sequence[RecountEvent],
+    values: Mapping[int, Values],
+) -> dict[int, Bounds]:
+    """What rounding may do to the columns of the table of points, point by point."""
+    mission = inputs.case["mission"]
+    return {
+        point: bounds_of_point(of.treated, of.raw_bounds, events, mission, stations[point].weld.curve, values[point])
+        for point, of in passes.items()
+    }
+
+
 def _compared(
     stations: Mapping[int, Station],
     stored: Stored,
     values: Mapping[int, Values],
+    bounds: Mapping[int, Bounds],
     passes: Mapping[int, Passes],
     events: Sequence[RecountEvent],
     raw_life_enough: float,
@@ -291,7 +323,7 @@ def _compared(
     damage: list[Row] = []
     for i, (point, station) in enumerate(stations.items()):
         key, found = stored.body.key(point), of_nodes[i]
-        nodes.append(node_row(key, station, values[point], found, raw_life_enough))
+        nodes.append(node_row(key, station, values[point], bounds[point], found, raw_life_enough))
         for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
     cycles = [row for of in passes.values() for row in of.cycles]
@@ -320,13 +352,19 @@ def _compared_stress(modes: RecountModes, stations: Mapping[int, Station], store
 
 
 def _compared_welds(
-    welds: Mapping[str, RecountWeld], stored: Stored, values: Mapping[Key, Values], *, all_counted: bool
+    welds: Mapping[str, RecountWeld],
+    stored: Stored,
+    values: Mapping[Key, Values],
+    bounds: Mapping[Key, Bounds],
+    *,
+    all_counted: bool,
 ) -> list[ColumnCheck]:
     """Checks of the stored rows of some welds beside the recounted ones."""
     rows = [
         weld_row(
             weld,
             {key: of for key, of in values.items() if key[0] == name},
+            bounds,
             stored.welds.loc[name].to_dict(),
             all_counted=all_counted,
         )

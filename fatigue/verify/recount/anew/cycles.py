@@ -25,6 +25,7 @@ def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
     halves between the same two reversals is one cycle.
     """
     n = len(stress)
+    stress = np.ldexp(stress, -int(np.frexp(np.abs(stress).max())[1]))  # products of differences must not underflow
     first = _last_of_maximum(stress) if recurs else 0
     path = np.append(np.roll(stress, -first), stress[first]) if recurs else stress
     found = [[i, j, count] for _, _, count, i, j in rainflow.extract_cycles(path) if path[i] != path[j]]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.anew.curve import RecountCurve, ratio_factor
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
 from fatigue.verify.recount.anew.record import RecountRecord, SpectrumRules, welch_moments
+from fatigue.verify.recount.anew.rounding import Bounds, Counted, cycle_bounds, pass_bounds, point_bounds, stress_bound
 from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 
 Floats = NDArray[np.float64]
@@ -22,13 +23,15 @@ NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not coun
 class RecountPoint:
     """Stress per unit modal coordinate at one face, (m,) each [MPa], the curve there and the plate thickness [mm].
 
-    ``membrane`` and ``bending`` of this face, ``in_plane`` and ``twist`` shear likewise.
+    ``membrane`` and ``bending`` of this face, ``in_plane`` and ``twist`` shear likewise; ``largest`` stress anywhere
+    along the line.
     """
 
     membrane: Floats
     bending: Floats
     in_plane: Floats
     twist: Floats
+    largest: Floats
     curve: RecountCurve
     thickness: float
 
@@ -47,6 +50,7 @@ class OnePass:
 
     ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are the equivalent range of each cycle
     without mean stress, its count and its two stresses, and empty where damage scales with one power of the load.
+    ``bounds`` are what rounding may do to the quantities, ``cycle_bounds`` to the largest cycle.
     """
 
     quantities: Values
@@ -55,6 +59,8 @@ class OnePass:
     low: Floats
     high: Floats
     rows: dict[str, Floats]
+    bounds: Bounds
+    cycle_bounds: Bounds
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,11 +72,17 @@ class RecountEvent:
     passes_per_km: float
 
 
-def point_of(components: Floats, surface: str, curve: RecountCurve, thickness: float) -> RecountPoint:
-    """One face of a station, whose five stress components are (m, 5)."""
+def point_of(components: Floats, largest: Floats, surface: str, curve: RecountCurve, thickness: float) -> RecountPoint:
+    """One face of a station, whose five stress components are (m, 5); ``largest`` along its line, (m,)."""
     side = 1.0 if surface == "top" else -1.0
     return RecountPoint(
-        components[:, 0], side * components[:, 1], components[:, 2], side * components[:, 3], curve, thickness
+        components[:, 0],
+        side * components[:, 1],
+        components[:, 2],
+        side * components[:, 3],
+        largest,
+        curve,
+        thickness,
     )
 
 
@@ -128,7 +140,27 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
     kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
     low, high = np.minimum(s[cycles.start], s[cycles.end]), np.maximum(s[cycles.start], s[cycles.end])
-    return OnePass(values, x[kept_cycles], n[kept_cycles], low[kept_cycles], high[kept_cycles], rows)
+    counted = Counted(
+        delta=stress_bound(point.largest, record.peak, record.factor),
+        stress=s,
+        kept=kept,
+        parts=float(np.std(m_kept) + np.std(b_kept)),
+        ranges=S,
+        equivalent=dS,
+        same_ratio=S * size / I_one,
+        counts=n,
+        R=_stress_ratios(s[cycles.start], s[cycles.end]),
+        reversals=s[np.unique(np.concatenate([cycles.start, cycles.end]))],
+        size=size,
+        band=band,
+        whole=whole,
+        upper_hz=rules.upper_hz,
+        half_rate_hz=0.5 / record.step,
+        duration=record.duration,
+        mean_stress=mean_stress.counts,
+    )
+    of_cycles = (values_of[kept_cycles] for values_of in (x, n, low, high))
+    return OnePass(values, *of_cycles, rows, pass_bounds(counted, values, curve), cycle_bounds(counted, curve))
 
 
 def point_values(
@@ -191,6 +223,23 @@ def point_values(
 def most_missed(slope: float) -> float:
     """Share of the damage that may come from above the upper frequency before there is no life from the spectrum."""
     return float(np.interp(slope, [4.0, 5.0], [0.2, 0.35]))
+
+
+def bounds_of_point(
+    passes: Sequence[OnePass],
+    raw_bounds: Sequence[float],
+    events: Sequence[RecountEvent],
+    mission: Mapping[str, Any],
+    curve: RecountCurve,
+    values: Values,
+) -> Bounds:
+    """What rounding may do to the columns of a point.
+
+    ``raw_bounds`` are what it may do to the damage of one pass of each event without end treatment.
+    """
+    weights = np.array([event.passes_per_km for event in events])
+    shares = weights * np.array([one.quantities["damage_per_pass"] for one in passes])
+    return point_bounds([one.bounds for one in passes], raw_bounds, weights, values, shares, mission, curve)
 
 
 def _cycle_rows(cycles: RecountCycles, m: Floats, b: Floats, record: RecountRecord) -> dict[str, Floats]:
@@ -287,6 +336,11 @@ def _kurtosis(s: Floats) -> float:
 
 def _stress_ratio(a: float, b: float) -> float:
     return min(a, b) / max(a, b) if max(a, b) != 0 else np.nan
+
+
+def _stress_ratios(a: Floats, b: Floats) -> Floats:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.minimum(a, b) / np.maximum(a, b))
 
 
 def _ratio(membrane: float, bending: float) -> float:

@@ -29,6 +29,7 @@ class RecountRecord:
     factor : on all stresses
     length_km : distance of one pass, None for an event counted by number
     passes_per_km : of the mission
+    peak : (m,) largest absolute value of each coordinate
     """
 
     name: str
@@ -41,6 +42,7 @@ class RecountRecord:
     factor: float
     length_km: float | None
     passes_per_km: float
+    peak: Floats
 
     @property
     def duration(self) -> float:
@@ -88,6 +90,7 @@ def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountM
         factor=event.get("stress_factor", 1.0),
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
+        peak=np.abs(q).max(axis=1),
     )
 
 

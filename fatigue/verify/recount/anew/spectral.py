@@ -14,8 +14,8 @@ def dirlik(moments: NDArray[np.float64], curve: RecountCurve) -> float:
     if m0 <= 0 or m2 <= 0 or m4 <= 0:
         return 0.0
     spread = 2 * np.sqrt(m0)
-    a2 = min(m2 / np.sqrt(m0 * m4), 1.0)
-    xm = min(max(m1 / np.sqrt(m0 * m2), a2), 1.0) * a2
+    a2 = min(m2 / (np.sqrt(m0) * np.sqrt(m4)), 1.0)
+    xm = min(max(m1 / (np.sqrt(m0) * np.sqrt(m2)), a2), 1.0) * a2
     if 1 - a2 < NARROW:
         return float(np.sqrt(m4 / m2) * curve.mean_damage(np.sqrt(2) * spread, 2.0))
     D1 = 2 * (xm - a2**2) / (1 + a2**2)
@@ -39,8 +39,8 @@ def tovo_benasciutti(moments: NDArray[np.float64], curve: RecountCurve) -> float
     if m0 <= 0 or m2 <= 0 or m4 <= 0:
         return 0.0
     rayleigh = 2 * np.sqrt(2 * m0)
-    a2 = min(m2 / np.sqrt(m0 * m4), 1.0)
-    a1 = min(max(m1 / np.sqrt(m0 * m2), a2), 1.0)
+    a2 = min(m2 / (np.sqrt(m0) * np.sqrt(m4)), 1.0)
+    a1 = min(max(m1 / (np.sqrt(m0) * np.sqrt(m2)), a2), 1.0)
     if 1 - a2 < NARROW:
         return float(np.sqrt(m2 / m0) * curve.mean_damage(rayleigh, 2.0))
     b = (a1 - a2) * (1.112 * (1 + a1 * a2 - (a1 + a2)) * np.exp(2.11 * a2) + (a1 - a2)) / (a2 - 1) ** 2

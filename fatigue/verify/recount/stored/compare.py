@@ -1,7 +1,7 @@
 """Stored numbers against recounted ones: the largest difference in each column and where it is."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,8 @@ TOLERANCE = 1e-6  # two programs written apart agree to this
 LOAD_FACTOR_STEP = 2e-4  # below the largest factor that meets the target, where damage jumps or bends with the load
 UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa"}
 OF_SPECTRUM = {"irregularity", "outside_share", "peaks_per_s", "samples_per_peak"}  # exact where bounds stand, too
+INVERSE = {"life_km", "life_years", "life_km_raw_end", "life_km_dirlik", "life_km_tb", "life_km_same_ratio",
+           "load_factor"}  # fmt: skip
 LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
 
 
@@ -105,7 +107,8 @@ class Row:
     """Recounted values of one row of a table.
 
     ``scale`` gives the size a difference in a column is relative to where that is not the value itself;
-    ``is_bound`` marks a row that stands for a proven bound.
+    ``is_bound`` marks a row that stands for a proven bound. ``bounds`` are what rounding may do to a column, of lives
+    and load factors to their inverse.
     """
 
     where: str
@@ -113,6 +116,7 @@ class Row:
     expected: Mapping[str, Any]
     scale: Mapping[str, float]
     is_bound: bool = False
+    bounds: Mapping[str, float] = field(default_factory=dict)
 
 
 def compare(table: str, rows: Sequence[Row], tolerance: Mapping[str, float]) -> list[ColumnCheck]:
@@ -183,6 +187,8 @@ def _is_undefined(name: str, row: Row) -> bool:
 def _difference(name: str, row: Row) -> float:
     """Relative difference of a value, 1 between texts and flags that differ, infinite between a number and none."""
     found, expected = row.found[name], row.expected[name]
+    if _is_rounding(name, found, expected, row.bounds.get(name, 0.0)):
+        return 0.0
     if isinstance(expected, str):
         return float(expected != ("" if pd.isna(found) else found))
     if not isinstance(expected, float):
@@ -198,6 +204,17 @@ def _difference(name: str, row: Row) -> float:
         excess = min(excess, 0.0) if name in UPPER_BOUNDS else max(excess, 0.0)
     size = max(row.scale.get(name, 0.0), abs(expected))
     return abs(excess) / size if size > 0 else np.inf
+
+
+def _is_rounding(name: str, found: Any, expected: Any, bound: float) -> bool:
+    """Whether a difference is within what rounding may do."""
+    if bound == 0.0 or isinstance(expected, bool | str) or found is None:
+        return bound == np.inf
+    found, expected = float(found), float(expected)
+    if name in INVERSE:
+        with np.errstate(divide="ignore"):
+            found, expected = (float(np.divide(1.0, value)) for value in (found, expected))
+    return bound == np.inf or abs(found - expected) <= bound
 
 
 def _shown(value: Any) -> str:

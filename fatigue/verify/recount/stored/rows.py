@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.anew.curve import RecountCurve
 from fatigue.verify.recount.anew.line import RecountLineStress, edge_length, edges
 from fatigue.verify.recount.anew.point import OnePass, RecountEvent, Values
+from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.layout import Key
 from fatigue.verify.recount.stored.compare import TOLERANCE, Row
 
@@ -18,7 +19,6 @@ COMPONENTS = ("membrane", "bending", "in_plane_shear", "twist_shear", "transvers
 NEGLIGIBLE = 1e-9  # of the largest range: what differs between two orders of summation
 SMALL = 1e-2  # of the largest range: the ratio of two parts of a smaller one says little
 _NOT_COLUMNS = {"power_sum", "R_largest", "with_mean_stress", "with_shear", "shear_ratio"}  # of a pass
-_OF_STILL_STRESS = ("damage_per_", "damage_same_ratio_", "cycles_", "max_range_", "mean_stress_")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,17 +34,27 @@ class RecountWeld:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Station:
-    """One node of a solved part of a weld."""
+    """One node of a solved part of a weld; ``largest`` stress of each mode along the part, (m,) [MPa]."""
 
     weld: RecountWeld
     solved: RecountLineStress
     at: int
+    largest: NDArray[np.float64]
 
 
-def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any], raw_life_enough: float) -> Row:
+def largest_stress(solved: RecountLineStress) -> NDArray[np.float64]:
+    """Largest stress of each mode along a part, (m,) [MPa]: the components added up."""
+    both = (np.abs(stress).sum(axis=2).max(axis=0) for stress in (solved.raw, solved.treated))
+    return np.asarray(np.maximum(*both))
+
+
+def node_row(
+    key: Key, station: Station, values: Values, bounds: Bounds, found: Mapping[str, Any], raw_life_enough: float
+) -> Row:
     """One row of the table of points.
 
-    ``raw_life_enough`` [km] is a life without end treatment from which on the row need not give it.
+    ``bounds`` are what rounding may do; ``raw_life_enough`` [km] is a life without end treatment from which on the row
+    need not give it.
     """
     if pd.isna(found["life_km_raw_end"]) and values["life_km_raw_end"] >= raw_life_enough:
         values = {name: value for name, value in values.items() if name != "life_km_raw_end"}
@@ -67,23 +77,27 @@ def node_row(key: Key, station: Station, values: Values, found: Mapping[str, Any
     scale["R_largest_cycle"] = max(1.0, values["R_largest_cycle"] ** 2)  # a ratio to a stress that may be close to 0
     scale |= dict.fromkeys(("arc_length_mm", "x_mm", "y_mm", "z_mm"), size)
     scale["mean_stress_MPa"] = values["max_range_MPa"]
-    return Row(place(key), found, geometry | values, scale, is_bound=bool(found["screened"]))
+    return Row(place(key), found, geometry | values, scale, bool(found["screened"]), bounds)
 
 
 def damage_row(key: Key, event: RecountEvent, one: OnePass, found: Mapping[str, Any], *, is_bound: bool) -> Row:
     """One row of the table of points and events."""
     values = {name: value for name, value in one.quantities.items() if name not in _NOT_COLUMNS}
-    per_km = np.nan if event.length_km is None else 1.0 / event.length_km
+    length_km = event.length_km
+    per_km = np.nan if length_km is None else 1.0 / length_km
     values |= {
         name.replace("_per_pass", "_per_km"): value * per_km
         for name, value in values.items()
         if name.endswith("_per_pass")
     }
-    largest, mean = one.quantities["max_range_MPa"], one.quantities["mean_stress_MPa"]
-    if largest <= NEGLIGIBLE * abs(mean):  # a stress that stands still has no bandwidth and no bending ratio
-        values = {name: value for name, value in values.items() if name.startswith(_OF_STILL_STRESS)}
-    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "outside_share": 1.0, "mean_stress_MPa": largest}
-    return Row(f"{place(key)}, event '{event.name}'", found, values, scale, is_bound)
+    bounds = one.bounds | {
+        name.replace("_per_pass", "_per_km"): bound * (1.0 if length_km is None else 1.0 / length_km)
+        for name, bound in one.bounds.items()
+        if name.endswith("_per_pass")
+    }
+    scale = {"bending_ratio": 1.0, "irregularity": 1.0, "outside_share": 1.0}
+    scale["mean_stress_MPa"] = one.quantities["max_range_MPa"]
+    return Row(f"{place(key)}, event '{event.name}'", found, values, scale, is_bound, bounds)
 
 
 def stress_rows(station: Station, modes: NDArray[np.int64], found: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
@@ -103,7 +117,10 @@ def cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) 
     """All cycles of one event at one point as one row: in each column, sorted, the value that differs most.
 
     Cycles that only rounding makes are left out on both sides. Where the numbers of cycles differ, all columns do.
+    Where rounding reaches further than that, the largest cycle alone is compared.
     """
+    if 2.0 * one.cycle_bounds["delta"] > NEGLIGIBLE * one.quantities["max_range_MPa"]:
+        return _largest_cycle_row(key, event, one, found)
     our_ranges, their_ranges = one.rows["range_MPa"], found["range_MPa"].to_numpy()
     expected, stored, scale = {}, {}, {}
     for name, column in one.rows.items():
@@ -115,17 +132,35 @@ def cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) 
             a, b = np.array([float(len(a))]), np.array([float(len(b))])
         worst = int(np.abs(a - b).argmax())
         expected[name], stored[name], scale[name] = float(a[worst]), float(b[worst]), float(np.abs(a).max())
-    return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale)
+    if "mean_MPa" in scale:
+        scale["mean_MPa"] = max(scale["mean_MPa"], scale["range_MPa"])
+    bounds = dict.fromkeys(("start_s", "end_s"), np.inf if one.cycle_bounds["ties"] else 0.0)
+    return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale, bounds=bounds)
 
 
-def weld_row(weld: RecountWeld, recounted: Mapping[Key, Values], found: Mapping[str, Any], *, all_counted: bool) -> Row:
+def _largest_cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) -> Row:
+    bounds = {name: bound for name, bound in one.cycle_bounds.items() if name in one.rows}
+    expected = {name: float(one.rows[name].max(initial=0.0)) for name in bounds}
+    stored = {name: float(found[name].max()) if len(found) else 0.0 for name in bounds}
+    return Row(f"{place(key)}, event '{event.name}'", stored, expected, {}, bounds=bounds)
+
+
+def weld_row(
+    weld: RecountWeld,
+    recounted: Mapping[Key, Values],
+    bounds: Mapping[Key, Bounds],
+    found: Mapping[str, Any],
+    *,
+    all_counted: bool,
+) -> Row:
     """Row of a weld: the worst of its recounted toe points decides; proven to be it where all points were counted."""
     parts = [solved.line for solved in weld.parts]
     lives = {key: values for key, values in recounted.items() if key[3] in weld.toes}
     stored: Key = (parts[0].weld, found["worst_part"], found["worst_order"], found["worst_surface"])
-    most = max(values["utilisation"] for values in lives.values())
-    if stored not in lives or lives[stored]["utilisation"] < most * (1 - TOLERANCE):
-        stored = next(key for key, values in lives.items() if values["utilisation"] == most)
+    first = max(lives, key=lambda key: lives[key]["utilisation"])
+    least = lives[first]["utilisation"] * (1 - TOLERANCE) - bounds[first]["utilisation"]
+    if stored not in lives or lives[stored]["utilisation"] + bounds[stored]["utilisation"] < least:
+        stored = first
     worst = lives[stored]
     solved = next(s for s in weld.parts if s.line.part == stored[1])
     at = int(np.flatnonzero(solved.line.order == stored[2])[0])
@@ -151,7 +186,8 @@ def weld_row(weld: RecountWeld, recounted: Mapping[Key, Values], found: Mapping[
         "worst_summed_corner": bool(solved.summed_corner[at]),
         "governing_event": worst["governing_event"],
     }
-    return Row(f"weld {stored[0]}", found, expected, {"worst_arc_length_mm": expected["length_mm"]})
+    scale = {"worst_arc_length_mm": expected["length_mm"]}
+    return Row(f"weld {stored[0]}", found, expected, scale, bounds=bounds[stored])
 
 
 def place(key: Key) -> str:
