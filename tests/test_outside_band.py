@@ -164,3 +164,13 @@ def test_automatic_upsampling_sees_the_whole_record(tmp_path):
         factor = swinging["samples_per_peak"] * swinging["peaks_per_s"] * STEP
         assert factor.to_numpy() == pytest.approx(8.0)
         assert (swinging["samples_per_peak"] >= 20.0).all()
+
+
+def test_rigid_modes_by_the_name_of_normal_ones_set_no_band(tmp_path):
+    """Without a mode that vibrates the band ends at 0.4 of the sampling rate, in the recount as in the assessment."""
+    case = small_case()
+    case.modes["frequency_hz"], case.modes["kind"] = 1e-4, "normal"
+    assess(case.write(tmp_path / "case"), tmp_path / "result", report=False)
+    _, damage = tables(tmp_path / "result")
+    assert (damage["damage_dirlik_per_pass"].dropna() > 0.0).all()
+    assert recount(tmp_path / "result", sample=2).passed
