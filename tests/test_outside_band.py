@@ -9,6 +9,7 @@ import pytest
 from fatigue.assess import assess
 from fatigue.check import check_case
 from fatigue.diagnose import diagnose
+from fatigue.report.page import write_report
 from fatigue.results.summary import result_summary
 from fatigue.verify.recount.folder import recount
 from tests.small_case import STEP, small_case
@@ -82,6 +83,14 @@ def test_show_has_no_life_by_dirlik(above):
     assert "1e12" not in text
     points = json.loads(fatigue("show", above[1].folder, "--top", 2, "--json").stdout)["points"]
     assert [point["life_km_dirlik"] for point in points] == [None, None]
+
+
+def test_page_says_why_there_is_no_comparison(above):
+    """Page one has the warning; instead of a figure without points stands the reason."""
+    page = write_report(above[1].folder, above[0], ()).read_text(encoding="utf-8")
+    assert "none, the spectra miss too much of the stress" in page
+    assert "The spectra miss too much of the stress of 28 points" in page
+    assert "No event has a record long enough" not in page
 
 
 def test_check_says_it_before(above):
