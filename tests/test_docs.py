@@ -147,6 +147,7 @@ def test_verdicts_are_those_of_the_program():
     first, valid, *others = trust.VERDICTS
     assert list(rows) == [first, *others, valid]
     limits = {
+        "outside_band": [round(100 * trust.missed_limit(k)) for k in trust.RATIO_BAND],
         "sampling": [trust.FEWEST_SAMPLES_PER_PEAK, trust.HIGHEST_PEAK_RATE],
         "quasi_static": [100 * trust.SLOW_SHARE],
         "single_event": [100 * trust.TOP_CYCLE_SHARE, 100 * trust.HALF_OF_DAMAGE],

@@ -20,7 +20,8 @@ class Domains:
 
     Attributes
     ----------
-    ratio : (k,) damage by Dirlik / by rainflow at the same bending ratio, of all points where both damage
+    ratio : (k,) damage by Dirlik / by rainflow at the same bending ratio, of all points where both damage and there is
+        a life by both
     verdicts : how many points have which verdict, most first
     drawn : rows of the table of nodes, all or of very many points a part, with the kurtosis of the stress in the
         governing event of each
@@ -50,7 +51,7 @@ def read_domains(folder: Path, events: Sequence[str]) -> Domains:
         folder, "nodes", rows, ["weld", "node", "surface", "governing_event", "dirlik_verdict", *_NUMBERS]
     )
     return Domains(
-        ratio=ratio[np.isfinite(ratio) & (ratio > 0.0)],
+        ratio=ratio[np.isfinite(ratio) & (ratio > 0.0) & ~np.isnan(points["life_km_dirlik"].to_numpy())],
         verdicts=tuple((names[used[i]], int(count[i])) for i in most_first),
         drawn=_with_kurtosis(drawn.to_pandas(), rows, folder, events),
     )

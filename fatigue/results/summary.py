@@ -91,6 +91,7 @@ class Summary:
                         "governing_event",
                     ],
                 ),
+                *self._outside_band(),
             ]
         )
 
@@ -102,6 +103,15 @@ class Summary:
         more = f" and {len(names) - MOST_LEFT_OUT} more" if len(names) > MOST_LEFT_OUT else ""
         what = "whose nodal forces are one sum of both legs, so the life there is not bounded"
         return ["", f"Worst at a corner {what}: {', '.join(names[:MOST_LEFT_OUT])}{more}"]
+
+    def _outside_band(self) -> list[str]:
+        """Say why points have no life by Dirlik."""
+        points = self.points
+        none = points["life_km_dirlik"].isna() & (points["dirlik_verdict"] == "outside_band")
+        if not none.any():
+            return []
+        where = "" if none.all() else f" at {none.sum()} of them"
+        return [f"no life by Dirlik{where}: the spectra miss too much of the stress (outside_band), see the warnings"]
 
     def _left_out(self) -> list[str]:
         """Say which welds are not assessed, and why; of many, every kind of reason with its number."""

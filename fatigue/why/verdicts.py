@@ -127,7 +127,9 @@ def event_verdicts(
         counted = assessed["damage_same_ratio_per_pass"].to_numpy()[changing]
         found.segmentwise_ratio[changing] = quotient(load.duration * rate, counted)
 
-    damaged = split_at[assessed["damage_same_ratio_per_pass"].to_numpy()[split_at] > 0.0]
+    counted = assessed["damage_same_ratio_per_pass"].to_numpy()
+    in_band = found.verdict != "outside_band"  # else the split would blame the formula for what it was never given
+    damaged = split_at[(counted > 0.0)[split_at] & in_band[split_at]]
     if len(damaged):
         split = _split(
             load, points.of(damaged), one_ratio[damaged], assessed.iloc[damaged], body.case.spectrum.segment_s

@@ -184,6 +184,7 @@ def _damage_rows(recipe, cycles):
                         ("", 1.0, damage),
                         ("_dirlik", 1.1, spectral),
                         ("_tb", 1.2, spectral),
+                        ("_tb_whole", 1.2, spectral),
                         ("_same_ratio", 0.98, spectral),
                     )
                     for unit in ("km", "pass")
@@ -195,6 +196,7 @@ def _damage_rows(recipe, cycles):
                 "bending_ratio": 0.85,
                 "mean_stress_MPa": 1.5,
                 "kurtosis": 3.0 + 0.5 * e + 0.1 * w,
+                "outside_share": 1e-6,
                 "irregularity": 0.7,
                 "peaks_per_s": 20.0,
                 "samples_per_peak": 12.5,

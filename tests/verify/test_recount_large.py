@@ -92,6 +92,7 @@ SPOILED = {
     ("nodes", "bending_ratio"): {"nodes, all rows.bending_ratio"},
     ("damage", "damage_tb_per_km"): {"damage, all rows.damage_tb_per_km"},
     ("damage", "damage_tb_per_pass"): {"damage, all rows.damage_tb_per_km", "nodes, all rows.life_km_tb"},
+    ("damage", "damage_tb_whole_per_pass"): {"damage, all rows.damage_tb_whole_per_km"},
     ("cycles", "damage"): {"cycles, all rows.damage"},
     ("welds", "load_factor"): {"welds, all rows.load_factor"},
     ("welds", "governing_event"): {"welds, all rows.governing_event"},

@@ -26,7 +26,7 @@ from fatigue.spectrum import trust
 MOST_POINTS = 20_000  # beyond, only a part of the points that agree is drawn
 VERDICTS = ("valid", *(verdict for verdict in trust.VERDICTS if verdict != "valid"))  # in the order of the legend
 TRUSTED = VERDICTS[:2]
-SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star")
+SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star", "hexagram")
 _ESTIMATES = ("life_km_same_ratio", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict")
 FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 

@@ -107,11 +107,12 @@ def event_shares(result: ShownResult) -> pd.DataFrame:
 def domains(result: ShownResult, figs: Figures) -> dict[str, Any]:
     """Compare time and frequency domain at all points; nothing where no event has a spectrum."""
     ratio, drawn = result.domains.ratio, result.domains.drawn
+    outside = dict(result.domains.verdicts).get("outside_band", 0)
     if not len(ratio):
-        return {"scatter": None, "histogram": None, "ratio": None, "verdicts": []}
+        return {"scatter": None, "histogram": None, "ratio": None, "verdicts": [], "outside": outside}
     of_all = f"; {wording.whole(len(drawn))} of {wording.whole(len(ratio))} points, those that disagree first"
     caption = "Life by Dirlik against life by rainflow, both with one bending ratio"
-    caption += of_all if len(drawn) < len(ratio) else ", all points"
+    caption += of_all if len(drawn) < len(ratio) else ", all points with a life by both" if outside else ", all points"
     low, middle, high = np.quantile(ratio, [0.05, 0.5, 0.95])
     return {
         "scatter": figs.add("domains", figures.time_against_frequency(drawn), caption),
@@ -129,6 +130,7 @@ def domains(result: ShownResult, figs: Figures) -> dict[str, Any]:
             "spread": float(np.log10(ratio).std()),
         },
         "verdicts": [(name.replace("_", " "), points) for name, points in result.domains.verdicts],
+        "outside": outside,
     }
 
 

@@ -32,11 +32,17 @@ def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
         ("R of the largest cycle", number(point["R_largest_cycle"])),
         ("Mean stress", f"{number(point['mean_stress_MPa'])} MPa"),
         ("Shear / normal stress, rms", number(point["shear_ratio"])),
-        ("Life by Dirlik", km(point["life_km_dirlik"])),
+        ("Life by Dirlik", _dirlik_life(point["life_km_dirlik"], str(point["dirlik_verdict"]))),
         ("Dirlik / rainflow damage", number(point["dirlik_ratio"])),
         ("Trust in Dirlik", str(point["dirlik_verdict"]).replace("_", " ")),
         ("Life, end not treated", _raw_life(point["life_km_raw_end"])),
     ]
+
+
+def _dirlik_life(life_km: float, verdict: str) -> str:
+    """Life by Dirlik's formula, or why there is none."""
+    outside = np.isnan(life_km) and verdict == "outside_band"
+    return "none, the spectra miss too much of the stress" if outside else km(life_km)
 
 
 def _raw_life(life_km: float) -> str:
@@ -82,6 +88,7 @@ def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, floa
             num(row.irregularity),
             num(row.peaks_per_s),
             num(row.samples_per_peak),
+            percent(row.outside_share),
         )
         for row, part, quotient in zip(damage.itertuples(), weighted, ratio, strict=True)
     )
@@ -97,6 +104,7 @@ def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, floa
         Heading("irregularity", "-"),
         Heading("peaks", "1/s"),
         Heading("samples per peak", "-"),
+        Heading("variance above the band", "%"),
     )
     return PageTable(id_, headings, rows)
 

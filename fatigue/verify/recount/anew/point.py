@@ -159,8 +159,8 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         duration=record.duration,
         mean_stress=mean_stress.counts,
     )
-    of_cycles = (values_of[kept_cycles] for values_of in (x, n, low, high))
-    return OnePass(values, *of_cycles, rows, pass_bounds(counted, values, curve), cycle_bounds(counted, curve))
+    x, n, low, high = (of_all[kept_cycles] for of_all in (x, n, low, high))
+    return OnePass(values, x, n, low, high, rows, pass_bounds(counted, values, curve), cycle_bounds(counted, curve))
 
 
 def point_values(
