@@ -24,7 +24,7 @@ from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.forecast.needs import job_needs
-from fatigue.pipeline.forecast.size import job_size
+from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
@@ -130,11 +130,11 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            needs = job_needs(job_size(body, plan, share=share, threads=threads, report=report))
-            for problem in shortage_warnings(needs, folder):
-                log.warning("%s", problem)
-            log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
-            stage("preparing the records of the events (%d); %s expected", len(plan.passes), needs.as_text())
+            stage(
+                "preparing the records of the events (%d); %s expected",
+                len(plan.passes),
+                foretold(job_size(body, plan, share=share, threads=threads, report=report), folder),
+            )
             work = open_work(groups, plan, options, state.folder, threads)
             give_back()
             if executor is None:
@@ -166,6 +166,15 @@ def assess(
             publish(unpublished, folder, stale_files(folder, own))
             log.info("the result is complete")
     return Assessment(folder, done.fulfilled, warnings, done.groups, done.reused)
+
+
+def foretold(size: JobSize, folder: Path) -> str:
+    """What a job will take, in words; a warning is logged where the machine does not have it."""
+    needs = job_needs(size)
+    for problem in shortage_warnings(needs, folder):
+        log.warning("%s", problem)
+    log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
+    return needs.as_text()
 
 
 def _senseless(threads: object, share: object, executor: object) -> Iterator[Problem]:

@@ -57,12 +57,12 @@ def _available() -> Iterator[float]:
 def _left_in_container() -> Iterator[float]:
     """Memory left below the limit of a container."""
     try:
-        limit, used = ((_GROUP / name).read_text(encoding="ascii").strip() for name in ("memory.max", "memory.current"))
-        cache = [
-            line for line in (_GROUP / "memory.stat").read_text(encoding="ascii").splitlines() if line[:5] == "file "
-        ]
-        if limit != "max":
-            yield float(limit) - float(used) + float(cache[0].split()[1] if cache else 0.0)
+        limit, used, stat = (
+            (_GROUP / f"memory.{name}").read_text(encoding="ascii") for name in ("max", "current", "stat")
+        )
+        cache = [line.split()[1] for line in stat.splitlines() if line.startswith("file ")]  # the kernel takes it back
+        if limit.strip() != "max":
+            yield float(limit) - float(used) + float(cache[0])
     except (OSError, ValueError, IndexError):
         return
 

@@ -1,0 +1,52 @@
+"""Cycles of long records: the same, in the same order, as of records in memory."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fatigue.life.counting import long_rainflow
+from fatigue.life.counting.long_rainflow import long_cycles
+from fatigue.life.counting.rainflow import rainflow
+
+LEVELS = st.lists(st.tuples(st.integers(-3, 3), st.integers(-2, 2)), min_size=1, max_size=60)
+
+
+def pieces_joined(membrane, bending, side, residue, cuts):
+    """Cycles of a record that comes in some chunks."""
+    edges = [0, *sorted(cut % (len(membrane) + 1) for cut in cuts), len(membrane)]
+
+    def chunks():
+        return ((membrane[a:b], bending[a:b]) for a, b in zip(edges[:-1], edges[1:], strict=True) if b > a)
+
+    pieces = list(long_cycles(chunks, side, residue))
+    return [np.concatenate(arrays) for arrays in zip(*pieces, strict=True)]
+
+
+@pytest.mark.parametrize("residue", ["repeat", "half"])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@given(levels=LEVELS, cuts=st.lists(st.integers(0, 60), max_size=4))
+@settings(max_examples=100, deadline=None)  # the first one compiles
+def test_cycles_are_those_of_the_whole_record(residue, side, levels, cuts):
+    """Few levels, so that plateaus, ties and several largest samples occur; wherever the record is cut."""
+    membrane, bending = np.array(levels, dtype=np.float64).T
+    stress = membrane + side * bending
+    expected = rainflow(stress, residue)
+    at, of_stress, of_membrane, of_bending, weight = pieces_joined(membrane, bending, side, residue, cuts)
+    np.testing.assert_array_equal(at, np.stack([expected.start, expected.end], axis=1))
+    np.testing.assert_array_equal(weight, expected.count)
+    np.testing.assert_array_equal(of_stress, stress[at])
+    np.testing.assert_array_equal(of_membrane, membrane[at])
+    np.testing.assert_array_equal(of_bending, bending[at])
+
+
+def test_pieces_and_a_growing_residue(monkeypatch):
+    """Swings that grow close nothing until the end: the stack of open reversals takes what it needs."""
+    monkeypatch.setattr(long_rainflow, "FEWEST", 100)
+    t = np.arange(4000)
+    s = t * (-1.0) ** t
+    for residue in ("repeat", "half"):
+        expected = rainflow(s, residue)
+        at, *_, weight = pieces_joined(s, 0.0 * s, 1.0, residue, [1000, 1001, 2500])
+        np.testing.assert_array_equal(at[:, 0], expected.start)
+        np.testing.assert_array_equal(weight, expected.count)
