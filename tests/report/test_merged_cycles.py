@@ -30,8 +30,12 @@ def test_counts_and_damages_stay(tmp_path, monkeypatch):
     dS = rng.exponential(10.0, n)
     table |= {"weld": rng.integers(-1, 1, n), "surface": rng.integers(0, 2, n), "event": rng.integers(0, 2, n)}
     table |= {"part": np.ones(n), "order": rng.integers(1, 3, n), "start_s": np.arange(n), "end_s": np.arange(n) + 0.5}
-    table |= {"range_MPa": 0.8 * dS, "mean_MPa": rng.normal(size=n), "count": rng.choice([0.5, 1.0], n)}
-    table |= {"bending_ratio": rng.uniform(size=n), "equivalent_range_dS": dS, "damage": table["count"] * 1e-9 * dS**3}
+    table |= {"range_MPa": 0.8 * dS, "mean_MPa": rng.uniform(0.0, 4.0, n), "count": rng.choice([0.5, 1.0], n)}
+    table |= {
+        "bending_ratio": rng.uniform(0.2, 0.4, n),
+        "equivalent_range_dS": dS,
+        "damage": table["count"] * 1e-9 * dS**3,
+    }
     halves = [{name: column[part] for name, column in table.items()} for part in (slice(7000), slice(7000, n))]
     monkeypatch.setattr(merged_cycles, "number_groups", lambda *_: iter(halves))
     point = merged_cycles.ShownPoint(1, 2, "bottom", 3.0, lambda x: 1e-9 * x**3, {"a": 2.0, "b": 5.0})

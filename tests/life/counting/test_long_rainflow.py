@@ -1,5 +1,7 @@
 """Cycles of long records: the same, in the same order, as of records in memory."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -17,7 +19,7 @@ def pieces_joined(membrane, bending, side, residue, cuts):
     edges = [0, *sorted(cut % (len(membrane) + 1) for cut in cuts), len(membrane)]
 
     def chunks():
-        return ((membrane[a:b], bending[a:b]) for a, b in zip(edges[:-1], edges[1:], strict=True) if b > a)
+        return ((membrane[a:b], bending[a:b]) for a, b in pairwise(edges) if b > a)
 
     pieces = list(long_cycles(chunks, side, residue))
     return [np.concatenate(arrays) for arrays in zip(*pieces, strict=True)]
