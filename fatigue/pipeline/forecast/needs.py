@@ -35,6 +35,7 @@ MOST_WAITING = 70.0 * MB
 CYCLES_LISTED = 100.0  # bytes for each sample of a record whose cycles are listed in memory
 LONGEST_LISTED = 1_000_000  # samples of such a record
 ROW = {"nodes": 250.0, "damage": 180.0, "structural_stress": 90.0, "cycle": 60.0}  # bytes of a row of a result
+DIAGNOSED, DIAGNOSED_MODE = 130.0, 12.0  # bytes for each sample of the longest record: alone, for each mode
 CYCLES_PER_SAMPLE = 1 / 6  # of a record that is sampled twelve times a cycle
 
 # Processor time [s] on a core of 2 to 3 GHz
@@ -82,6 +83,11 @@ def job_needs(size: JobSize) -> JobNeeds:
         else "Use a machine with more memory",
         disk_remedy=f"Free some space or give another folder{', or upsample less' if fine else ''}",
     )
+
+
+def diagnosis_memory(size: JobSize) -> float:
+    """Memory of a diagnosis [bytes]: one record, its transform, and the damage of a point laid on its samples."""
+    return IMPORTS + (DIAGNOSED + DIAGNOSED_MODE * size.modes) * max(size.counted)
 
 
 def held_records(size: JobSize) -> float:

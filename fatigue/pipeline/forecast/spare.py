@@ -27,14 +27,8 @@ def spare_disk(folder: Path) -> float | None:
 
 def shortage_warnings(needs: JobNeeds, folder: Path) -> Iterator[Problem]:
     """Warnings of a job that needs more memory than is available, or more disk than is free where ``folder`` is."""
-    memory, disk = spare_memory(), spare_disk(folder)
-    if memory is not None and needs.memory > memory:
-        yield Problem(
-            "memory_short",
-            "this machine",
-            f"the assessment takes about {size_text(needs.memory)} of memory, {size_text(memory)} are available",
-            needs.memory_remedy,
-        )
+    yield from memory_warnings("the assessment", needs.memory, needs.memory_remedy)
+    disk = spare_disk(folder)
     if disk is not None and needs.scratch + needs.result > disk:
         yield Problem(
             "disk_short",
@@ -43,6 +37,14 @@ def shortage_warnings(needs: JobNeeds, folder: Path) -> Iterator[Problem]:
             f"{size_text(disk)} are free",
             needs.disk_remedy,
         )
+
+
+def memory_warnings(what: str, needed: float, remedy: str) -> Iterator[Problem]:
+    """Warning of something that needs more memory [bytes] than is available."""
+    memory = spare_memory()
+    if memory is not None and needed > memory:
+        said = f"{what} takes about {size_text(needed)} of memory, {size_text(memory)} are available"
+        yield Problem("memory_short", "this machine", said, remedy)
 
 
 def _available() -> Iterator[float]:

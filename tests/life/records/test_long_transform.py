@@ -1,5 +1,7 @@
 """Transforms in scratch files against those in memory, for lengths with factors and without."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -55,3 +57,17 @@ def test_no_place_for_scratch_files(tmp_path):
         transform(lambda a, b: np.zeros(b - a), 4096, tmp_path / "file" / "x"),
     ):
         pass
+
+
+@pytest.mark.parametrize("length", [1_000_000, 100_003])
+def test_memory_does_not_grow_with_the_length(tmp_path, monkeypatch, length):
+    """Less than a copy of the numbers, with factors or without."""
+    monkeypatch.setattr(long_transform, "AT_ONCE", 1 << 13)
+    tracemalloc.start()
+    try:
+        with transform(lambda a, b: np.arange(a, b) % 17.0, length, tmp_path / "scratch") as bins:
+            bins(0, 1000)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 3e6

@@ -7,7 +7,7 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.pipeline.forecast import spare
-from fatigue.pipeline.forecast.needs import IMPORTS, MB, job_needs, size_text
+from fatigue.pipeline.forecast.needs import IMPORTS, MB, diagnosis_memory, job_needs, size_text
 from fatigue.pipeline.forecast.size import AUTOMATIC, JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings, spare_disk, spare_memory
 from fatigue.pipeline.mission.plan import mission_plan
@@ -97,6 +97,12 @@ def test_what_the_machine_lacks_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(spare, "spare_memory", lambda: None)
     monkeypatch.setattr(spare, "spare_disk", lambda folder: None)
     assert list(shortage_warnings(needs, tmp_path)) == []
+
+
+def test_a_diagnosis_grows_with_the_longest_record():
+    """Hundreds of bytes a sample, told before it begins."""
+    long = replace(SMALL, modes=1, samples=(100, 20_000_000), factors=(1, 1))
+    assert 2000 * MB < diagnosis_memory(long) < 4000 * MB
 
 
 def test_what_is_spare(tmp_path, monkeypatch):
