@@ -25,7 +25,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
 from fatigue.pipeline.count.worst import WorstPoint, worst_points
-from fatigue.pipeline.forecast.needs import JobNeeds, job_needs
+from fatigue.pipeline.forecast.needs import job_needs
 from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.mission.plan import mission_plan
@@ -137,8 +137,11 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            needs = foretold(job_size(body, plan, share=share, threads=threads, report=report), folder)
-            stage("preparing the records of the events (%d); %s expected", len(plan.passes), needs.as_text())
+            stage(
+                "preparing the records of the events (%d); %s expected",
+                len(plan.passes),
+                foretold(job_size(body, plan, share=share, threads=threads, report=report), folder),
+            )
             work = open_work(groups, plan, options, state.folder, threads)
             give_back()
             if executor is None:
@@ -174,6 +177,15 @@ def assess(
     return Assessment(folder, done.fulfilled, warnings, done.groups, done.reused)
 
 
+def foretold(size: JobSize, folder: Path) -> str:
+    """What a job will take, in words; a warning is logged where the machine does not have it."""
+    needs = job_needs(size)
+    for problem in shortage_warnings(needs, folder):
+        log.warning("%s", problem)
+    log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
+    return needs.as_text()
+
+
 def _senseless(threads: object, share: object, executor: object) -> Iterator[Problem]:
     """Arguments that make no sense."""
     if threads is not None and not (isinstance(threads, Integral) and int(threads) >= 1):
@@ -183,15 +195,6 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
     if executor is not None and not callable(getattr(executor, "submit", None)):
         what = f"{type(executor).__name__} is no executor"
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
-
-
-def foretold(size: JobSize, folder: Path) -> JobNeeds:
-    """What a job needs, told to the log, with a warning where the machine lacks it."""
-    needs = job_needs(size)
-    for problem in shortage_warnings(needs, folder):
-        log.warning("%s", problem)
-    log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
-    return needs
 
 
 def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:

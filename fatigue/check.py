@@ -73,6 +73,14 @@ class CheckedCase:
             "warnings": [str(problem) for problem in self.warnings],
         }
 
+    def _space(self) -> str:
+        """Memory and disk in words."""
+        memory, scratch, result = (
+            size_text(1e6 * size)
+            for size in (self.estimated_memory_MB, self.estimated_scratch_MB, self.estimated_result_MB)
+        )
+        return f"{memory} of memory; on disk {scratch} of scratch files and {result} of result"
+
     def as_text(self) -> str:
         """The sizes for people."""
         candidates = f"{self.candidates} candidate{'s' * (self.candidates != 1)}"
@@ -85,11 +93,7 @@ class CheckedCase:
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",
                 f"  estimated time   {_time_text(self.estimate)}",
-                (
-                    f"  estimated space  {size_text(1e6 * self.estimated_memory_MB)} of memory, "
-                    f"{size_text(1e6 * self.estimated_scratch_MB)} of scratch files, "
-                    f"{size_text(1e6 * self.estimated_result_MB)} of result"
-                ),
+                f"  estimated space  {self._space()}",
                 f"  warnings         {sum(warning.count for warning in self.warnings)}",
             ]
         )

@@ -20,6 +20,9 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
+from fatigue.pipeline.forecast.needs import diagnosis_memory
+from fatigue.pipeline.forecast.size import job_size
+from fatigue.pipeline.forecast.spare import memory_warnings
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.body import Body, conversion_file, read_body, register_file
@@ -95,6 +98,9 @@ def diagnose(
     refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
     body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
+    needed = diagnosis_memory(job_size(body, plan))
+    for problem in memory_warnings("the diagnosis", needed, "Use a machine with more memory, or shorter records"):
+        log.warning("%s", problem)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
     with (
         locked(folder, no_lock=no_lock),

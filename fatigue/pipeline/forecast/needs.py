@@ -35,13 +35,16 @@ MOST_WAITING = 70.0 * MB
 CYCLES_LISTED = 100.0  # bytes for each sample of a record whose cycles are listed in memory
 LONGEST_LISTED = 1_000_000  # samples of such a record
 ROW = {"nodes": 250.0, "damage": 180.0, "structural_stress": 90.0, "cycle": 60.0}  # bytes of a row of a result
+DIAGNOSED, DIAGNOSED_MODE = 130.0, 12.0  # bytes for each sample of the longest record: alone, for each mode
 CYCLES_PER_SAMPLE = 1 / 6  # of a record that is sampled twelve times a cycle
 
 # Processor time [s] on a core of 2 to 3 GHz
 FIRST = 2.5
-PER_STRESS_SAMPLE = {False: (9e-9, 0.18e-9), True: (1.3e-9, 0.03e-9)}  # single precision or not: alone, for each mode
+PER_STRESS_SAMPLE = {False: (9e-9, 0.4e-9), True: (1.3e-9, 0.03e-9)}  # single precision or not: alone, for each mode
 SCREENED = 0.3  # of the points are counted, or as much time goes into their bounds
-PREPARED = 60e-9  # each sample and mode of a record
+PREPARED = 150e-9  # each sample and mode of a record
+PREPARED_LONG = 0.8e-6  # the same, where it is transformed in scratch files
+LISTED = 0.5e-6  # each sample of a record whose cycles are listed, at each weld
 SECOND_ON_PAGE = 0.19  # each weld
 
 
@@ -82,6 +85,11 @@ def job_needs(size: JobSize) -> JobNeeds:
     )
 
 
+def diagnosis_memory(size: JobSize) -> float:
+    """Memory of a diagnosis [bytes]: one record, its transform, and the damage of a point laid on its samples."""
+    return IMPORTS + (DIAGNOSED + DIAGNOSED_MODE * size.modes) * max(size.counted)
+
+
 def held_records(size: JobSize) -> float:
     """Records that are held in memory: the shortest ones, up to a limit for all of them."""
     of_events = [size.modes * n * (8 * f if f > 1 else 4) for n, f in zip(size.samples, size.factors, strict=True)]
@@ -114,9 +122,8 @@ def counting(size: JobSize) -> float:
     of_thread = STRESS * size.group * size.modes + forces + 3.0 * results + (0.0 if size.is_single else histories)
     rows = size.stations * (2 + 2 * len(size.samples) + size.modes)
     listed = min(ROWS_OF_STRESS, 256.0 * longest) + CYCLES_LISTED * min(longest, LONGEST_LISTED)
-    return (
-        min(size.threads, -(-size.stations // size.group)) * of_thread + min(MOST_WAITING, WAITING_ROWS * rows) + listed
-    )
+    busy = min(size.threads, -(-size.stations // size.group))
+    return busy * of_thread + min(MOST_WAITING, WAITING_ROWS * rows) + listed
 
 
 def page(size: JobSize) -> float:
@@ -153,9 +160,10 @@ def _seconds(size: JobSize) -> float:
     alone, each = PER_STRESS_SAMPLE[size.is_single]
     per_sample = (alone + each * size.modes) * (SCREENED if size.is_screened else 1.0)
     counted = 2.0 * size.stations * sum(size.counted) * per_sample
-    prepared = PREPARED * size.modes * sum(size.counted)
+    prepared = sum(size.modes * n * (PREPARED_LONG if n > LONGEST_TRANSFORM else PREPARED) for n in size.counted)
+    listed = LISTED * sum(size.counted) * size.welds * (0.05 if size.is_single else 1.0)
     shown = SECOND_ON_PAGE * min(size.welds, MOST_DETAILED) if size.report else 0.0
-    return FIRST + counted + prepared + shown
+    return FIRST + counted + prepared + listed + shown
 
 
 def size_text(size: float) -> str:

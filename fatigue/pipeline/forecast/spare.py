@@ -27,14 +27,8 @@ def spare_disk(folder: Path) -> float | None:
 
 def shortage_warnings(needs: JobNeeds, folder: Path) -> Iterator[Problem]:
     """Warnings of a job that needs more memory than is available, or more disk than is free where ``folder`` is."""
-    memory, disk = spare_memory(), spare_disk(folder)
-    if memory is not None and needs.memory > memory:
-        yield Problem(
-            "memory_short",
-            "this machine",
-            f"the assessment takes about {size_text(needs.memory)} of memory, {size_text(memory)} are available",
-            needs.memory_remedy,
-        )
+    yield from memory_warnings("the assessment", needs.memory, needs.memory_remedy)
+    disk = spare_disk(folder)
     if disk is not None and needs.scratch + needs.result > disk:
         yield Problem(
             "disk_short",
@@ -43,6 +37,14 @@ def shortage_warnings(needs: JobNeeds, folder: Path) -> Iterator[Problem]:
             f"{size_text(disk)} are free",
             needs.disk_remedy,
         )
+
+
+def memory_warnings(what: str, needed: float, remedy: str) -> Iterator[Problem]:
+    """Warning of something that needs more memory [bytes] than is available."""
+    memory = spare_memory()
+    if memory is not None and needed > memory:
+        said = f"{what} takes about {size_text(needed)} of memory, {size_text(memory)} are available"
+        yield Problem("memory_short", "this machine", said, remedy)
 
 
 def _available() -> Iterator[float]:
@@ -57,12 +59,12 @@ def _available() -> Iterator[float]:
 def _left_in_container() -> Iterator[float]:
     """Memory left below the limit of a container."""
     try:
-        limit, used = ((_GROUP / name).read_text(encoding="ascii").strip() for name in ("memory.max", "memory.current"))
-        cache = [
-            line for line in (_GROUP / "memory.stat").read_text(encoding="ascii").splitlines() if line[:5] == "file "
-        ]
-        if limit != "max":
-            yield float(limit) - float(used) + float(cache[0].split()[1] if cache else 0.0)
+        limit, used, stat = (
+            (_GROUP / f"memory.{name}").read_text(encoding="ascii") for name in ("max", "current", "stat")
+        )
+        cache = [line.split()[1] for line in stat.splitlines() if line.startswith("file ")]  # the kernel takes it back
+        if limit.strip() != "max":
+            yield float(limit) - float(used) + float(cache[0])
     except (OSError, ValueError, IndexError):
         return
 

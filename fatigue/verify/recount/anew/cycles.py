@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+_CYCLE = np.dtype([("start", np.int64), ("end", np.int64), ("count", np.float64)])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountCycles:
@@ -27,15 +29,15 @@ def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
     n = len(stress)
     stress = np.ldexp(stress, -int(np.frexp(np.abs(stress).max())[1]))  # products of differences must not underflow
     first = _last_of_maximum(stress) if recurs else 0
-    path = np.append(np.roll(stress, -first), stress[first]) if recurs else stress
-    found = [[i, j, count] for _, _, count, i, j in rainflow.extract_cycles(path) if path[i] != path[j]]
-    if not found and len(path) == 2 and path[0] != path[1]:
-        found = [[0, 1, 0.5]]  # the package wants three samples
+    path = np.concatenate([stress[first:], stress[: first + 1]]) if recurs else stress
+    cycles = ((i, j, count) for _, _, count, i, j in rainflow.extract_cycles(path))
+    found = np.fromiter(cycles, dtype=_CYCLE)  # a list would take ten times the memory
+    found = found[path[found["start"]] != path[found["end"]]]
+    if not len(found) and len(path) == 2 and path[0] != path[1]:
+        found = np.array([(0, 1, 0.5)], dtype=_CYCLE)  # the package wants three samples
     if recurs:
-        found = _halves_joined(found, path)
-    table = np.array(found, dtype=float).reshape(-1, 3)
-    start, end = ((table[:, k].astype(np.int64) + first) % n for k in (0, 1))
-    return RecountCycles(start, end, table[:, 2])
+        found = _halves_joined(found)
+    return RecountCycles((found["start"] + first) % n, (found["end"] + first) % n, found["count"])
 
 
 def _last_of_maximum(stress: Floats) -> int:
@@ -48,10 +50,10 @@ def _last_of_maximum(stress: Floats) -> int:
     return at
 
 
-def _halves_joined(found: list[list[float]], path: Floats) -> list[list[float]]:
+def _halves_joined(found: NDArray[np.void]) -> NDArray[np.void]:
     """Cycles with the two halves from a reversal to another and back joined."""
-    halves = [cycle for cycle in found if cycle[2] == 0.5]
-    there, back = halves[::2], halves[1::2]
-    joined = [[a[0], a[1], 1.0] for a in there]
-    assert len(there) == len(back)
-    return [cycle for cycle in found if cycle[2] == 1.0] + joined
+    halves = found[found["count"] == 0.5]
+    joined = halves[::2].copy()
+    assert 2 * len(joined) == len(halves)
+    joined["count"] = 1.0
+    return np.concatenate([found[found["count"] == 1.0], joined])

@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes
-from fatigue.verify.recount.inputs.tables import read_frame
+from fatigue.verify.recount.inputs.tables import read_pieces
 
 Floats = NDArray[np.float64]
 
@@ -67,12 +68,10 @@ def spectrum_rules(case: Mapping[str, Any], modes: RecountModes, step: float) ->
 
 def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float) -> RecountRecord:
     """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
-    frame = read_frame(inputs.folder / event["history"])
-    time = frame["time_s"].to_numpy(dtype=float)
+    time, q = _read(inputs.folder / event["history"], modes.mode.tolist())
     step = (time[-1] - time[0]) / (len(time) - 1)
-    keep = time - time[0] >= event.get("start_s", 0.0) - step / 2
-    columns = {int(name[2:]): name for name in frame.columns if name.startswith("q_")}
-    q = np.stack([frame[columns[mode]].to_numpy(dtype=float)[keep] for mode in modes.mode.tolist()])
+    first = int(np.argmax(time - time[0] >= event.get("start_s", 0.0) - step / 2))
+    q = q[:, first:]
 
     by_number = "per_1000_km" in event
     by_default = "half" if by_number else inputs.case.get("counting", {}).get("residue", "repeat")
@@ -83,7 +82,7 @@ def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountM
         name=event["name"],
         kept=q,
         step=step,
-        start=float(time[keep][0]),
+        start=float(time[first]),
         counted=finer(q, upsample, recurs=recurs),
         fine_step=step / upsample,
         recurs=recurs,
@@ -92,6 +91,16 @@ def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountM
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
         peak=np.abs(q).max(axis=1),
     )
+
+
+def _read(path: Path, modes: list[int]) -> tuple[Floats, Floats]:
+    """Times (t,) and coordinates (m, t) of a history, piece by piece: a frame of all of them would be as much again."""
+    times, parts = [], []
+    for piece in read_pieces(path):
+        columns = {int(name[2:]): name for name in piece.columns if name.startswith("q_")}
+        times.append(piece["time_s"].to_numpy(dtype=float))
+        parts.append(np.stack([piece[columns[mode]].to_numpy(dtype=float) for mode in modes]))
+    return np.concatenate(times), np.concatenate(parts, axis=1)
 
 
 def _upsample(asked: int | str, step: float, fastest: float) -> int:
