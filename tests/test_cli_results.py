@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import unicodedata
 
 import pandas as pd
 import pyarrow.parquet as pq
@@ -105,3 +106,26 @@ def test_verify_a_result_and_find_a_spoiled_one(result, tmp_path):
     done = fatigue("verify", "--results", tmp_path / "copy" / "result", "--all")
     assert done.returncode == 4
     assert "life_km" in done.stdout
+
+
+def test_names_with_control_and_direction_characters(tmp_path):
+    """No command sends one to the terminal or the log, or fills it with a name; tables and JSON keep the names."""
+    case, evil = small_case(seconds=2.0), "A\u202eB\x1b[31m\u200b"
+    for table in (case.welds, case.weld_nodes, case.nodal_forces):
+        table["weld"] = table.weld.map({"A": evil, "B": "x" * 5000})
+    case.events[1]["name"] = r"no\u202eise\u001b[2J\nx"
+    path = case.write(tmp_path / "case")
+    result = tmp_path / "result"
+    runs = [
+        fatigue("check", path),
+        assess(path, "-o", result, "--exit-zero"),
+        fatigue("show", result),
+        fatigue("show", result, "--json"),
+    ]
+    printed = [run.stdout + run.stderr for run in runs] + [(result / "fatigue.log").read_text()]
+    for text in printed:
+        assert not {c for c in text if unicodedata.category(c) in ("Cc", "Cf")} - set("\n\t")
+    assert r"A\u202eB\x1b[31m\u200b" in printed[2]
+    assert max(map(len, printed[2].splitlines())) < 300
+    assert {row["weld"] for row in json.loads(runs[3].stdout)["welds"]} == {evil, "x" * 5000}
+    assert set(pq.read_table(result / "welds.parquet").column("weld").to_pylist()) == {evil, "x" * 5000}

@@ -35,6 +35,6 @@ def print_warnings(problems: tuple[Problem, ...], others_are: str = "see provena
     for problem in problems:
         kinds.setdefault(problem.code, []).append(problem)
     for same in kinds.values():
-        others = sum(problem.count for problem in same) - 1
+        others = sum(problem.count for problem in same) - same[0].count  # one that stands for several says so
         more = f" (and {others} more of this kind, {others_are})" if others else ""
         log.warning("%s%s", same[0], more)

@@ -155,7 +155,9 @@ def _environment() -> jinja2.Environment:
 
 def _shown(value: Any) -> Any:
     """What the page says of a value: in a text of somebody else, as a name, what cannot be seen is spelled out."""
-    return visible(value, keep="\n\t") if isinstance(value, str) and not isinstance(value, Markup) else value
+    return (
+        visible(value, keep="\n\t\u2028\u2029") if isinstance(value, str) and not isinstance(value, Markup) else value
+    )
 
 
 def _details(

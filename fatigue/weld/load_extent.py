@@ -11,7 +11,7 @@ from fatigue.weld.line import Lines
 from fatigue.weld.line_geometry import lengths, unit
 
 AXIS = 1e-6  # of a normal: what rounding leaves across an axis that it points along
-ACROSS = 1e-9  # of the largest force: what rounding leaves of it across a plate that is loaded in its plane
+ACROSS = 1e-6  # of the largest force: what single precision leaves of it across a plate that is loaded in its plane
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,7 +21,8 @@ class LoadExtent:
     Attributes
     ----------
     weld : (k,) name of the weld of each part
-    line_force : (k, m) mean over the line of the force, moments over the plate thickness [N/mm per unit coordinate]
+    line_force : (k, m) sizes of all components, moments over the plate thickness, added up along the line, over its
+        length [N/mm per unit coordinate]
     largest : (k, 6) largest component at any node in any mode [N, N mm per unit coordinate]
     across_plate : (k,) whether any force points out of the plane of its plate
     normal : (k, 3) largest component of the unit normals of the plate along each axis
@@ -48,14 +49,13 @@ def load_extent(lines: Lines, forces: NDArray[np.floating]) -> LoadExtent:
     """How large the nodal forces (n, m, 6) of a stack of line parts are."""
     names = lines.weld if isinstance(lines.weld, tuple) else (lines.weld,)
     first = lines.begin[:-1]
-    size = np.abs(forces)
+    size, normal = np.abs(forces), unit(lines.normal)
     of_node = size.max(axis=1)
-    normal = unit(lines.normal)
+    weights = np.ones((lines.node.size, 6), forces.dtype)
+    weights[:, 3:] /= lines.thickness[:, np.newaxis]
     with np.errstate(over="ignore"):  # what is so large is told where it is counted
-        fx, fy, fz, mx, my, mz = np.moveaxis(size.astype(np.float64, copy=False), 2, 0)
-        force, moment = np.hypot(np.hypot(fx, fy), fz), np.hypot(np.hypot(mx, my), mz)
-        total = np.add.reduceat(force + moment / lines.thickness[:, np.newaxis], first)
-        across = np.abs(np.einsum("nmc,nc->nm", forces[..., :3], normal)).max(axis=1)
+        total = np.add.reduceat(np.einsum("nmc,nc->nm", size, weights), first, dtype=np.float64)
+        across = np.abs(np.einsum("nmc,nc->nm", forces[..., :3], normal.astype(forces.dtype))).max(axis=1)
     is_bare = ~of_node.any(axis=1)
     bare = np.add.reduceat(is_bare.astype(np.int64), first)
     at = [

@@ -2,6 +2,7 @@
 
 import json
 import re
+import unicodedata
 
 import numpy as np
 import pandas as pd
@@ -389,3 +390,18 @@ def test_of_many_events_those_that_damage_most_are_listed(tmp_path):
     assert len(rows) == 20
     assert rows[0][0] == "event 0"
     assert "3 others are in damage.parquet" in page.words
+
+
+def test_what_cannot_be_seen_in_a_name_is_spelled_out(tmp_path):
+    """Nothing turns the direction of the page or is hidden in it; a name of 5000 letters does not fill it."""
+    names = ("A\u202eB\x1b[31m\u200b", "x" * 5000)
+    doubt = {"code": "doubt", "where": names[0], "what": names[0], "remedy": names[0]}
+    recipe = Recipe(names, 2, names, title=names[0], description=names[0], warnings=(doubt,))
+    text = report_page(write_result(tmp_path, recipe))
+    own = text[: text.index("plotly-source")] + text[text.index("</script>", text.index("plotly-source")) :]
+    assert not {c for c in own if unicodedata.category(c) in ("Cc", "Cf")} - set("\n\t")
+    page = Page(text)
+    assert [row[0] for row in page.tables["weld-register"][1:]].count(r"A\u202eB\x1b[31m\u200b") == 1
+    assert max(len(row[0]) for row in page.tables["weld-register"]) == 400
+    assert r"A\u202eB\x1b[31m\u200b" in json.dumps(page.figures["scene"]["data"]).encode().decode("unicode_escape")
+    assert "\u202e" not in json.dumps(page.figures, ensure_ascii=False)

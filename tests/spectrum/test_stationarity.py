@@ -182,3 +182,13 @@ def test_chi_square_quantiles():
     for normal, probability in ((2.326, 0.99), (-2.576, 0.005)):
         exact = chi2.ppf(probability, freedom) / freedom
         np.testing.assert_allclose(_chi_square_over_freedom(normal, freedom), exact, rtol=0.07)
+
+
+@pytest.mark.parametrize("exponent", [10, 60, 300])
+def test_stresses_whose_squares_single_precision_cannot_hold(exponent):
+    """A stress of any size is judged alike: a damaged value of 1e30 breaks nothing."""
+    periods = prepared(ensemble(modal_spectrum(), 2, 29 * 512, 6))[2]
+    modal_stress = np.random.default_rng(7).normal(size=(5, 2))
+    usual, huge = (stationarity(modal_stress * factor, periods) for factor in (1.0, 2.0**exponent))
+    assert np.isfinite(usual.modulation_index).all()
+    assert usual.modulation_index.tolist() == huge.modulation_index.tolist()

@@ -260,3 +260,30 @@ def test_warnings(line, code, message):
     check_line(line, WHERE)
     (warning,) = line_warnings(line, WHERE)
     assert (warning.code, str(warning)) == (code, message)
+
+
+@pytest.mark.parametrize("length", [1e200, 1e-200, 5e-324, 1.7e308])
+@pytest.mark.parametrize("column", ["normal", "outward"])
+def test_a_vector_of_an_odd_length(column, length):
+    """Its direction is used, and the length told in one warning; no square overflows on the way."""
+    line = straight(STEPS)
+    line = changed(line, column, 2, length * getattr(line, column)[2])
+    check_line(line, WHERE)
+    (problem,) = line_warnings(line, WHERE)
+    assert problem.code == "vector_length"
+    assert problem.where == "nodes.csv, weld W1, node 103 (order 3)"
+    assert f"{column}_x, {column}_y, {column}_z make a vector of" in problem.what
+
+
+@pytest.mark.parametrize("length", [1e-6, 1e-3, 1e5, 1e9])
+def test_vectors_of_mesh_edges_and_their_products_pass(length):
+    """Nobody has to normalise."""
+    assert line_warnings(straight(STEPS, normal=(0.0, 0.0, length), outward=(0.0, length, 0.0)), WHERE) == []
+
+
+@pytest.mark.parametrize("value", [1e101, -1e200, 1.7e308])
+def test_a_coordinate_without_square(value):
+    """It is refused with its place before anything is computed of it."""
+    line = straight(STEPS)
+    line = changed(line, "xyz", 1, [value, 0.0, 0.0])
+    assert refusal(line).startswith("nodes.csv, weld W1, node 102 (order 2): a coordinate is ")

@@ -17,6 +17,7 @@ from fatigue.weld.line_geometry import (
     length,
     local_axes,
     split_at_kinks,
+    unit,
 )
 from tests import naive_weld
 from tests.weld_lines import lines, moved, reversed_line, ring, rotations, shifted, straight, weld_line
@@ -199,3 +200,16 @@ def test_geometry_of_a_stack(some):
     np.testing.assert_array_equal(edge_nodes(stack), np.concatenate(at))
     for of, tolerance in ((arc_length, 1e-12), (local_axes, 1e-13), (kink_angles, 1e-10)):
         np.testing.assert_allclose(of(stack), np.concatenate([of(line) for line in some]), atol=tolerance)
+
+
+@given(st.lists(st.floats(-1.0, 1.0).filter(lambda x: abs(x) > 1e-3), min_size=3, max_size=3), st.integers(-900, 900))
+def test_a_direction_does_not_depend_on_the_length_of_the_vector(vector, exponent):
+    """Squares that overflow or vanish do no harm: the direction is the same to the last bit."""
+    given_vector = np.array([vector, [0.0, 0.0, 0.0]])
+    np.testing.assert_array_equal(unit(np.ldexp(given_vector, exponent)), unit(given_vector))
+
+
+def test_directions_at_the_ends_of_double_precision():
+    """The largest and the smallest number, and nothing at all."""
+    vectors = np.array([[1.7e308, 0.0, 1.7e308], [0.0, 5e-324, 0.0], [0.0, 0.0, 0.0]])
+    np.testing.assert_allclose(unit(vectors), [[0.5**0.5, 0.0, 0.5**0.5], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]], rtol=1e-15)

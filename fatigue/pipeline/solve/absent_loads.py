@@ -2,7 +2,7 @@
 
 A case is consistent without them, and every formula gives its zero. So what is zero is compared with the rest of the
 body: a force that other welds have, a component that a spatial body has. What a plane model leaves out is no doubt:
-forces across its plane and moments about the axes in it, or the reverse.
+several components at once.
 """
 
 from collections.abc import Iterator, Sequence
@@ -118,16 +118,12 @@ def _component_doubts(
 
 
 def _left_out_by_plane_models(absent: set[int], axis: int | None, modes: int) -> set[int]:
-    """Components, 0 to 5, that a flat body may lack; ``axis`` is that of its normals, None of a spatial body."""
+    """Components, 0 to 5, that a flat body may lack; ``axis`` is that of its normals, None of a spatial body.
+
+    The moment about the normal makes no structural stress, and many shells have no such stiffness. Of the others a
+    membrane lacks three, a plate in bending two, a strip across the weld three; one alone is a column that was lost.
+    """
     if axis is None:
         return set()
-    if modes < FEWEST_MODES:
-        return absent
-    in_plane = {i for i in range(3) if i != axis}
-    of_plate = {axis, *(3 + i for i in in_plane)}  # force across the plate, bending and twist
-    left_out = {3 + axis}  # about the normal: it makes no structural stress, and many shells have no such stiffness
-    if of_plate <= absent:
-        left_out |= of_plate
-    elif in_plane <= absent:
-        left_out |= in_plane
-    return left_out
+    others = absent - {3 + axis}
+    return absent if modes < FEWEST_MODES or len(others) > 1 else absent - others

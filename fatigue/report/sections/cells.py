@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fatigue.report.wording import NOT_AVAILABLE, number, share, short, whole
+from fatigue.report.wording import NOT_AVAILABLE, number, share, whole
+from fatigue.shown import shortened
 
-LONGEST_NAME, LONGEST_TEXT = 100, 240  # letters of a cell: a name of thousands would be a page of its own
+LONGEST_TEXT = 400  # letters of a cell: a name of thousands would be a page of its own
 _BEYOND = 1e300  # sorts after every number; what is not available sorts last
 
 
@@ -45,7 +46,7 @@ class PageTable:
 def text(value: Any) -> Cell:
     """Cell with a name; a dash where there is none."""
     missing = value is None or value != value or value == ""  # noqa: PLR0124
-    return Cell(NOT_AVAILABLE if missing else short(str(value), LONGEST_TEXT))
+    return Cell(NOT_AVAILABLE if missing else shortened(str(value), LONGEST_TEXT, "…"))
 
 
 def num(value: Any) -> Cell:
@@ -73,7 +74,7 @@ def verdict(fulfilled: Any) -> Cell:
 
 def linked(weld: str, links: Mapping[str, str]) -> Cell:
     """Cell with the name of a weld, and the link to its page where it has one."""
-    return Cell(short(weld, LONGEST_NAME), link=links.get(weld, ""))
+    return Cell(shortened(weld, LONGEST_TEXT, "…"), link=links.get(weld, ""))
 
 
 def span(low: float, high: float) -> Cell:

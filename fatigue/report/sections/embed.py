@@ -55,7 +55,7 @@ def embedded(value: Any) -> Markup:
 def _shown(value: Any) -> Any:
     """The same value, its texts as the page shows them: what cannot be seen in them is spelled out."""
     if isinstance(value, str):
-        return visible(value, keep="\n\t\u2068\u2069")  # the isolates around a name
+        return visible(value, keep="\n\t\u2028\u2029\u2068\u2069")  # the last two: isolates around a name
     if isinstance(value, dict):
         return {_shown(key): _shown(held) for key, held in value.items()}
     return [_shown(held) for held in value] if isinstance(value, list | tuple) else value

@@ -80,3 +80,20 @@ def test_bad_modes(tmp_path, suffix, columns, message):
     """Every mistake in the modes names file, column, row and value."""
     path = write(tmp_path / f"m{suffix}", columns)
     assert refusal_of(read_modes, path, ()).startswith(f"m{suffix}: {message}")
+
+
+@SUFFIXES
+@pytest.mark.parametrize(
+    ("column", "values", "code", "said"),
+    [
+        ("damping_ratio", [2.0, 1.5, 1.0], "unusual_damping", "2 of mode 7 is above 0.3; so are those of 1 more"),
+        ("damping_ratio", [0.02, 0.31, 1.0], "unusual_damping", "0.31 of mode 3 is above 0.3"),
+        ("damping_ratio", [0.3, 0.05, 5.0], None, ""),  # an interface mode may be damped as one likes
+        ("frequency_hz", [8.0, 1e300, 90.0], "unusual_frequency", "1e+300 of mode"),
+    ],
+)
+def test_damping_in_per_cent_and_frequencies_of_nothing(tmp_path, suffix, column, values, code, said):
+    """Once for all modes, with the largest value."""
+    _, warnings = read_modes(write(tmp_path / f"m{suffix}", MODES | {column: values}), (), strict=True)
+    assert [warning.code for warning in warnings] == ([code] if code else [])
+    assert not code or said in warnings[0].what
