@@ -30,9 +30,20 @@ def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         loops: Any = njit(nogil=True, error_model="numpy", fastmath=set(fastmath))(function)
         with suppress(RuntimeError, AttributeError):  # no such folder; plain Python, with NUMBA_DISABLE_JIT
             loops.enable_caching()
+            loops._cache.save_overload = _unless_refused(loops._cache.save_overload)
         return cast(Callable[P, R], loops)
 
     return compile_lazily
+
+
+def _unless_refused(save: Callable[..., None]) -> Callable[..., None]:
+    """Save machine code where the disk takes it: a full one costs the next process the compilation, and no result."""
+
+    def saved(*code: Any) -> None:
+        with suppress(OSError):
+            save(*code)
+
+    return saved
 
 
 def inlined(function: Callable[P, R]) -> Callable[P, R]:

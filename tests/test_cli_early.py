@@ -129,7 +129,7 @@ def test_all_missing_files_are_named_at_once(folder):
     ("arguments", "words"),
     [
         (("tension-patch", "nowhere/patch.bdf"), "nowhere/patch.bdf: there is no folder nowhere. Make it"),
-        (("synth", "there.csv/big", "--nodes", "20"), "there.csv/big: cannot be read or written (Not a directory)"),
+        (("synth", "there.csv/big", "--nodes", "20"), "there.csv/big: cannot be written (Not a directory)"),
         (("show", "x" * 300), "cannot be read or written (File name too long)"),
         (("check", "x" * 300), "cannot be read or written (File name too long)"),
         (("example", "x" * 300), "cannot be read or written (File name too long)"),

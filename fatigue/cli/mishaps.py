@@ -49,7 +49,7 @@ def mishap(error: BaseException) -> tuple[Problem | None, int]:
             found, code = _unwritable_letter(error), BAD_DATA
         case ValueError() if "integer string conversion" in text:
             found, code = DIGITS, BAD_DATA
-        case ModuleNotFoundError() if error.name and not error.name.startswith("fatigue"):
+        case ModuleNotFoundError() if error.name and "." not in error.name:
             found = Problem("package", error.name, "the package is not installed", "Install the program again with pip")
     return found, code
 

@@ -31,17 +31,21 @@ def refusal(error: OSError, path: Path | str | None = None) -> Problem:
     ``path`` is where it was met, by default the file that the error names.
     """
     place = str(path or error.filename or "a file")
-    folder = Path(place).parent
-    if error.errno == errno.ENOENT and error.filename and not folder.is_dir():
-        return Problem("system", shown(place), f"there is no folder {folder}", "Make it, or correct the path")
+    if error.errno == errno.ENOENT and error.filename and not Path(place).parent.is_dir():
+        return _no_folder("system", Path(place))
     what = "cannot be written" if error.errno in FULL else "cannot be read or written"
     remedy = REMEDIES.get(error.errno or 0, "Correct the path, or give one that you may read and write")
     return Problem("system", shown(place), f"{what} ({reason(error)})", remedy)
 
 
+def _no_folder(code: str, path: Path) -> Problem:
+    return Problem(code, shown(str(path)), f"there is no folder {path.parent}", "Make it, or correct the path")
+
+
 def reason(error: OSError) -> str:
     """What the system says, without the words of the library that it was said to."""
-    return os.strerror(error.errno) if error.errno else str(error) or type(error).__name__
+    said = error.strerror or str(error) or type(error).__name__
+    return os.strerror(error.errno) if error.errno and "[errno" in said else said
 
 
 def shown(path: str) -> str:
@@ -53,6 +57,8 @@ def shown(path: str) -> str:
 def cannot_write(path: Path | str, error: OSError, when_full: str = "give the same command again") -> DataError:
     """Error of a file or folder that cannot be written; ``when_full``: what to do once there is room."""
     what, remedy = "the disk is full", f"Free some space and {when_full}"
+    if error.errno == errno.ENOENT and not Path(path).parent.is_dir():
+        return DataError(_no_folder(CANNOT_WRITE, Path(path)))
     if error.errno not in FULL:
         what = f"cannot be written ({reason(error)})"
         remedy = REMEDIES.get(error.errno or 0, "Give a folder you may write to")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from fatigue.files.mishaps import refused_writing
 
-LONG = 200  # letters of a name
+LONG = 200  # bytes of a name
 
 
 @contextmanager
@@ -20,7 +20,7 @@ def replacing(final: Path, when_full: str = "give the same command again") -> It
     ------
     DataError : the disk is full or the place cannot be written
     """
-    name = final.name if len(final.name) < LONG else ""  # 255 letters are the most on any disk
+    name = final.name if len(os.fsencode(final.name)) < LONG else ""  # 255 are the most on any disk
     unfinished = final.with_name(f"{name}.{os.getpid()}.unfinished")
     try:
         with refused_writing(final, when_full):

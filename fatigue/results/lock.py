@@ -46,8 +46,12 @@ def locked(result_folder: Path, *, no_lock: bool = False) -> Iterator[None]:
         remove_empty(made)
         raise cannot_write(result_folder, error) from error
     with file:
-        if not no_lock:
-            _take(result_folder, path, file)
+        try:
+            if not no_lock:
+                _take(result_folder, path, file)
+        except DataError:
+            remove_empty(made)
+            raise
         try:
             yield
         finally:

@@ -7,13 +7,14 @@ neighbours in the register.
 import weakref
 from collections.abc import Iterator
 from dataclasses import dataclass
-from tempfile import TemporaryFile
+from tempfile import TemporaryFile, gettempdir
 from threading import Lock
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.files.mishaps import refused_writing
 from fatigue.weld.line import LINE_COLUMNS, NODE_COLUMNS, LineStack, WeldLine
 
 AT_ONCE = 64  # lines read together when all are walked through
@@ -61,16 +62,23 @@ class LineFile:
 
 
 def line_file(lines: LineStack) -> LineFile:
-    """Lines in a scratch file that nobody else sees."""
+    """Lines in a scratch file that nobody else sees.
+
+    Raises
+    ------
+    DataError : the disk for temporary files is full or cannot be written
+    """
     columns: dict[str, Any] = {name: getattr(lines, name) for name in NODE_COLUMNS}
     record = np.dtype([(name, column.dtype, column.shape[1:]) for name, column in columns.items()])
-    file = TemporaryFile(prefix="fatigue-")  # noqa: SIM115 (closed with the object that reads it)
-    for first in range(0, lines.node.size, NODES_AT_ONCE):
-        nodes = slice(first, first + NODES_AT_ONCE)
-        some = np.empty(lines.node[nodes].size, record)
-        for name, column in columns.items():
-            some[name] = column[nodes]
-        file.write(some.tobytes())
+    with refused_writing(gettempdir(), "give the same command again, or name another disk in TMPDIR"):
+        file = TemporaryFile(prefix="fatigue-")  # noqa: SIM115 (closed with the object that reads it)
+        for first in range(0, lines.node.size, NODES_AT_ONCE):
+            nodes = slice(first, first + NODES_AT_ONCE)
+            some = np.empty(lines.node[nodes].size, record)
+            for name, column in columns.items():
+                some[name] = column[nodes]
+            file.write(some.tobytes())
+        file.flush()
     heads = LineStack(
         **{name: getattr(lines, name) for name in LINE_COLUMNS},
         begin=np.zeros_like(lines.begin),

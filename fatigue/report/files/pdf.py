@@ -50,7 +50,7 @@ def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
             *(["--no-sandbox"] if _is_root() else []),
             f"{html.resolve().as_uri()}#print",
         ]
-        said = _run(command)
+        said = _run(command, profile)
         if not printed.is_file():
             raise DataError(
                 Problem(
@@ -67,11 +67,14 @@ def print_pdf(html: Path | str, pdf: Path | str, comment: str = "") -> None:
                     file.write(f"% {comment}\n".encode("ascii"))
 
 
-def _run(command: list[str]) -> str:
+def _run(command: list[str], scratch: str) -> str:
     """Run a browser to its end, and return its last words; whatever stops this one ends it with all its helpers."""
+    surroundings = os.environ | {"TMPDIR": scratch}  # else it leaves a folder there when it is ended
     with tempfile.TemporaryFile() as words:
         try:
-            process = subprocess.Popen(command, stdout=words, stderr=words, stdin=subprocess.DEVNULL, **OF_ITS_OWN)
+            process = subprocess.Popen(
+                command, stdout=words, stderr=words, stdin=subprocess.DEVNULL, env=surroundings, **OF_ITS_OWN
+            )
         except OSError as error:
             return reason(error)
         try:

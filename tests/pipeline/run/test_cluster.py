@@ -1,6 +1,8 @@
 """A dask.distributed cluster as executor: same bytes, a lost worker loses nothing, clear refusals."""
 
 import hashlib
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +12,7 @@ import pytest
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import DataError
-from fatigue.pipeline.run.cluster import cluster_executor
+from fatigue.pipeline.run.cluster import cluster_executor, is_open
 from tests.small_case import small_case
 
 TABLES = ("nodes", "damage", "cycles", "structural_stress", "welds")
@@ -79,3 +81,89 @@ def test_what_is_no_address_is_refused_at_once(address):
     pytest.importorskip("distributed")
     with pytest.raises(DataError, match=rf"{address}: is not the address of a scheduler\. Give one such as tcp://"):
         cluster_executor(address).__enter__()
+
+
+@pytest.fixture(scope="module")
+def certificates(tmp_path_factory):
+    """An authority of our own and a certificate of it, made as docs/large-models.md says, with a small key."""
+    if shutil.which("openssl") is None:
+        pytest.skip("no openssl to make certificates with")
+    folder = tmp_path_factory.mktemp("tls")
+    for command in (
+        "req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=my-cluster -keyout ca.key -out ca.pem",
+        "req -newkey rsa:2048 -nodes -subj /CN=node -keyout node.key -out node.csr",
+        "x509 -req -in node.csr -CA ca.pem -CAkey ca.key -CAcreateserial -days 2 -out node.pem",
+    ):
+        subprocess.run(["openssl", *command.split()], cwd=folder, check=True, capture_output=True)
+    return folder
+
+
+def test_certificates_let_in_who_has_one_and_nobody_else(tmp_path, certificates):
+    """Over TLS the same bytes, certificates by dask's configuration, no warning; without one a line says what lacks."""
+    distributed = pytest.importorskip("distributed")
+    path = small_case(pairs=8).write(tmp_path / "case")
+    assess(load_case(path), tmp_path / "threads", threads=1, report=False)
+    mine = {"cert": str(certificates / "node.pem"), "key": str(certificates / "node.key")}
+    security = distributed.Security(
+        tls_ca_file=str(certificates / "ca.pem"),
+        require_encryption=True,
+        **{f"tls_{who}_{what}": file for who in ("scheduler", "worker", "client") for what, file in mine.items()},
+    )
+    told = {f"DASK_DISTRIBUTED__COMM__TLS__CLIENT__{what.upper()}": file for what, file in mine.items()}
+    told["DASK_DISTRIBUTED__COMM__TLS__CA_FILE"] = str(certificates / "ca.pem")
+
+    def run(folder, address, **surroundings):
+        command = [sys.executable, "-m", "fatigue", "-q", "assess", str(path), "-o", str(tmp_path / folder)]
+        return subprocess.run(
+            [*command, "--scheduler", address, "--no-report", "--exit-zero"],
+            cwd=ROOT, capture_output=True, text=True, check=False, env=os.environ | surroundings,
+        )  # fmt: skip
+
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, protocol="tls://", security=security, dashboard_address=None,
+        silence_logs=50, worker_dashboard_address=None,
+    ) as cluster:  # fmt: skip
+        assert cluster.scheduler_address.startswith("tls://")
+        done = run("tls", cluster.scheduler_address, **told)
+        assert done.returncode == 0, done.stderr
+        assert "whoever reaches its port" not in done.stderr
+        assert digests(tmp_path / "tls") == digests(tmp_path / "threads")
+        refused = run("stranger", cluster.scheduler_address)
+    assert refused.returncode == 3
+    assert "error: tls://" in refused.stderr.splitlines()[-1]
+    assert "distributed.comm.tls" in refused.stderr.splitlines()[-1]
+    assert not (tmp_path / "stranger").exists()
+
+
+@pytest.mark.parametrize(
+    ("address", "expected"),
+    [
+        ("tcp://127.0.0.1:8786", False),
+        ("tcp://127.8.0.1:8786", False),
+        ("tcp://[::1]:8786", False),
+        ("tcp://localhost:8786", False),
+        ("inproc://10.0.0.5/7/1", False),
+        ("tls://10.0.0.5:8786", False),
+        ("tcp://10.0.0.5:8786", True),
+        ("tcp://[fe80::1%eth0]:8786", True),
+        ("tcp://0.0.0.0:8786", True),
+        ("tcp://cluster.example:8786", True),
+        ("ws://cluster.example:8786", True),
+        ("", False),
+    ],
+)
+def test_who_is_open_to_other_computers(address, expected):
+    """Plain connections beyond this computer, whatever the spelling."""
+    assert is_open(address) is expected
+
+
+def test_an_open_scheduler_is_warned_of(caplog, cluster, monkeypatch):
+    """Also where it is reached on this computer and says that it listens elsewhere."""
+    with cluster_executor(cluster.scheduler_address):
+        pass
+    assert "whoever reaches its port" not in caplog.text
+    monkeypatch.setattr("fatigue.pipeline.run.cluster.is_open", lambda address: True)
+    with cluster_executor(cluster.scheduler_address):
+        pass
+    assert caplog.text.count("takes code from whoever reaches its port") == 1
+    assert "Use tls:// with certificates" in caplog.text

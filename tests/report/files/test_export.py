@@ -94,7 +94,7 @@ def test_csv_files_read_back_as_the_tables(result_folder):
     assert [path.stem for path in paths] == list(CSV_TABLES)
     for path in paths:
         expected = pd.read_parquet(path.with_suffix(".parquet"))
-        found = pd.read_csv(path, keep_default_na=True)
+        found = pd.read_csv(path, keep_default_na=True, float_precision="round_trip")
         for column in expected.select_dtypes("number"):
             np.testing.assert_array_equal(found[column], expected[column], err_msg=f"{path.name} {column}")
 

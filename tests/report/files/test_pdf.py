@@ -1,7 +1,12 @@
 """Printing: which browser is taken, and what is said when there is none."""
 
 import os
+import signal
 import stat
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 
@@ -85,3 +90,43 @@ def test_the_page_is_printed_whole(monkeypatch, tmp_path):
     arguments = said.read_text().splitlines()
     assert arguments[-1].endswith("my%20report.html#print")
     assert ("--no-sandbox" in arguments) == (os.geteuid() == 0)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has other signals")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_ends_the_browser_with_its_helpers(tmp_path, number):
+    """Neither a process nor a profile of it is left, and no half page."""
+    (tmp_path / "tmp").mkdir()
+    (tmp_path / "report.html").write_text("<p>")
+    mine = program(tmp_path / "mine", f'sleep 100 & echo $! > {tmp_path}/helper.part; mv {tmp_path}/helper.part '
+                   f"{tmp_path}/helper; wait")  # fmt: skip
+    code = (
+        "from fatigue.cli.ends import end_orderly; from fatigue.report.files.pdf import print_pdf; end_orderly(); "
+        f"print_pdf({str(tmp_path / 'report.html')!r}, {str(tmp_path / 'report.pdf')!r})"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code],
+        env=os.environ | {"FATIGUE_BROWSER": str(mine), "TMPDIR": str(tmp_path / "tmp")},
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509 (no threads here)
+    )
+    while process.poll() is None and not (tmp_path / "helper").exists():
+        time.sleep(0.01)
+    process.send_signal(number)
+    process.wait(30)
+    helper = int((tmp_path / "helper").read_text())
+    for _ in range(500):
+        if not _runs(helper):
+            break
+        time.sleep(0.01)
+    assert not _runs(helper)
+    assert not list((tmp_path / "tmp").iterdir())
+    assert not (tmp_path / "report.pdf").exists()
+
+
+def _runs(process):
+    """Whether a process is there that has not ended."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().split()[2] != "Z"
+    except OSError:
+        return False
