@@ -202,7 +202,7 @@ WRONG_VALUES = [
         "counting",
         "",
         "upsample = 128",
-        "counting.upsample: 128 is above 64, with which no record has less than 128 samples per peak",
+        "counting.upsample: 128 is above 64, with which no record has less than 128 samples per peak ('auto' takes",
     ),
     ("counting", "", "upsample = 1048576", "counting.upsample: 1048576 is above 64"),
     ("counting", "", "upsample = 0", "counting.upsample: 0 is neither a power of 2 nor 'auto'. Give the upsampling"),

@@ -91,6 +91,6 @@ def test_a_full_disk_and_a_bad_place_are_told(tmp_path, monkeypatch):
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(spool, "_write", full)
+    monkeypatch.setattr(spool, "write_all", full)
     with pytest.raises(DataError, match="the disk is full"):
         made[:, :] = np.zeros((2, 100))
