@@ -25,6 +25,7 @@ Marks = NDArray[np.bool_]
 ZIGZAG_SHARE = 0.5  # of the line load as it is marked; 0, 2, 0, 2 has sqrt(2), a smooth load next to nothing
 ZIGZAG_DROP = 0.3  # of it left with other marks; white noise over six components keeps more than half
 STRETCH_DROP = 0.2  # where stretches are marked one by one, which has more freedom to fit noise
+OPPOSITE = 0.7  # cosine between jumps that follow each other; -1 of one pattern, about 0 of noise in many components
 ROUNDS = 3  # of marking stretches anew
 SHORTEST, SHORTEST_MARKED = 5, 3  # nodes: on a single edge that marks no mid-side node one zigzag proves nothing
 
@@ -49,10 +50,23 @@ def edge_type_warnings(line: WeldLine, nodal: NDArray[np.floating], where: str) 
     for marks in _other_marks(line):
         if _zigzag(replace(line, edge_mid=marks), nodal) <= ZIGZAG_DROP * zigzag:
             return [_problem(line, marks, where)]
+    if not _can_be_mended(line, load):
+        return []
     marks = _mended(line, nodal, load)
     if _zigzag(replace(line, edge_mid=marks), nodal) <= STRETCH_DROP * zigzag:
         return [_problem(line, marks, where)]
     return []
+
+
+def _can_be_mended(line: WeldLine, load: Floats) -> bool:
+    """Whether next to all jumps are in stretches that zigzag: marks change little elsewhere."""
+    stretches = _stretches(line, _turning_zigzags(line, load))
+    if not stretches:
+        return False
+    elsewhere, _ = _jumps(line, load)
+    total = elsewhere.sum()
+    elsewhere[np.concatenate(stretches)] = 0.0
+    return bool(elsewhere.sum() <= 2 * STRETCH_DROP**2 * total)
 
 
 def _other_marks(line: WeldLine) -> Iterator[Marks]:
@@ -73,7 +87,7 @@ def _mended(line: WeldLine, nodal: NDArray[np.floating], load: Floats) -> Marks:
     marks = line.edge_mid
     for _ in range(ROUNDS):
         before = marks
-        for stretch in _stretches(line, _zigzags(line, *_jumps(line, load))):
+        for stretch in _stretches(line, _turning_zigzags(line, load)):
             ways = [marks, *_ways(line, marks, stretch)]
             marks = min(ways, key=lambda way: _zigzag(replace(line, edge_mid=way), nodal))
         if np.array_equal(marks, before):
@@ -170,6 +184,25 @@ def _zigzags(line: Lines, jump: Floats, square: Floats) -> Marks:
     around = (square + inner[before] + inner[after]) / 3
     jumps = jump > ZIGZAG_SHARE**2 * around
     zigzags: Marks = jumps & (jumps[before] | jumps[after])
+    return zigzags
+
+
+def _turning_zigzags(line: WeldLine, load: Floats) -> Marks:
+    """Nodes at which the load of a line zigzags and turns back: a jump and the next are nearly opposite.
+
+    Wrong marks make one pattern of all components and modes; noise makes another of each.
+    """
+    before, after = neighbours(line)
+    to_next = step_lengths(line)
+    to_last = to_next[before]
+    a = (to_next / (to_next + to_last))[:, np.newaxis]
+    values = load.reshape(len(load), -1)
+    jump = values - a * values[before] - (1 - a) * values[after]
+    if not line.closed:
+        jump[[0, -1]] = 0.0
+    square = np.sum(jump**2, axis=1)
+    turns = np.sum(jump * jump[after], axis=1) < -OPPOSITE * np.sqrt(square * square[after])
+    zigzags: Marks = _zigzags(line, square, np.sum(values**2, axis=1)) & (turns | turns[before])
     return zigzags
 
 
