@@ -31,11 +31,9 @@ def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
     DataError : a folder is in the way, nothing was changed then; or a file cannot be replaced or removed
     """
     files, stale = sorted(finished.iterdir()), list(stale)
-    in_the_way = sorted(
-        path for path in (folder / name for name in {*stale, *(f.name for f in files)}) if path.is_dir()
-    )
+    places = sorted({folder / name for name in (*stale, *(path.name for path in files))})
     what = "is a folder where a file of the result has its place"
-    refuse(DataError, (Problem("foreign_files", str(path), what, "Move it away") for path in in_the_way))
+    refuse(DataError, (Problem("foreign_files", str(path), what, "Move it away") for path in places if path.is_dir()))
     for path in files:
         with path.open("rb+") as file:
             os.fsync(file.fileno())
