@@ -152,6 +152,8 @@ def _strange(folder: Path, name: str, record: Mapping[str, Any], change: str) ->
         return
     elif result is None or path.suffix == ".parquet":  # written before there were hashes, or by somebody else's hand:
         return  # its numbers are checked by the recount
+    elif not path.is_file():
+        yield Problem("damaged_result", str(path), "is no file", remedy)
     elif (known := listed_of(folder, result).get(name)) != sha256(path):
         what = "was changed since it was written" if known else "was not written of this result"
         yield Problem("other_result", str(path), what, remedy)

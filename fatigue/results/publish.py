@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.mishaps import refused_writing
 from fatigue.results.provenance import JOURNAL, PROVENANCE
 
@@ -26,8 +26,15 @@ def publish(finished: Path, folder: Path, stale: Iterable[str] = ()) -> None:
     finished : folder of the new files; a new result has its provenance among them
     folder : the result folder, locked
     stale : names of files to remove
+
+    Raises
+    ------
+    DataError : a folder is in the way, nothing was changed then; or a file cannot be replaced or removed
     """
-    files = sorted(finished.iterdir())
+    files, stale = sorted(finished.iterdir()), list(stale)
+    places = sorted({folder / name for name in (*stale, *(path.name for path in files))})
+    what = "is a folder where a file of the result has its place"
+    refuse(DataError, (Problem("foreign_files", str(path), what, "Move it away") for path in places if path.is_dir()))
     for path in files:
         with refused_writing(path), path.open("rb+") as file:
             os.fsync(file.fileno())
@@ -85,8 +92,9 @@ def complete(folder: Path) -> None:
             (folder / PROVENANCE).unlink(missing_ok=True)
         for path in files:
             path.replace(folder / path.name)
-    except PermissionError as error:
+    except OSError as error:
         where, what = str(error.filename2 or error.filename or folder), f"cannot be replaced ({error.strerror})"
-        remedy = "Close the program that has it open and run the same command again"
+        is_open = isinstance(error, PermissionError)
+        remedy = f"{'Close the program that has it open' if is_open else 'Move it away'} and run the same command again"
         raise DataError(Problem("cannot_write", where, what, remedy)) from error
     (folder / JOURNAL).unlink()

@@ -86,6 +86,31 @@ def test_a_cut_off_publication_is_told(two_results, tmp_path, monkeypatch):
         read_provenance(tmp_path / "result")
 
 
+def test_a_folder_in_the_way_is_named_before_anything_is_moved(two_results, tmp_path):
+    """The old result stays whole and can be read; without the folder the new one comes."""
+    folder, finished = tmp_path / "result", tmp_path / "new"
+    shutil.copytree(two_results[0], folder)
+    shutil.copytree(two_results[1], finished)
+    (folder / "nodes.csv").unlink()
+    (folder / "nodes.csv").mkdir()
+    with pytest.raises(DataError, match=r"nodes\.csv: is a folder where a file of the result has its place"):
+        publish(finished, folder, stale_files(folder))
+    assert read_provenance(folder) == read_provenance(two_results[0])
+    assert not (folder / JOURNAL).exists()
+    (folder / "nodes.csv").rmdir()
+    publish(finished, folder, stale_files(folder))
+    assert read_provenance(folder) == read_provenance(two_results[1])
+
+
+def test_a_damaged_journal_is_told(two_results, tmp_path):
+    """One line instead of a guess."""
+    shutil.copytree(two_results[0], tmp_path / "result")
+    for text in ("{", "[]", '{"from": 3, "remove": []}', "null"):
+        (tmp_path / "result" / JOURNAL).write_text(text)
+        with pytest.raises(DataError, match=r"says what was being put in place .* cannot be read"):
+            settle_folder(tmp_path / "result")
+
+
 def test_a_file_in_use_is_named_and_the_result_stays(two_results, tmp_path, monkeypatch):
     """As on Windows, where what is open cannot be removed: the old result stays; later the new one comes."""
     folder, finished = tmp_path / "result", tmp_path / "new"

@@ -185,10 +185,16 @@ def _is_undefined(name: str, row: Row) -> bool:
 
 
 def _difference(name: str, row: Row) -> float:
+    """Relative difference of a value; none where it is large and yet within what rounding may do."""
+    difference = _relative_difference(name, row)
+    bound = row.bounds.get(name, 0.0)
+    is_rounding = difference > TOLERANCE and _is_rounding(name, row.found[name], row.expected[name], bound)
+    return 0.0 if is_rounding else difference
+
+
+def _relative_difference(name: str, row: Row) -> float:
     """Relative difference of a value, 1 between texts and flags that differ, infinite between a number and none."""
     found, expected = row.found[name], row.expected[name]
-    if _is_rounding(name, found, expected, row.bounds.get(name, 0.0)):
-        return 0.0
     if isinstance(expected, str):
         return float(expected != ("" if pd.isna(found) else found))
     if not isinstance(expected, float):
