@@ -48,7 +48,7 @@ NODES = (
         "float",
         "km",
         "life by Dirlik's formula with one bending ratio per event, events with a spectrum; empty where the spectra "
-        "miss too much of the stress (dirlik_verdict outside_band)",
+        "miss more than 90 % of the damage (dirlik_verdict outside_band)",
     ),
     Column(
         "life_km_tb",
