@@ -183,3 +183,19 @@ def test_rigid_modes_by_the_name_of_normal_ones_set_no_band(tmp_path):
     _, damage = tables(tmp_path / "result")
     assert (damage["damage_dirlik_per_pass"].dropna() > 0.0).all()
     assert recount(tmp_path / "result", sample=2).passed
+
+
+def test_likely_worst_point_is_sought_in_the_whole_spectrum(tmp_path):
+    """The point that vibrates above the band does the damage, the one with the larger stress in the band does not."""
+    case = shaken(40.0, 60.0, mission={"target_km": 1.0})
+    for name in ("sine", "noise"):
+        t = case.histories[name]["time_s"].to_numpy()
+        case.histories[name]["q_2"] = 1e-3 * np.sin(2 * np.pi * 10.0 * t)
+    first = case.nodal_forces["node"] < 103  # of weld A: less mode 1 there, and all the mode 2 that the others have
+    forces = [column for column in case.nodal_forces if column.endswith(("_N", "_Nmm"))]
+    case.nodal_forces.loc[first & (case.nodal_forces["mode"] == 1), forces] *= 0.5
+    assess(case.write(tmp_path / "case"), tmp_path / "fast", report=False, share=1.0, proves_worst=False)
+    assess(tmp_path / "case" / "case.toml", tmp_path / "exact", report=False, share=0.0)
+    worst = [pd.read_parquet(tmp_path / name / "welds.parquet") for name in ("fast", "exact")]
+    assert worst[0]["worst_node"].tolist() == worst[1]["worst_node"].tolist()
+    assert worst[0]["life_km"].to_numpy() == pytest.approx(worst[1]["life_km"].to_numpy(), rel=1e-6)

@@ -105,13 +105,14 @@ class Summary:
         return ["", f"Worst at a corner {what}: {', '.join(names[:MOST_LEFT_OUT])}{more}"]
 
     def _outside_band(self) -> list[str]:
-        """Say why points have no life by Dirlik."""
-        points = self.points
-        none = points["life_km_dirlik"].isna() & (points["dirlik_verdict"] == "outside_band")
-        if not none.any():
+        """Say why Dirlik has no life for some points, or one that is too long."""
+        outside = self.points["dirlik_verdict"] == "outside_band"
+        if not outside.any():
             return []
-        where = "" if none.all() else f" at {none.sum()} of them"
-        return [f"no life by Dirlik{where}: the spectra miss too much of the stress (outside_band), see the warnings"]
+        where = "" if outside.all() else f" at {outside.sum()} of them"
+        none = bool(self.points.loc[outside, "life_km_dirlik"].isna().all())
+        what = "no life by Dirlik" if none else "no trust in Dirlik"
+        return [f"{what}{where}: the spectra miss too much of the stress (outside_band), see the warnings"]
 
     def _left_out(self) -> list[str]:
         """Say which welds are not assessed, and why; of many, every kind of reason with its number."""

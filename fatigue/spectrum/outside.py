@@ -4,7 +4,7 @@ Modes that the upper frequency leaves out, a frequency set too low or noise make
 estimated. Its share of the variance says little: 1 % of the variance at eight times the frequency makes 15 % of the
 damage, as every small cycle on top of a large one makes that one larger. So beside the share of the variance there is a
 share of the damage, by Tovo and Benasciutti of the spectrum up to half the sampling rate. On Gaussian records their
-ratio of whole to band keeps within 0.85 and 1.35 of the counted one, where the counted one is between 1.1 and 2.
+ratio of whole to band keeps within 0.8 and 1.25 of the counted one, where the counted one is between 1.1 and 2.
 """
 
 import math

@@ -51,6 +51,7 @@ TOP_CYCLE_QUANTILE = 4.6  # -ln(-ln 0.99): 99 of 100 largest values of N exponen
 MODULATED, STEADY = 1.4, 0.6  # modulation index; Gaussian records of 51 s keep 0.7 to 1.35
 MODULATION_MATTERS = 1.1  # factor on the damage
 EXPLAINED_KURTOSIS = 0.25  # share of the excess that modulation must make; with less, high peaks scatter the variance
+NO_LIFE = 0.90  # of the damage missed by the band: a life by the spectrum would be off by a decade
 LINE_SHARE = 0.30  # of the variance, in tones
 STEADIER_THAN_CHANCE = 0.8  # modulation index: a tone is steady, a lightly damped mode as sharp is not
 NARROW_PEAK = 0.2  # statistical bandwidth over crossing rate, of a mode with 3 % damping: a tone is narrower

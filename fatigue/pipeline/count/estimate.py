@@ -12,7 +12,8 @@ from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.quotient import quotient
 from fatigue.spectrum.methods import dirlik_damage_rate, tovo_benasciutti_damage_rate
 from fatigue.spectrum.moments import quadratic_forms
-from fatigue.spectrum.outside import peak_rate, share_above
+from fatigue.spectrum.outside import missed_damage, peak_rate, share_above
+from fatigue.spectrum.trust import missed_limit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +41,11 @@ class Estimate:
     def one_ratio(self) -> NDArray[np.float64]:
         """The bending ratio for formulas: 0 where nothing varies, so that there is nothing to count either."""
         return np.nan_to_num(self.bending_ratio)
+
+    def likely_damage(self, slope: float) -> NDArray[np.float64]:
+        """Damage of a pass on a curve of this slope, (n, 2): Dirlik's, unless the band misses too much."""
+        outside = missed_damage(self.tb, self.tb_whole) > missed_limit(slope)
+        return np.where(outside, self.tb_whole, self.dirlik)
 
     def at(self, rows: NDArray[np.intp]) -> Self:
         """Take some stations."""

@@ -12,7 +12,7 @@ from fatigue.life.mission import Pass, Plan, life_km, load_factor, mission_sum, 
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.quotient import quotient
 from fatigue.spectrum.outside import missed_damage
-from fatigue.spectrum.trust import VERDICTS, missed_limit
+from fatigue.spectrum.trust import NO_LIFE, VERDICTS, missed_limit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,7 +22,8 @@ class MissionBlock:
     ``life_km_raw_end`` is the life without the end treatment, NaN where it was not counted. ``governing`` is the index
     of the event with the largest share of the damage, -1 where nothing damages. ``verdict`` is the verdict of the
     event with the largest share of the damage among the events that have a spectrum, or ``outside_band`` where the
-    bands of all events together miss too much of it: there is no ``life_km_dirlik`` and ``life_km_tb`` there (NaN).
+    bands of all events together miss too much of it; where they miss nearly all, there is no ``life_km_dirlik`` and
+    ``life_km_tb`` (NaN).
     """
 
     damage_per_km: NDArray[np.float64]
@@ -67,7 +68,8 @@ def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> M
     dirlik = _sum([estimates[i].dirlik for i in in_spectrum], passes, damage)
     tb = _sum([estimates[i].tb for i in in_spectrum], passes, damage)
     tb_whole = _sum([estimates[i].tb_whole for i in in_spectrum], passes, damage)
-    outside = missed_damage(tb, tb_whole) > missed_limit(float(law.slopes[0]))
+    missed = missed_damage(tb, tb_whole)
+    outside = missed > missed_limit(float(law.slopes[0]))
     same_ratio = _sum([counts[i].damage_same_ratio for i in in_spectrum], passes, damage)
     power_sum = _sum([c.power_sum for c in counts], plan.passes, damage)
     return MissionBlock(
@@ -76,8 +78,8 @@ def mission_block(events: Sequence[EventBlock], plan: Plan, law: DamageLaw) -> M
         life_km_raw_end=_life(_sum([event.damage_raw_end for event in events], plan.passes, damage), plan),
         utilisation=utilisation,
         load_factor=_load_factor(counts, utilisation, plan, law, counted),
-        life_km_dirlik=np.where(outside, np.nan, _life(dirlik, plan)),
-        life_km_tb=np.where(outside, np.nan, _life(tb, plan)),
+        life_km_dirlik=np.where(missed > NO_LIFE, np.nan, _life(dirlik, plan)),
+        life_km_tb=np.where(missed > NO_LIFE, np.nan, _life(tb, plan)),
         life_km_same_ratio=_life(same_ratio, plan),
         dirlik_ratio=quotient(dirlik, same_ratio),
         max_range=np.stack([c.max_range for c in counts]).max(axis=0),

@@ -12,6 +12,7 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.stations import Stations
 from fatigue.spectrum.outside import in_percent, missed_damage
+from fatigue.spectrum.trust import VERDICTS
 
 NAMED = 3  # events
 
@@ -42,7 +43,7 @@ class _Worst:
 
 @dataclass(slots=True, eq=False)
 class OutsideBand:
-    """Toe points without a life by Dirlik because the bands of the spectra miss too much of their damage.
+    """Toe points of whose damage the bands of the spectra miss too much.
 
     ``toes`` are all toe points, ``events`` those to blame.
     """
@@ -90,7 +91,8 @@ class OutsideBand:
                 f"event '{event}'{also}",
                 f"stress above upper_hz ({upper_hz[event]:g} Hz) is counted, but in no spectrum: up to "
                 f"{in_percent(worst.share)} % of the variance and {in_percent(worst.missed)} % of the damage there "
-                f"({worst.place}); {points} of {self.toes} {looked_at} have no life by Dirlik for that",
+                f"({worst.place}); at {points} of {self.toes} {looked_at} the life by Dirlik is too long for that, or left "
+                "out",
                 "Raise upper_hz in [spectrum] if this stress is real, keep it out of the simulation if it is noise, or "
                 "trust the counted lives only, which contain it either way",
                 count=len(self.events),
@@ -106,9 +108,10 @@ def spectra_of(result: GroupResult, plan: Plan) -> dict[str, Spectral]:
 
 
 def outside_of(result: GroupResult) -> NDArray[np.bool_]:
-    """Points that have a spectrum and yet no life by it, (n, 2), whether counted or bounded."""
+    """Points whose spectra miss too much by their verdict, or nearly all if they are bounded, (n, 2)."""
     has_spectrum = ~np.isnan(result.of_events("damage_dirlik_per_pass")).all(axis=0)
-    return np.asarray(np.isnan(result.mission.life_km_dirlik) & has_spectrum)
+    no_life = np.isnan(result.mission.life_km_dirlik) & has_spectrum
+    return np.asarray(no_life | (result.mission.verdict == VERDICTS.index("outside_band")))
 
 
 def bands_of(loads: Sequence[EventLoad]) -> dict[str, float]:

@@ -62,7 +62,8 @@ def settle(block: Block, screening: Screening) -> Iterator[Settled]:
 def _likely_worst(block: Block, estimates: Sequence[Estimate], bounds: Bounds) -> NDArray[np.intp]:
     """Station of every weld with the largest estimated damage at a toe; without a spectrum, with the largest bound."""
     of_events = zip(estimates, bounds.of_events, strict=True)
-    guess = np.stack([np.where(np.isnan(e.dirlik), b.damage, e.dirlik) for e, b in of_events])
+    slope = float(block.stress.rule.law.slopes[0])
+    guess = np.stack([np.where(np.isnan(e.dirlik), b.damage, e.likely_damage(slope)) for e, b in of_events])
     damage = np.where(block.toe, mission_sum(guess, block.plan.passes), -1.0).max(axis=1)
     first = np.flatnonzero(np.diff(block.weld, prepend=block.weld[0] - 1))
     of_welds = zip(first, np.split(damage, first[1:]), strict=True)

@@ -16,6 +16,7 @@ from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
+NEARLY_ALL = 0.9  # of the damage from above the upper frequency: no life from the spectrum
 NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not counted among the peaks
 
 
@@ -194,7 +195,7 @@ def point_values(
     D_dirlik, D_tb, D_whole, D_same = (
         of_spectra(f"damage_{name}_per_pass") for name in ("dirlik", "tb", "tb_whole", "same_ratio")
     )
-    misses = 1.0 - _quotient(D_tb, D_whole) > most_missed(curve.slopes[0])
+    misses = 1.0 - _quotient(D_tb, D_whole) > NEARLY_ALL
     life = _life(damage, limit)
     return {
         "damage_per_km": damage,
@@ -218,11 +219,6 @@ def point_values(
         "bending_ratio": of_governing("bending_ratio"),
         "life_km_raw_end": _life(float(weights @ np.array(raw_damage)), limit),
     }
-
-
-def most_missed(slope: float) -> float:
-    """Share of the damage that may come from above the upper frequency before there is no life from the spectrum."""
-    return float(np.interp(slope, [4.0, 5.0], [0.2, 0.35]))
 
 
 def bounds_of_point(

@@ -13,7 +13,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_rows, read_table
-from fatigue.verify.recount.anew.point import RecountEvent, most_missed
+from fatigue.verify.recount.anew.point import NEARLY_ALL, RecountEvent
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
 from fatigue.verify.recount.stored.rows import place
@@ -100,6 +100,7 @@ def _of_points(
         for name in ("dirlik", "tb", "tb_whole", "same_ratio")
     }
     with np.errstate(divide="ignore", invalid="ignore"):
+        misses = 1.0 - spectral["tb"] / spectral["tb_whole"] > NEARLY_ALL
         expected = {
             "damage_per_km": total,
             "life_km": limit / total,
@@ -107,12 +108,7 @@ def _of_points(
             "utilisation": total * target / limit,
             "fulfilled": (node["utilisation"] <= 1.0).astype(float),
             "life_km_same_ratio": limit / spectral["same_ratio"],
-            **{
-                f"life_km_{name}": np.where(
-                    _misses_too_much(spectral, node[f"life_km_{name}"]), np.nan, limit / spectral[name]
-                )
-                for name in ("dirlik", "tb")
-            },
+            **{f"life_km_{name}": np.where(misses, np.nan, limit / spectral[name]) for name in ("dirlik", "tb")},
             "dirlik_ratio": np.where(spectral["same_ratio"] > 0.0, spectral["dirlik"] / spectral["same_ratio"], np.nan),
             "max_range_MPa": damage["max_range_MPa"].max(axis=1),
         }
@@ -126,12 +122,6 @@ def _of_points(
     yield Sum("nodes", "governing_event", share[named, at], share[named].max(axis=1, initial=0.0), points[named])
     for name in OF_GOVERNING:
         yield Sum("nodes", name, node[name][named], damage[name][named, at], points[named])
-
-
-def _misses_too_much(spectral: Mapping[str, Floats], life: Floats) -> NDArray[np.bool_]:
-    """Whether there is no life from the spectra, which miss too much; between the limits of all slopes as ``life``."""
-    missed = 1.0 - spectral["tb"] / spectral["tb_whole"]
-    return np.where(np.isnan(life), missed > most_missed(0.0), missed > most_missed(np.inf))
 
 
 def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
