@@ -63,7 +63,9 @@ def life_km(damage_per_km: NDArray[np.float64], damage_limit: float) -> NDArray[
     >>> life_km(np.array([1e-7, 0.0]), 0.5)
     array([5000000.,      inf])
     """
-    return np.divide(damage_limit, damage_per_km, out=np.full_like(damage_per_km, np.inf), where=damage_per_km > 0.0)
+    life = np.full_like(damage_per_km, np.inf)
+    with np.errstate(over="ignore"):  # the tail of a spectrum above a cut-off
+        return np.divide(damage_limit, damage_per_km, out=life, where=damage_per_km > 0.0)
 
 
 def straight_load_factor(utilisation: NDArray[np.float64], slope: float) -> NDArray[np.float64]:

@@ -52,6 +52,10 @@ def no_trials(points: int) -> Trials:
 def first_at_least(x: float, factors: Floats, bound: float, begin: int) -> int:
     """Index of the first of some ascending factors, from ``begin`` on, at which ``factor x`` reaches a bound."""
     low, high = begin, factors.size
+    if low < high and x * factors[low] >= bound:
+        return low
+    if low < high and x * factors[high - 1] < bound:
+        return high
     while low < high:
         middle = (low + high) // 2
         if x * factors[middle] >= bound:
@@ -63,17 +67,30 @@ def first_at_least(x: float, factors: Floats, bound: float, begin: int) -> int:
 
 @compiled()
 def add_stretch(
-    n: float, x: float, stretch: tuple[int, int], factors: Floats, powers: Floats, rule: CompiledRule, damage: Floats
+    n: float,
+    x: float,
+    stretch: tuple[int, int],
+    factors: Floats,
+    powers: Floats,
+    rule: CompiledRule,
+    damage: Floats,
+    whole: Floats,
 ) -> None:
-    """Add n cycles of the equivalent range x under a stretch of the factors."""
+    """Add n cycles of the equivalent range x under a stretch of the factors.
+
+    ``whole`` (s,) sums up, for each segment, cycles that stay on it under all factors: most of them.
+    """
     at, end = max(stretch[0], first_at_least(x, factors, rule.cutoff, stretch[0])), stretch[1]
     last = rule.slopes.size - 1
     for j in range(last, -1, -1):
         leaves = end if j == 0 else min(end, first_at_least(x, factors, rule.knees[j - 1], at))
         if at < leaves:
             of_one = n * math.exp(rule.slopes[j] * math.log(x) - rule.log_constants[j])
-            for i in range(at, leaves):
-                damage[i] += of_one * powers[j, i]
+            if leaves - at == factors.size:
+                whole[j] += of_one
+            else:
+                for i in range(at, leaves):
+                    damage[i] += of_one * powers[j, i]
             at = leaves
 
 
@@ -91,6 +108,7 @@ def tally_trials(
         factors[i] = math.exp(i * step)
         for j in range(rule.slopes.size):
             powers[j, i] = math.exp(rule.slopes[j] * i * step)
+    whole = np.zeros(rule.slopes.size)
     for c in range(cycles):
         i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
         s_i, s_j = first * (membrane[i] + side * bending[i]), first * (membrane[j] + side * bending[j])
@@ -107,9 +125,12 @@ def tally_trials(
             ends = first_at_least(S, factors, np.nextafter(2.0 * rule.yield_MPa, math.inf), 0)
             ends = min(ends + 1, every) if ends > 0 else 0
         if begins >= ends:
-            add_stretch(n, x, (0, every), factors, powers, rule, damage)
+            add_stretch(n, x, (0, every), factors, powers, rule, damage, whole)
             continue
         f_M = factor_of_stress_ratio(minimum / maximum)
-        add_stretch(n, x, (0, begins), factors, powers, rule, damage)
-        add_stretch(n, x / f_M, (begins, ends), factors, powers, rule, damage)
-        add_stretch(n, x, (ends, every), factors, powers, rule, damage)
+        add_stretch(n, x, (0, begins), factors, powers, rule, damage, whole)
+        add_stretch(n, x / f_M, (begins, ends), factors, powers, rule, damage, whole)
+        add_stretch(n, x, (ends, every), factors, powers, rule, damage, whole)
+    for j in range(rule.slopes.size):
+        for i in range(every):
+            damage[i] += whole[j] * powers[j, i]
