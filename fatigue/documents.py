@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.files.mishaps import CANNOT_WRITE
 from fatigue.report.files.export import refuse_without_xlsxwriter, write_csv, write_xlsx
 from fatigue.report.files.pdf import find_browser, print_pdf
 from fatigue.report.files.vtp import write_vtp
@@ -116,7 +115,7 @@ def _failed(name: str, do: Callable[[], object]) -> Iterator[tuple[str, Problem]
     try:
         do()
     except DataError as error:
-        if error.problems[0].code == CANNOT_WRITE:
+        if error.problems[0].code == "cannot_write":
             raise  # no other document can be written either
         yield name, error.problems[0]
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 
-CANNOT_WRITE = "cannot_write"
 FULL = (errno.ENOSPC, errno.EDQUOT)
 LONGEST_SHOWN = 400  # letters of a path; no name is longer than 255
 
@@ -58,11 +57,11 @@ def cannot_write(path: Path | str, error: OSError, when_full: str = "give the sa
     """Error of a file or folder that cannot be written; ``when_full``: what to do once there is room."""
     what, remedy = "the disk is full", f"Free some space and {when_full}"
     if error.errno == errno.ENOENT and not Path(path).parent.is_dir():
-        return DataError(_no_folder(CANNOT_WRITE, Path(path)))
+        return DataError(_no_folder("cannot_write", Path(path)))
     if error.errno not in FULL:
         what = f"cannot be written ({reason(error)})"
         remedy = REMEDIES.get(error.errno or 0, "Give a folder you may write to")
-    return DataError(Problem(CANNOT_WRITE, shown(str(path)), what, remedy))
+    return DataError(Problem("cannot_write", shown(str(path)), what, remedy))
 
 
 @contextmanager

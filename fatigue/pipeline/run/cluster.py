@@ -68,7 +68,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         ) from error
     with client:
         if is_open(address) or is_open(str(client.scheduler_info().get("address", ""))):
-            log.warning("%s", _open_to_all(address))
+            log.warning("%s", _open_warning(address))
         if not client.scheduler_info()["workers"]:
             raise DataError(
                 Problem("scheduler", address, "the cluster has no workers", "Start some with `dask worker ADDRESS`")
@@ -99,7 +99,7 @@ def is_open(address: str) -> bool:
         return True
 
 
-def _open_to_all(address: str) -> Problem:
+def _open_warning(address: str) -> Problem:
     return Problem(
         "open_cluster",
         address,
