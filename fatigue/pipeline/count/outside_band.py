@@ -91,8 +91,8 @@ class OutsideBand:
                 f"event '{event}'{also}",
                 f"stress above upper_hz ({upper_hz[event]:g} Hz) is counted, but in no spectrum: up to "
                 f"{in_percent(worst.share)} % of the variance and {in_percent(worst.missed)} % of the damage there "
-                f"({worst.place}); at {points} of {self.toes} {looked_at} the life by Dirlik is too long for that, or "
-                "left out",
+                f"({worst.place}); at {points} of {self.toes} {looked_at} the life by Dirlik is too long for that, "
+                "or left out",
                 "Raise upper_hz in [spectrum] if this stress is real, keep it out of the simulation if it is noise, or "
                 "trust the counted lives only, which contain it either way",
                 count=len(self.events),
