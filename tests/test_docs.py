@@ -14,7 +14,7 @@ from tests.small_case import small_case
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")] + sorted(ROOT.glob("docs/*.md"))
-ELSEWHERE = {"--help", "--count", "--seed"}  # of every command; of `python -m tests.fuzz`
+ELSEWHERE = {"--help", "--count", "--seed", "--host", "--protocol"}  # of every command; `python -m tests.fuzz`; dask
 THEORY, NOTATION = ROOT / "docs" / "how-it-works.md", ROOT / "docs" / "notation.md"
 
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
