@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")] + sorted(ROOT.glob("docs/*.md"))
 ELSEWHERE = {"--help", "--count", "--seed"}  # of every command; of `python -m tests.fuzz`
 ELSEWHERE |= {"--rooms", "--sample", "--first", "--tree", "--near", "--at"}  # of `python -m tests.mutation`
+ELSEWHERE |= {"--host", "--protocol"}  # of dask
 THEORY, NOTATION = ROOT / "docs" / "how-it-works.md", ROOT / "docs" / "notation.md"
 
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
