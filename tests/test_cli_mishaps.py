@@ -42,7 +42,11 @@ def fatigue(*arguments, limit=None, stdout=subprocess.PIPE, **surroundings):
         (ImportError("libarrow.so: failed to map segment from shared object"), "memory: the program got no more", 4),
         (RuntimeError("can't start new thread"), "threads: the system starts no more of them", 4),
         (BlockingIOError(errno.EAGAIN, "fork"), "threads: the system starts no more of them", 4),
-        (OSError(errno.EMFILE, "x", "welds.csv"), "welds.csv: cannot be read or written (Too many open files)", 3),
+        (
+            OSError(errno.EMFILE, "Too many open files", "welds.csv"),
+            "welds.csv: cannot be read or written (Too many open files)",
+            3,
+        ),
         (RecursionError(), "a file: tables, lists or includes lie in one another without end", 3),
         (ValueError("Exceeds the limit (4300 digits) for integer string conversion"), "thousands of digits", 3),
         (UnicodeEncodeError("cp1252", "aЖ", 1, 2, "no"), "'Ж' cannot be written in the encoding cp1252", 3),
