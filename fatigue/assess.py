@@ -34,7 +34,7 @@ from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_of, open_work
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
-from fatigue.pipeline.solve.absent_loads import load_doubts
+from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
@@ -42,7 +42,7 @@ from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
-from fatigue.pipeline.tables.stress_doubts import StressExtent
+from fatigue.pipeline.tables.stress_warnings import StressExtent
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
@@ -163,7 +163,7 @@ def assess(
                 cycles.flush()
                 tables["welds"].write(excluded_rows(body.excluded))
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
-            done.warnings.add(body_doubts(body, work, done))
+            done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
             record = {"program": "fatigue", "result": key}
             record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings)
@@ -284,12 +284,12 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
     return [kept_point(group.model, p) for p in worst if used_up[p.station, p.face] >= work.kept_from]
 
 
-def body_doubts(body: Body, work: Work, done: Tally) -> list[Problem]:
+def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     """Warnings that only all welds together give: about loads that are not there, stress, sampling and spectra."""
     files = [event.history for event in body.case.mission.event]
-    of_stress = done.stress.doubts(work.loads, body.modes.mode, files)
+    of_stress = done.stress.warnings(work.loads, body.modes.mode, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
-    return [*load_doubts(body, done.extents), *of_stress, *sampling_warnings(body, done), *of_spectra]
+    return [*load_warnings(body, done.extents), *of_stress, *sampling_warnings(body, done), *of_spectra]
 
 
 def sampling_warnings(body: Body, done: Tally) -> list[Problem]:

@@ -20,7 +20,7 @@ from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.solve.absent_loads import load_doubts
+from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
@@ -126,7 +126,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
             stations += len(model.stations)
             warnings.add(model.warnings)
             extents += model.extents
-        warnings.add(load_doubts(body, extents))
+        warnings.add(load_warnings(body, extents))
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)

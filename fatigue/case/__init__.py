@@ -1,11 +1,11 @@
 """A case: what is assessed, with which curve, over which mission.
 
 ``tables`` are the tables of ``case.toml`` as frozen models, ``load`` reads and checks a case file, ``problems`` says
-what is wrong with it in the words of the file, ``doubts`` what is allowed and hardly meant.
+what is wrong with it in the words of the file, ``plausibility`` what is allowed and hardly meant.
 """
 
-from fatigue.case.doubts import case_doubts
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
+from fatigue.case.plausibility import case_warnings
 from fatigue.case.tables import LARGEST_UPSAMPLE, Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 
 __all__ = [
@@ -18,8 +18,8 @@ __all__ = [
     "Event",
     "Mission",
     "Spectrum",
-    "case_doubts",
     "case_schema",
+    "case_warnings",
     "check_distance",
     "check_files",
     "event_length_km",

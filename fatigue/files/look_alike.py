@@ -21,13 +21,13 @@ _NOT_SEEN = re.compile(
 _AROUND = 20  # letters shown on either side of the place where two long names differ
 
 
-def name_doubts(where: str, names: Iterable[str], of: str) -> list[Problem]:
+def name_warnings(where: str, names: Iterable[str], of: str) -> list[Problem]:
     """Warnings about names that look alike, and about characters in names that cannot be seen.
 
     ``of`` says what the names are, as ``welds``; ``where`` is the place they are from.
     """
     every = list(dict.fromkeys(names))
-    return [*_similarity_doubts(where, every, of), *_unseen_doubts(where, every, of)]
+    return [*_similarity_warnings(where, every, of), *_unseen_warnings(where, every, of)]
 
 
 def skeleton(name: str) -> str:
@@ -37,7 +37,7 @@ def skeleton(name: str) -> str:
     return " ".join("".join(seen).split())
 
 
-def _similarity_doubts(where: str, names: Sequence[str], of: str) -> list[Problem]:
+def _similarity_warnings(where: str, names: Sequence[str], of: str) -> list[Problem]:
     alike: dict[str, list[str]] = {}
     for name in names:
         alike.setdefault(skeleton(name), []).append(name)
@@ -51,7 +51,7 @@ def _similarity_doubts(where: str, names: Sequence[str], of: str) -> list[Proble
     return [Problem("similar_names", where, what, remedy, len(groups))]
 
 
-def _unseen_doubts(where: str, names: Sequence[str], of: str) -> list[Problem]:
+def _unseen_warnings(where: str, names: Sequence[str], of: str) -> list[Problem]:
     hidden = [name for name in names if visible(name) != name]
     if not hidden:
         return []

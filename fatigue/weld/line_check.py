@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.weld.doubts.open_or_closed import FAR, NEAR, end_gaps, seems_closed, seems_open
-from fatigue.weld.doubts.turned_normals import turned_from_neighbours, turns
 from fatigue.weld.line import Lines, WeldLine, is_closed, line_of_node, neighbours
 from fatigue.weld.line_geometry import edge_nodes, edge_points, edge_tangents, tangents, unit
+from fatigue.weld.warnings.open_or_closed import FAR, NEAR, end_gaps, seems_closed, seems_open
+from fatigue.weld.warnings.turned_normals import turned_from_neighbours, turns
 
 # Against the nodes around: stress across the weld reads 1 - cos 20 deg = 6 % low. Welds of tube on tube of 0.95 its
 # diameter, the sharpest saddles in use, reach 18 on a mesh of 12 nodes.

@@ -4,7 +4,7 @@ import unicodedata
 
 import pytest
 
-from fatigue.files.look_alike import name_doubts, skeleton
+from fatigue.files.look_alike import name_warnings, skeleton
 
 ALIKE = [
     ("Weld A", "weld a"),
@@ -30,7 +30,7 @@ ALIKE = [
 @pytest.mark.parametrize(("one", "other"), ALIKE)
 def test_look_alikes_are_told_with_what_differs(one, other):
     """One warning, in ASCII, short, in which the two names are not the same."""
-    (problem,) = [p for p in name_doubts("welds.csv: column weld", [one, "bracket", other], "welds")
+    (problem,) = [p for p in name_warnings("welds.csv: column weld", [one, "bracket", other], "welds")
                   if p.code == "similar_names"]  # fmt: skip
     assert problem.count == 1
     assert problem.what.isascii()
@@ -53,7 +53,7 @@ def test_look_alikes_are_told_with_what_differs(one, other):
 )
 def test_other_names_pass(names):
     """Names that differ in a letter or a sign that is seen are no look-alikes."""
-    assert name_doubts("", names, "welds") == []
+    assert name_warnings("", names, "welds") == []
 
 
 def test_composed_and_decomposed_letters():
@@ -63,13 +63,13 @@ def test_composed_and_decomposed_letters():
 
 def test_many_groups_are_one_warning():
     """The first groups are named, the others counted."""
-    (problem,) = name_doubts("", [name for i in range(50) for name in (f"w{i}", f"W{i}")], "welds")
+    (problem,) = name_warnings("", [name for i in range(50) for name in (f"w{i}", f"W{i}")], "welds")
     assert problem.count == 50
     assert "and 47 more such groups" in problem.what
 
 
 def test_characters_that_are_not_seen():
     """A name that turns the text around is told, its character spelled out."""
-    (problem,) = name_doubts("case.toml", ["A\u202eB", "C"], "events")
+    (problem,) = name_warnings("case.toml", ["A\u202eB", "C"], "events")
     assert problem.code == "unseen_character"
     assert r"'A\u202eB'" in problem.what

@@ -70,7 +70,7 @@ def with_mid(fraction, beside=0.0):
         (tilted(-10.1), [("normal_tilted", 103, 1)]),
     ],
 )
-def test_limits_of_the_doubts(line, expected):
+def test_limits_of_the_warnings(line, expected):
     """Short edges by the median and by the plate, steps of 1 %, mid-side nodes 5 % and normals 10 degrees off."""
     assert not unfit_lines(stacked([line])).size
     assert codes(line) == expected

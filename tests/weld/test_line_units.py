@@ -120,7 +120,7 @@ def test_inches_are_not_refused(inches_of):
 
 
 @pytest.mark.parametrize(("thickness", "doubted"), [(0.499, True), (0.5, False), (200.0, False), (200.1, True)])
-def test_limits_of_the_doubts(thickness, doubted):
+def test_limits_of_the_warnings(thickness, doubted):
     """The doubt names place, value and what to look at; the line passes."""
     line = straight([10.0] * 40, thickness=np.where(np.arange(41) == 3, thickness, 8.0))
     message = (

@@ -5,8 +5,8 @@ from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.events import top_mode_hz
-from fatigue.pipeline.mission.record_doubts import EventRecord, record_doubts
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
+from fatigue.pipeline.mission.record_warnings import EventRecord, record_warnings
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.history import TimeGrid, check_history
 from fatigue.readers.neutral.record_outline import RecordOutline
@@ -35,7 +35,7 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
             warnings += checked[1]
             records.append(checked[2])
     refuse(DataError, problems)
-    warnings += record_doubts(records, body.modes, body.case.path.name)
+    warnings += record_warnings(records, body.modes, body.case.path.name)
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
@@ -62,7 +62,7 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], EventRecord
     warnings += step_warnings(grid, body.modes, path.name, event.name)
     return (
         one,
-        warnings + _record_warnings(body, event, samples, grid.step),
+        warnings + _spectrum_warnings(body, event, samples, grid.step),
         EventRecord(event, path.name, grid, outline),
     )
 
@@ -85,7 +85,7 @@ def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
     return samples
 
 
-def _record_warnings(body: Body, event: Event, samples: int, step: float) -> list[Problem]:
+def _spectrum_warnings(body: Body, event: Event, samples: int, step: float) -> list[Problem]:
     where = f"event '{event.name}'"
     segment_s = body.case.spectrum.segment_s
     segments = segment_count(samples, step, segment_s)

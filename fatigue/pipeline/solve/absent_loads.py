@@ -21,26 +21,26 @@ NEXT_TO_NOTHING = 1e-6  # of the line force of the median weld, in every mode: a
 FEWEST_MODES = 3  # with fewer, a test load along one axis may leave out components of a plane model
 
 
-def load_doubts(body: Body, extents: Sequence[LoadExtent]) -> list[Problem]:
+def load_warnings(body: Body, extents: Sequence[LoadExtent]) -> list[Problem]:
     """Warnings about loads that are not there in the whole body, each kind once; ``extents`` has all its welds."""
     forces = body.case.body.nodal_forces or body.case.body.element_forces or ""
-    return list(_doubts(of_welds(list(extents)), body.modes, forces))
+    return list(_warnings(of_welds(list(extents)), body.modes, forces))
 
 
-def _doubts(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem]:
+def _warnings(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem]:
     zero = np.asarray(~found.largest.any(axis=1))
     if zero.all():
         what, remedy = "all forces of all welds are zero", "Request the forces of the elements at the welds"
         yield Problem("no_weld_force", file, what, remedy, zero.size)
         return
     names = np.array(found.weld, dtype=object)
-    yield from _weld_doubts(found, modes, names, zero, file)
-    yield from _mode_doubts(found, modes, file)
-    yield from _component_doubts(found, modes, names, zero, file)
-    yield from _node_doubts(found, modes, names, zero, file)
+    yield from _weld_warnings(found, modes, names, zero, file)
+    yield from _mode_warnings(found, modes, file)
+    yield from _component_warnings(found, modes, names, zero, file)
+    yield from _node_warnings(found, modes, names, zero, file)
 
 
-def _weld_doubts(
+def _weld_warnings(
     found: LoadExtent, modes: Modes, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
 ) -> Iterator[Problem]:
     """Warnings about welds without any force, or with next to none."""
@@ -66,7 +66,7 @@ def _weld_doubts(
         yield Problem("small_weld_force", f"{file}: weld {some[0]}", what, remedy, small.size)
 
 
-def _mode_doubts(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem]:
+def _mode_warnings(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem]:
     """Warning about modes that bend the body and no weld; interface modes of a body held statically bend nothing."""
     vibrates = (np.array(modes.kind) == "normal") & (modes.frequency > LOWEST_HZ)
     lost = modes.mode[vibrates & ~found.line_force.any(axis=0)].tolist()
@@ -76,7 +76,7 @@ def _mode_doubts(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem
         yield Problem("no_mode_force", f"{file}: mode {lost[0]}", what, remedy, len(lost))
 
 
-def _node_doubts(
+def _node_warnings(
     found: LoadExtent, modes: Modes, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
 ) -> Iterator[Problem]:
     """Warning about nodes without any force in welds that have some; a single one may be a zero of a few modes."""
@@ -91,7 +91,7 @@ def _node_doubts(
         yield Problem("bare_nodes", where, what, "Request the forces of all elements along the weld", at.size)
 
 
-def _component_doubts(
+def _component_warnings(
     found: LoadExtent, modes: Modes, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
 ) -> Iterator[Problem]:
     """Warnings about moments that are zero, everywhere or in some welds, and about other components zero everywhere."""

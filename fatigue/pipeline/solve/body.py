@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fatigue.case import Case, case_doubts, check_files
+from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.files.look_alike import name_doubts
+from fatigue.files.look_alike import name_warnings
 from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
@@ -22,8 +22,8 @@ from fatigue.readers.neutral.register.registered import Registered, registered, 
 from fatigue.readers.neutral.register.registered_lines import Joints, registered_lines, unconfirmed_thickness
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.readers.neutral.spare_memory import give_back
-from fatigue.weld.doubts.summed_corners import summed_corners
 from fatigue.weld.line_units import unit_problems, unit_warnings
+from fatigue.weld.warnings.summed_corners import summed_corners
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,7 +80,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
         plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
     warnings += plan.warnings
     names = (weld.name for weld in (*in_tables, *plan.welds))
-    warnings += case_doubts(case) + name_doubts(f"{files.welds}: column weld", names, "welds")
+    warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
     curves = rated_curves(case, known_curves, plan.welds)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []

@@ -7,7 +7,7 @@ from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.tables.rows import FACES
-from fatigue.weld.doubts.summed_corners import REMEDY
+from fatigue.weld.warnings.summed_corners import REMEDY
 
 
 def worst_at_corners(model: Model, mission: MissionBlock, worst: Sequence[WorstPoint]) -> list[Problem]:

@@ -5,7 +5,7 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.check import check_case
-from fatigue.pipeline.solve.absent_loads import load_doubts
+from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
@@ -16,13 +16,13 @@ MOMENTS = ["mx_Nmm", "my_Nmm", "mz_Nmm"]
 ALL = FORCES + MOMENTS
 
 
-def doubts_of(tmp_path, change, pairs=1):
+def warnings_of(tmp_path, change, pairs=1):
     """Tell the warnings about absent loads of a small case in which forces are changed."""
     case = small_case(seconds=0.1, pairs=pairs)
     change(case.nodal_forces, case)
     groups = weld_groups(read_body(load_case(case.write(tmp_path / "case")), strict=True), tmp_path / "scratch")
     extents = [extent for number in range(len(groups)) for extent in solve_group(groups, number).extents]
-    return load_doubts(groups.body, extents)
+    return load_warnings(groups.body, extents)
 
 
 def zero(columns, **where):
@@ -39,7 +39,7 @@ def zero(columns, **where):
 
 def test_sound_forces_are_silent(tmp_path):
     """Random forces in all components."""
-    assert doubts_of(tmp_path, lambda forces, case: None) == []
+    assert warnings_of(tmp_path, lambda forces, case: None) == []
 
 
 @pytest.mark.parametrize(
@@ -59,7 +59,7 @@ def test_sound_forces_are_silent(tmp_path):
 )
 def test_what_is_zero_is_told(tmp_path, change, code, said):
     """One warning, with its place."""
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert problem.code == code
     assert said in str(problem)
     assert str(problem).startswith("nodal_forces.csv")
@@ -79,7 +79,7 @@ def test_what_is_zero_is_told(tmp_path, change, code, said):
 )
 def test_what_plane_models_leave_out_is_silent(tmp_path, change):
     """Membranes and plates in bending have no other components."""
-    assert doubts_of(tmp_path, change) == []
+    assert warnings_of(tmp_path, change) == []
 
 
 def test_a_flat_body_turned_into_another_plane(tmp_path):
@@ -97,8 +97,8 @@ def test_a_flat_body_turned_into_another_plane(tmp_path):
         upright(forces, case)
         forces["fy_N"] = 0.0
 
-    assert doubts_of(tmp_path / "a", membrane) == []
-    assert [p.code for p in doubts_of(tmp_path / "b", lost)] == ["no_component"]
+    assert warnings_of(tmp_path / "a", membrane) == []
+    assert [p.code for p in warnings_of(tmp_path / "b", lost)] == ["no_component"]
 
 
 def test_a_spatial_body_has_all_components(tmp_path):
@@ -109,7 +109,7 @@ def test_a_spatial_body_has_all_components(tmp_path):
         case.weld_nodes.loc[of_b, ["normal_y", "normal_z", "outward_y", "outward_z"]] = [1.0, 0.0, 0.0, -1.0]
         forces["mz_Nmm"] = 0.0
 
-    assert [p.code for p in doubts_of(tmp_path, change)] == ["no_component"]
+    assert [p.code for p in warnings_of(tmp_path, change)] == ["no_component"]
 
 
 @pytest.mark.parametrize(("factor", "told"), [(1e-5, False), (1e-7, True), (1e-12, True)])
@@ -119,7 +119,7 @@ def test_a_weld_with_next_to_no_force(tmp_path, factor, told):
     def change(forces, _):
         forces.loc[forces.weld == "A1", ALL] *= factor
 
-    found = doubts_of(tmp_path, change, pairs=3)
+    found = warnings_of(tmp_path, change, pairs=3)
     assert [p.code for p in found] == ["small_weld_force"] * told
     if told:
         assert "weld A1" in found[0].where
@@ -132,7 +132,7 @@ def test_modes_of_very_different_size_are_silent(tmp_path):
         forces.loc[forces["mode"] == 7, ALL] *= 1e9
         forces.loc[(forces["mode"] == 7) & (forces.weld == "A"), ALL] *= 1e-15
 
-    assert doubts_of(tmp_path, change, pairs=3) == []
+    assert warnings_of(tmp_path, change, pairs=3) == []
 
 
 def test_many_welds_are_one_warning(tmp_path):

@@ -8,7 +8,7 @@ import numpy as np
 from fatigue.errors import Problem
 from fatigue.readers.neutral.against_mesh.directions import astray
 from fatigue.readers.neutral.against_mesh.edges import Sides, other_edges, sides_of
-from fatigue.readers.neutral.against_mesh.findings import Doubt, worst_first
+from fatigue.readers.neutral.against_mesh.findings import Finding, worst_first
 from fatigue.readers.neutral.against_mesh.positions import moved_nodes, unknown_nodes
 from fatigue.readers.neutral.against_mesh.shells import TouchingShells, arms, touching_shells
 from fatigue.readers.neutral.against_mesh.thickness import other_thickness
@@ -39,7 +39,7 @@ def mesh_warnings(
     """
     shells = touching_shells(mesh, lines.node)
     sides = sides_of(shells)
-    found: list[Doubt] = []
+    found: list[Finding] = []
     begin = 0
     while begin < len(lines):
         end = int(np.searchsorted(lines.begin, lines.begin[begin] + NODES_AT_ONCE, side="right")) - 1
@@ -59,7 +59,7 @@ def _of_some(
     confirmed: Mapping[str, Sequence[float]],
     *,
     knows_sides: bool,
-) -> list[Doubt]:
+) -> list[Finding]:
     found = unknown_nodes(lines, mesh, names.lines, names.nodes)
     moved, is_moved = moved_nodes(lines, mesh, names.lines, names.nodes)
     found += moved

@@ -9,7 +9,7 @@ way, and tension is read as compression.
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.against_mesh.findings import Doubt, doubts
+from fatigue.readers.neutral.against_mesh.findings import Finding, warnings_of
 from fatigue.weld.detection import SMOOTH_DEG
 from fatigue.weld.line import LineStack
 from fatigue.weld.line_geometry import local_axes, unit
@@ -20,7 +20,7 @@ TURNED = SMOOTH_DEG + 1e-6  # [deg] shells that meet at a smaller angle are one 
 BESIDE = 0.1  # of its length: an arm along the line tells no direction about it
 
 
-def astray(lines: LineStack, at: NDArray[np.int64], arm: Vectors, side: str, file: str) -> list[Doubt]:
+def astray(lines: LineStack, at: NDArray[np.int64], arm: Vectors, side: str, file: str) -> list[Finding]:
     """Warning of each weld at which no shell lies on the side of the assessed plate.
 
     Parameters
@@ -52,6 +52,6 @@ def astray(lines: LineStack, at: NDArray[np.int64], arm: Vectors, side: str, fil
         return what, "Check normal_x, normal_y and normal_z: with them stress across the weld is read in another plane"
 
     return [
-        *doubts(lines, inward, off, "outward_into_plate", of_outward, file),
-        *doubts(lines, wrong & ~inward, off, "normal_off_plate", of_normal, file),
+        *warnings_of(lines, inward, off, "outward_into_plate", of_outward, file),
+        *warnings_of(lines, wrong & ~inward, off, "normal_off_plate", of_normal, file),
     ]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.against_mesh.findings import Doubt, doubts
+from fatigue.readers.neutral.against_mesh.findings import Finding, warnings_of
 from fatigue.readers.neutral.against_mesh.shells import CORNERS, TouchingShells
 from fatigue.weld.line import LineStack, is_closed, neighbours
 
@@ -48,7 +48,7 @@ class Sides:
         return has
 
 
-def other_edges(lines: LineStack, shells: TouchingShells, sides: Sides, file: str, elements_file: str) -> list[Doubt]:
+def other_edges(lines: LineStack, shells: TouchingShells, sides: Sides, file: str, elements_file: str) -> list[Finding]:
     """Warnings of welds that mark other mid-side nodes than the shells have, leave some out, or leave the edges."""
     if not shells.element.size:
         return []
@@ -93,10 +93,10 @@ def other_edges(lines: LineStack, shells: TouchingShells, sides: Sides, file: st
 
     one = np.ones(here.size)
     return [
-        *doubts(lines, not_mid, one, "mark_off_mesh", of_mark, file),
-        *doubts(lines, forgotten_node, one, "mid_not_marked", of_forgotten, file),
-        *doubts(lines, skipped, one, "mid_left_out", of_skipped, file),
-        *doubts(lines, no_edge, one, "no_shell_edge", of_no_edge, file),
+        *warnings_of(lines, not_mid, one, "mark_off_mesh", of_mark, file),
+        *warnings_of(lines, forgotten_node, one, "mid_not_marked", of_forgotten, file),
+        *warnings_of(lines, skipped, one, "mid_left_out", of_skipped, file),
+        *warnings_of(lines, no_edge, one, "no_shell_edge", of_no_edge, file),
     ]
 
 

@@ -18,16 +18,16 @@ UNITS = {1e-3: "m", 1e-2: "dm", 0.1: "cm", 1 / 25.4: "inches", 1 / 304.8: "feet"
 
 
 @dataclass(frozen=True, slots=True)
-class Doubt:
+class Finding:
     """A warning and how bad it is, in a measure that warnings of its code share."""
 
     severity: float
     problem: Problem
 
 
-def doubts(
+def warnings_of(
     lines: LineStack, wrong: NDArray[np.bool_], bad: NDArray[np.float64], code: str, words: Words, file: str
-) -> list[Doubt]:
+) -> list[Finding]:
     """One warning for each line with wrong nodes, (n,); ``bad``, (n,), says how wrong each is."""
     at = np.flatnonzero(wrong)
     line, first = np.unique(line_of_node(lines)[at], return_index=True)
@@ -37,16 +37,16 @@ def doubts(
         what, remedy = words(worst, nodes)
         more = f" and {nodes.size - 1} more" if nodes.size > 1 else ""
         where = f"{file}: weld {lines.weld[number]}, node {lines.node[worst]} (order {lines.order[worst]}){more}"
-        found.append(Doubt(float(bad[worst]), Problem(code, where, what, remedy)))
+        found.append(Finding(float(bad[worst]), Problem(code, where, what, remedy)))
     return found
 
 
-def worst_first(found: Iterable[Doubt]) -> list[Problem]:
+def worst_first(found: Iterable[Finding]) -> list[Problem]:
     """Warnings by their code, in the order in which the codes come first, of each code the worst first."""
-    kinds: dict[str, list[Doubt]] = {}
-    for doubt in found:
-        kinds.setdefault(doubt.problem.code, []).append(doubt)
-    return [doubt.problem for some in kinds.values() for doubt in sorted(some, key=lambda one: -one.severity)]
+    kinds: dict[str, list[Finding]] = {}
+    for finding in found:
+        kinds.setdefault(finding.problem.code, []).append(finding)
+    return [one.problem for some in kinds.values() for one in sorted(some, key=lambda finding: -finding.severity)]
 
 
 def one_factor(factor: NDArray[np.float64]) -> float | None:

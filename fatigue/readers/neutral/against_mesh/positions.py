@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.against_mesh.findings import SAME_FACTOR, Doubt, doubts, one_factor, unit_of
+from fatigue.readers.neutral.against_mesh.findings import SAME_FACTOR, Finding, one_factor, unit_of, warnings_of
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.weld.line import LineStack, line_of_node
 from fatigue.weld.line_geometry import edge_nodes, edge_points
@@ -17,7 +17,7 @@ SAME_SHAPE = 1e-3  # relative, of the distances between the nodes: what is left 
 ROUNDING = 4 * float(np.finfo(np.float32).eps)  # of the largest coordinate: either table may be in single precision
 
 
-def unknown_nodes(lines: LineStack, mesh: Mesh, file: str, nodes_file: str) -> list[Doubt]:
+def unknown_nodes(lines: LineStack, mesh: Mesh, file: str, nodes_file: str) -> list[Finding]:
     """Warning of each weld with nodes that the mesh does not have."""
     absent = ~np.isin(lines.node, mesh.node)
     share = np.bincount(line_of_node(lines), absent, minlength=len(lines)) / np.diff(lines.begin)
@@ -25,10 +25,10 @@ def unknown_nodes(lines: LineStack, mesh: Mesh, file: str, nodes_file: str) -> l
     def words(worst: int, nodes: NDArray[np.int64]) -> tuple[str, str]:
         return f"the node is not in {nodes_file}", "Correct the node numbers, or give the nodes of the same mesh"
 
-    return doubts(lines, absent, share[line_of_node(lines)], "not_in_mesh", words, file)
+    return warnings_of(lines, absent, share[line_of_node(lines)], "not_in_mesh", words, file)
 
 
-def moved_nodes(lines: LineStack, mesh: Mesh, file: str, nodes_file: str) -> tuple[list[Doubt], NDArray[np.bool_]]:
+def moved_nodes(lines: LineStack, mesh: Mesh, file: str, nodes_file: str) -> tuple[list[Finding], NDArray[np.bool_]]:
     """Warning of each weld whose nodes lie elsewhere in the mesh, and whether they do, (k,)."""
     there, known = _places(lines, mesh)
     owner = line_of_node(lines)
@@ -46,7 +46,7 @@ def moved_nodes(lines: LineStack, mesh: Mesh, file: str, nodes_file: str) -> tup
         what = f"x, y, z are {here} mm and in {nodes_file} {other} mm, {away[worst]:.3g} mm apart{shape}"
         return what, "Give both tables of one mesh, in mm and in one frame: the line loads follow from the weld table"
 
-    found = doubts(lines, moved, away / edge[owner], "moved_in_mesh", words, file)
+    found = warnings_of(lines, moved, away / edge[owner], "moved_in_mesh", words, file)
     return found, np.logical_or.reduceat(moved, lines.begin[:-1])
 
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import Problem
 from fatigue.readers.neutral.against_mesh.directions import astray
-from fatigue.readers.neutral.against_mesh.findings import Doubt, worst_first
+from fatigue.readers.neutral.against_mesh.findings import Finding, worst_first
 from fatigue.readers.neutral.against_mesh.shells import arms, shells_of_forces
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.readers.neutral.line_file import LineFile
@@ -33,7 +33,7 @@ def side_warnings(
     sides : elements of the assessed side of each weld
     """
     shells = shells_of_forces(forces, mesh)
-    found: list[Doubt] = []
+    found: list[Finding] = []
     for first in range(0, len(lines), LINES_AT_ONCE):
         some = lines.lines(slice(first, first + LINES_AT_ONCE))
         at, shell = shells.pairs(some.node)

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.readers.neutral.against_mesh.findings import Doubt, doubts, one_factor, unit_of
+from fatigue.readers.neutral.against_mesh.findings import Finding, one_factor, unit_of, warnings_of
 from fatigue.readers.neutral.against_mesh.shells import TouchingShells
 from fatigue.weld.line import LineStack, line_of_node
 
@@ -16,7 +16,7 @@ ROUNDED = 1e-3  # relative: as somebody may write a thickness down
 
 def other_thickness(
     lines: LineStack, shells: TouchingShells, confirmed: Mapping[str, Sequence[float]], file: str, elements_file: str
-) -> list[Doubt]:
+) -> list[Finding]:
     """Warning of each weld whose thickness no shell at the node has, nor the mean of two, and nobody has confirmed.
 
     A node between two shells of one plate side has the mean of both in converted tables. ``confirmed`` are thicknesses
@@ -49,7 +49,7 @@ def other_thickness(
         )
         return what, "Correct one of them, or confirm the thickness in the weld register"
 
-    return doubts(lines, wrong, np.where(known, away, 0.0), "other_thickness", words, file)
+    return warnings_of(lines, wrong, np.where(known, away, 0.0), "other_thickness", words, file)
 
 
 def _times(given: Floats, there: Sequence[Floats], elements_file: str) -> str:

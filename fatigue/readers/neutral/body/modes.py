@@ -78,10 +78,10 @@ def read_modes(path: Path, ignore_modes: Collection[int], *, strict: bool) -> tu
                 "Add residual or constraint modes to the FE run and to the simulation, or mark those present",
             )
         )
-    return modes, table.warnings + _doubts(modes, path.name)
+    return modes, table.warnings + _warnings(modes, path.name)
 
 
-def _doubts(modes: Modes, file: str) -> list[Problem]:
+def _warnings(modes: Modes, file: str) -> list[Problem]:
     """Warnings about damping in per cent, and about frequencies that no body of a vehicle has; each kind once."""
     of_body = np.array(modes.kind) == "normal"  # interface modes may be damped as one likes
     damping = np.where(of_body, np.nan_to_num(modes.damping_ratio), 0.0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from fatigue.case.tables import Case
 from fatigue.errors import Problem
-from fatigue.files.look_alike import name_doubts
+from fatigue.files.look_alike import name_warnings
 from fatigue.shown import few, shortened
 
 YEARS = 100.0  # no vehicle lasts longer; the mileage in m, or that of a month, makes more
@@ -55,24 +55,24 @@ SCATTER = Usual(
 )
 
 
-def case_doubts(case: Case) -> list[Problem]:
+def case_warnings(case: Case) -> list[Problem]:
     """Warnings about values of a case that are hardly meant, and about events whose names look alike."""
     found: dict[str, list[tuple[str, float, Usual]]] = {}
     for place, value, usual in _values(case):
         if usual.distance(value) > 1.0:
             found.setdefault(usual.code, []).append((place, value, usual))
     file, mission = case.path.name, case.mission
-    doubts = [_told(file, values) for values in found.values()]
+    warnings = [_told(file, values) for values in found.values()]
     idle = [event.name for event in mission.event if event.share == 0.0 or event.per_1000_km == 0.0]
     if idle:
         names = few([f"'{name}'" for name in idle])
-        doubts.append(Problem("idle_event", f"{file}: mission.event {names}", NO_DAMAGE, "Leave it out", len(idle)))
+        warnings.append(Problem("idle_event", f"{file}: mission.event {names}", NO_DAMAGE, "Leave it out", len(idle)))
     years = mission.target_km / mission.km_per_year
     if years > YEARS and "unusual_mileage" not in found:
         what = f"target_km = {mission.target_km:g} at km_per_year = {mission.km_per_year:g} takes {years:.4g} years"
         remedy = f"Check both: few vehicles last {YEARS:g} years"
-        doubts.append(Problem("unusual_mileage", f"{file}: mission.target_km", what, remedy))
-    return doubts + name_doubts(f"{file}: mission.event.name", (event.name for event in mission.event), "events")
+        warnings.append(Problem("unusual_mileage", f"{file}: mission.target_km", what, remedy))
+    return warnings + name_warnings(f"{file}: mission.event.name", (event.name for event in mission.event), "events")
 
 
 def _values(case: Case) -> Iterator[tuple[str, float, Usual]]:

@@ -2,20 +2,20 @@
 
 import pytest
 
-from fatigue.case import case_doubts, load_case
+from fatigue.case import case_warnings, load_case
 from tests.small_case import small_case
 
 
-def doubts_of(tmp_path, change):
+def warnings_of(tmp_path, change):
     """Tell the warnings of a small case in which something is changed."""
     case = small_case(seconds=1.0)
     change(case)
-    return case_doubts(load_case(case.write(tmp_path)))
+    return case_warnings(load_case(case.write(tmp_path)))
 
 
 def test_a_sound_case_is_silent(tmp_path):
     """Speeds, shares and mileages of a train are no doubt."""
-    assert doubts_of(tmp_path, lambda case: None) == []
+    assert warnings_of(tmp_path, lambda case: None) == []
 
 
 @pytest.mark.parametrize(
@@ -43,7 +43,7 @@ def test_values_beyond_what_is_usual(tmp_path, place, value, code):
         table = case.curve if place == "yield_MPa" else case.mission if place in case.mission else case.events[0]
         table[place] = value
 
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert problem.code == code
     assert problem.where.startswith("case.toml: ")
     assert f"{value:g}" in problem.what
@@ -66,7 +66,7 @@ def test_usual_values_are_silent(tmp_path, place, values):
             table = case.curve if place == "yield_MPa" else case.mission if place in case.mission else case.events[0]
             table[place] = value
 
-        assert doubts_of(tmp_path, change) == []
+        assert warnings_of(tmp_path, change) == []
 
 
 def test_shares_next_to_nothing_and_events_that_never_happen(tmp_path):
@@ -77,7 +77,7 @@ def test_shares_next_to_nothing_and_events_that_never_happen(tmp_path):
         case.events[1] |= {"share": 1e-6}
         case.events[2] |= {"per_1000_km": 0.0}
 
-    share, idle = doubts_of(tmp_path, change)
+    share, idle = warnings_of(tmp_path, change)
     assert (share.code, idle.code) == ("unusual_share", "idle_event")
     assert "share = 1e-06 is outside 1e-05 to 1" in share.what
     assert "'load and unload'" in idle.where
@@ -91,7 +91,7 @@ def test_a_kind_is_told_once(tmp_path):
             case.events[0] | {"name": f"e{i}", "share": 0.05, "speed_km_h": 1e3 * (i + 1)} for i in range(20)
         ]
 
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert problem.count == 20
     assert "speed_km_h = 20000" in problem.what
     assert "mission.event[20].speed_km_h ('e19')" in problem.where
@@ -108,7 +108,7 @@ def test_a_curve_in_other_units(tmp_path):
             'applies = "structural"\nsource = "me"'
         )
 
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert problem.code == "unusual_curve"
     assert problem.count == 3
     assert "range_at_2e6_MPa = 7.1e+07 is outside 5 to 1000 MPa" in problem.what
@@ -117,6 +117,6 @@ def test_a_curve_in_other_units(tmp_path):
 
 def test_events_whose_names_look_alike(tmp_path):
     """Two events that differ in the case of a letter."""
-    (problem,) = doubts_of(tmp_path, lambda case: case.events[1].update(name="Sine"))
+    (problem,) = warnings_of(tmp_path, lambda case: case.events[1].update(name="Sine"))
     assert problem.code == "similar_names"
     assert "'sine' and 'Sine'" in problem.what

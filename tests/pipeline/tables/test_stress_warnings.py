@@ -8,7 +8,7 @@ from tests.small_case import small_case
 NEW = {"stress_beyond_metal", "hardly_any_stress"}
 
 
-def doubts_of(tmp_path, change, **options):
+def warnings_of(tmp_path, change, **options):
     """Tell the warnings about stress ranges of an assessed small case in which something is changed."""
     case = small_case()
     change(case)
@@ -28,12 +28,12 @@ def forces_times(factor):
 
 def test_usual_stress_is_silent(tmp_path):
     """Ranges of 100 MPa."""
-    assert doubts_of(tmp_path, lambda case: None) == []
+    assert warnings_of(tmp_path, lambda case: None) == []
 
 
 def test_forces_a_thousand_times_too_large(tmp_path):
     """The worst point, its event, two instants and the mode that makes most of it; the units as remedy."""
-    (problem,) = doubts_of(tmp_path, forces_times(1000.0))
+    (problem,) = warnings_of(tmp_path, forces_times(1000.0))
     assert problem.code == "stress_beyond_metal"
     assert problem.where == "weld B"
     assert problem.count == 28
@@ -50,7 +50,7 @@ def test_one_damaged_sample(tmp_path, value):
     def change(case):
         case.histories["noise"].loc[777, "q_2"] = value
 
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert "mode 2 makes 100% of it" in problem.what
     assert "the sample at 3.885 s stands alone" in problem.what
     assert "q_2 there in noise.csv" in problem.remedy
@@ -58,12 +58,12 @@ def test_one_damaged_sample(tmp_path, value):
 
 def test_a_screened_point_is_not_judged_by_its_bound(tmp_path):
     """What was counted is told also where most points are settled by bounds."""
-    (problem,) = doubts_of(tmp_path, forces_times(1000.0), share=0.1)
+    (problem,) = warnings_of(tmp_path, forces_times(1000.0), share=0.1)
     assert "node 200" in problem.what
 
 
 def test_forces_ten_thousand_times_too_small(tmp_path):
     """A body without any stress to speak of is told as well."""
-    (problem,) = doubts_of(tmp_path, forces_times(1e-4))
+    (problem,) = warnings_of(tmp_path, forces_times(1e-4))
     assert problem.code == "hardly_any_stress"
     assert "above 0.011 MPa" in problem.what

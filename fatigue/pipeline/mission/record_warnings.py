@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import Event
-from fatigue.case.doubts import SPEED
+from fatigue.case.plausibility import SPEED
 from fatigue.errors import Problem
 from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.record_units import FEWEST_SAMPLES
@@ -50,18 +50,18 @@ class EventRecord:
         return alike and self.outline.equals(other.outline)
 
 
-def record_doubts(records: Sequence[EventRecord], modes: Modes, case_file: str) -> list[Problem]:
+def record_warnings(records: Sequence[EventRecord], modes: Modes, case_file: str) -> list[Problem]:
     """Warnings about the records of all events together, each kind once."""
     moving = [record for record in records if record.bends(modes)]
     return [
-        *_at_rest_doubts([record for record in records if not record.bends(modes)]),
-        *_lost_mode_doubts(moving, modes),
-        *_same_record_doubts(moving),
-        *_speed_doubts(records, case_file),
+        *_at_rest_warnings([record for record in records if not record.bends(modes)]),
+        *_lost_mode_warnings(moving, modes),
+        *_same_record_warnings(moving),
+        *_speed_warnings(records, case_file),
     ]
 
 
-def _speed_doubts(records: Sequence[EventRecord], case_file: str) -> list[Problem]:
+def _speed_warnings(records: Sequence[EventRecord], case_file: str) -> list[Problem]:
     """Warning about the speeds that lengths and durations make; a speed that is given is told with the case."""
     found = []
     for record in records:
@@ -83,7 +83,7 @@ def _speed_doubts(records: Sequence[EventRecord], case_file: str) -> list[Proble
     return [Problem("unusual_speed", where, what, remedy, len(found))]
 
 
-def _at_rest_doubts(still: Sequence[EventRecord]) -> list[Problem]:
+def _at_rest_warnings(still: Sequence[EventRecord]) -> list[Problem]:
     """Warning about events in which nothing that bends the body moves."""
     if not still:
         return []
@@ -95,7 +95,7 @@ def _at_rest_doubts(still: Sequence[EventRecord]) -> list[Problem]:
     return [Problem("event_at_rest", f"{worst.file}: columns q_", what, remedy, len(still))]
 
 
-def _lost_mode_doubts(records: Sequence[EventRecord], modes: Modes) -> list[Problem]:
+def _lost_mode_warnings(records: Sequence[EventRecord], modes: Modes) -> list[Problem]:
     """Warning about normal modes that stand still in a simulation in which more modes move than do not."""
     normal = np.array([kind == "normal" for kind in modes.kind])
     found: list[tuple[EventRecord, list[int]]] = []
@@ -114,7 +114,7 @@ def _lost_mode_doubts(records: Sequence[EventRecord], modes: Modes) -> list[Prob
     return [Problem("mode_at_rest", f"{worst.file}: column q_{lost_modes[0]}", what, remedy, len(found))]
 
 
-def _same_record_doubts(records: Sequence[EventRecord]) -> list[Problem]:
+def _same_record_warnings(records: Sequence[EventRecord]) -> list[Problem]:
     """Warning about events with one record; those that scale it by factors of their own are told apart."""
     pairs = [
         (one, other)

@@ -64,7 +64,7 @@ class StressExtent:
             self.counted, self.event = float(ranges[event, station, face]), event
             self.point = kept_point(model, WorstPoint(int(stations.weld[station]), station, face))
 
-    def doubts(self, loads: Sequence[EventLoad], modes: NDArray[np.int64], files: Sequence[str]) -> list[Problem]:
+    def warnings(self, loads: Sequence[EventLoad], modes: NDArray[np.int64], files: Sequence[str]) -> list[Problem]:
         """Warnings about the stress ranges of the whole body; ``files`` hold the records of the events."""
         if self.point is not None and self.welds is not None:
             ordered = sorted(self.welds, key=lambda name: -(self.welds or {})[name])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from fatigue.weld.doubts.open_or_closed import seems_closed, seems_open
 from fatigue.weld.line import stacked
 from fatigue.weld.line_check import line_warnings
+from fatigue.weld.warnings.open_or_closed import seems_closed, seems_open
 from tests.weld_lines import lines, reversed_line, ring, shifted, straight, weld_line
 
 WHERE = "nodes.csv, weld W1"

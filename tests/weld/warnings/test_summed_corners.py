@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fatigue.weld.doubts.summed_corners import corner_share, summed_corners
 from fatigue.weld.line import stacked
 from fatigue.weld.line_geometry import split_at_kinks
 from fatigue.weld.line_load import line_load_matrix
 from fatigue.weld.structural_stress import assess_line
+from fatigue.weld.warnings.summed_corners import corner_share, summed_corners
 from tests.weld_lines import ring, straight, weld_line
 
 T = 10.0  # mm

@@ -11,7 +11,7 @@ from tests.small_case import small_case
 NEW = {"event_at_rest", "mode_at_rest", "same_record", "unusual_speed"}
 
 
-def doubts_of(tmp_path, change, suffix="csv"):
+def warnings_of(tmp_path, change, suffix="csv"):
     """Tell the warnings about the records of a small case in which something is changed."""
     case = small_case(seconds=2.0)
     change(case)
@@ -21,7 +21,7 @@ def doubts_of(tmp_path, change, suffix="csv"):
 
 def test_sound_records_are_silent(tmp_path):
     """A sine in one mode alone, an interface mode at rest and a load case of two samples are no doubt."""
-    assert doubts_of(tmp_path, lambda case: None) == []
+    assert warnings_of(tmp_path, lambda case: None) == []
 
 
 @pytest.mark.parametrize("value", [0.0, 7.5, 1e12])
@@ -33,7 +33,7 @@ def test_an_event_at_rest(tmp_path, value, suffix):
         for name in ("q_1", "q_2", "q_7"):
             case.histories["noise"][name] = value
 
-    (problem,) = doubts_of(tmp_path, change, suffix)
+    (problem,) = warnings_of(tmp_path, change, suffix)
     assert problem.code == "event_at_rest"
     assert problem.where.startswith(f"noise.{suffix}")
     assert "event 'noise'" in problem.what
@@ -47,7 +47,7 @@ def test_rounding_is_no_movement(tmp_path):
         for name in ("q_1", "q_2", "q_7"):
             noise[name] = 1e6 * (1.0 + 2e-16 * (np.arange(len(noise)) % 2))
 
-    assert [problem.code for problem in doubts_of(tmp_path, change)] == ["event_at_rest"]
+    assert [problem.code for problem in warnings_of(tmp_path, change)] == ["event_at_rest"]
 
 
 def test_movement_in_the_start_up_only(tmp_path):
@@ -57,7 +57,7 @@ def test_movement_in_the_start_up_only(tmp_path):
         noise = case.histories["noise"]
         noise.loc[noise.time_s > 0.9, ["q_1", "q_2", "q_7"]] = 1.0
 
-    assert [problem.code for problem in doubts_of(tmp_path, change)] == ["event_at_rest"]
+    assert [problem.code for problem in warnings_of(tmp_path, change)] == ["event_at_rest"]
 
 
 def test_a_rigid_mode_alone_is_at_rest(tmp_path):
@@ -67,7 +67,7 @@ def test_a_rigid_mode_alone_is_at_rest(tmp_path):
         case.modes["kind"] = ["rigid", "normal", "interface"]
         case.histories["noise"][["q_2", "q_7"]] = 0.0
 
-    assert "event_at_rest" in [p.code for p in doubts_of(tmp_path, change) if "'noise'" in p.what]
+    assert "event_at_rest" in [p.code for p in warnings_of(tmp_path, change) if "'noise'" in p.what]
 
 
 def test_a_column_that_was_lost(tmp_path):
@@ -79,8 +79,8 @@ def test_a_column_that_was_lost(tmp_path):
 
         return change
 
-    assert doubts_of(tmp_path / "a", at_zero("q_7")) == []
-    (problem,) = doubts_of(tmp_path / "b", at_zero("q_1"))
+    assert warnings_of(tmp_path / "a", at_zero("q_7")) == []
+    (problem,) = warnings_of(tmp_path / "b", at_zero("q_1"))
     assert problem.code == "mode_at_rest"
     assert "normal mode 1 stands still in event 'noise'" in problem.what
 
@@ -98,7 +98,7 @@ def test_two_events_with_one_record(tmp_path, copied):
         name = "noise" if copied == "file" else "twin"
         case.events.append({"name": "worn", "history": name, "speed_km_h": 300.0, "share": 0.1, "start_s": 1.0})
 
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert problem.code == "same_record"
     assert "events 'noise' and 'worn' have the same record" in problem.what
     assert ("both name noise.csv" if copied == "file" else "in noise.csv and twin.csv") in problem.what
@@ -112,7 +112,7 @@ def test_a_record_scaled_by_factors_is_meant(tmp_path):
         case.events[1]["share"] = 0.15
         case.events.append(case.events[1] | {"name": "laden", "share": 0.1, "stress_factor": 1.2})
 
-    assert doubts_of(tmp_path, change) == []
+    assert warnings_of(tmp_path, change) == []
 
 
 def test_records_that_differ_in_one_mode(tmp_path):
@@ -123,7 +123,7 @@ def test_records_that_differ_in_one_mode(tmp_path):
         case.events[1]["share"] = 0.15
         case.events.append(case.events[1] | {"name": "worn", "history": "twin", "share": 0.1})
 
-    assert doubts_of(tmp_path, change) == []
+    assert warnings_of(tmp_path, change) == []
 
 
 def test_a_length_in_m(tmp_path):
@@ -134,6 +134,6 @@ def test_a_length_in_m(tmp_path):
             event["length_km"] = event.pop("speed_km_h") / 3600.0 * 2.0 * 1000.0
         case.events[1]["length_km"] /= 2.0  # 1 s is cut off
 
-    (problem,) = doubts_of(tmp_path, change)
+    (problem,) = warnings_of(tmp_path, change)
     assert (problem.code, problem.count) == ("unusual_speed", 2)
     assert "makes 3.6e+05 km/h, outside 1 to 600 km/h" in problem.what

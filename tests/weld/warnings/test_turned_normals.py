@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fatigue.weld.doubts.turned_normals import turned_from_neighbours, turns
 from fatigue.weld.line import stacked
 from fatigue.weld.line_check import TURNED_ALONE, TURNED_STEP, check_line, line_warnings, warned_lines
 from fatigue.weld.line_geometry import tangents
+from fatigue.weld.warnings.turned_normals import turned_from_neighbours, turns
 from tests.weld_lines import lines, moved, ring, rotations, straight, weld_line
 
 WHERE = "nodes.csv, weld W1"
