@@ -66,7 +66,7 @@ def test_what_the_judge_calls_a_change(after, kind):
     ("error", "kind"),
     [
         (DataError(Problem("a", "b", "c", "d")), "refused"),
-        (DataError(Problem("a", "b", "two\nlines", "d")), "message"),
+        (DataError(Problem("a", "b", "two\nlines", "d")), "refused"),  # a line end is spelled out
         (DataError(), "message"),
         (ValueError("x"), "traceback"),
         (RecursionError("x"), "traceback"),

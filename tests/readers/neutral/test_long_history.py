@@ -10,6 +10,7 @@ from fatigue.errors import DataError
 from fatigue.life.records.spool import Spool
 from fatigue.readers.neutral import long_history
 from fatigue.readers.neutral.history import check_history, read_history
+from fatigue.readers.neutral.record_outline import RecordOutline
 
 MODES = np.array([3, 7])
 SAMPLES = 9001  # more than two chunks of a spool
@@ -54,14 +55,17 @@ def test_block_by_block_is_as_a_whole(tmp_path, reads_blocks, suffix, kind, on_d
     path = written(tmp_path / f"q{suffix}", columns(kind) | {"remark": np.zeros(SAMPLES)})
     scratch = tmp_path / "scratch" / "q" if on_disk else None
     found, warnings = read_history(path, "run", MODES, (), strict=False, scratch=scratch)
-    grid, of_check = check_history(path, MODES, (), strict=False)
+    outline, of_whole = RecordOutline(3.0), RecordOutline(3.0)
+    grid, of_check = check_history(path, MODES, (), strict=False, outline=outline)
     assert isinstance(found.q, Spool) == on_disk
     reads_blocks(on=False)
     whole, expected = read_history(path, "run", MODES, (), strict=False)
     assert found.q.dtype == whole.q.dtype
     np.testing.assert_array_equal(np.asarray(found.q), whole.q)
     assert (found.step, found.start) == (whole.step, whole.start)
-    assert check_history(path, MODES, (), strict=False)[0] == grid
+    assert check_history(path, MODES, (), strict=False, outline=of_whole)[0] == grid
+    assert outline.equals(of_whole)
+    assert [column.kept for column in outline.columns] == [column.kept for column in of_whole.columns]
     assert warnings == of_check == expected
     assert len(expected) == 1
 
@@ -84,7 +88,7 @@ def test_mistakes_are_told_with_their_row(tmp_path, reads_blocks, suffix, name, 
                 read_history(path, "run", MODES, (), strict=True, scratch=scratch)
             messages.append(str(refusal.value))
         with pytest.raises(DataError) as refusal:
-            check_history(path, MODES, (), strict=True)
+            check_history(path, MODES, (), strict=True, outline=RecordOutline())
         messages.append(str(refusal.value))
     assert f"column {name}, row" in messages[0]
     assert len(set(messages)) == 1

@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pandas as pd
 import pytest
+from pyarrow import csv
 
 from fatigue.errors import DataError
 from fatigue.report.files.export import CSV_TABLES, write_csv, write_xlsx
@@ -94,9 +95,9 @@ def test_csv_files_read_back_as_the_tables(result_folder):
     assert [path.stem for path in paths] == list(CSV_TABLES)
     for path in paths:
         expected = pd.read_parquet(path.with_suffix(".parquet"))
-        found = pd.read_csv(path, keep_default_na=True, float_precision="round_trip")
+        found = csv.read_csv(path).to_pandas()  # every digit counts; pandas 2 wants to be asked, pandas 3 not to be
         for column in expected.select_dtypes("number"):
-            np.testing.assert_array_equal(found[column], expected[column], err_msg=f"{path.name} {column}")
+            np.testing.assert_array_equal(found[column].astype(float), expected[column], err_msg=f"{path.name} {column}")
 
 
 def test_without_the_extra_the_message_names_it(result_folder, monkeypatch):
