@@ -32,6 +32,7 @@ def summary(fulfilled=(False, True), points=2, left_out=LEFT_OUT):
         "worst_surface": ["top", "bottom"],
         "governing_event": ["fast", None],
         "fulfilled": list(fulfilled),
+        "worst_summed_corner": [False, False],
     }
     point = {
         "weld": "A",
@@ -42,6 +43,7 @@ def summary(fulfilled=(False, True), points=2, left_out=LEFT_OUT):
         "utilisation": 8.1,
         "life_km_dirlik": 2e12,
         "dirlik_ratio": np.nan,
+        "dirlik_verdict": "not_assessed",
         "governing_event": "fast",
     }
     frames = pd.DataFrame(welds), pd.DataFrame(left_out), pd.DataFrame([point] * points)
