@@ -365,14 +365,20 @@ def test_an_interrupted_run_goes_on_and_ends_with_the_same_bytes(tmp_path, many_
 
 
 def test_warnings_of_many_welds_are_summed_up(many_welds):
-    """Twenty one by one, one for the other welds; the dry run says the same."""
+    """Twenty one by one, one for the other welds; the dry run says the same before a cycle is counted."""
     case, folder = many_welds
     found = warnings_of(folder)
     *first, others = [warning for warning in found if warning["code"] == "end_unresolved"]
     assert [warning["where"].rpartition(" ")[2] for warning in first] == case_welds(case)[:20]
     assert others["count"] == 12
     assert others["where"] == f"weld_nodes.csv: weld {', '.join(case_welds(case)[20:])}"
-    assert [asdict(warning) for warning in check_case(case, strict=False).warnings] == found
+    foretold = [asdict(warning) for warning in check_case(case, strict=False).warnings]
+    of_spectra = {"outside_band", "sampling"}  # known once every point was counted; foretold from some of them
+    assert {warning["code"] for warning in found} & of_spectra == of_spectra
+    assert [one for one in foretold if one["code"] not in of_spectra] == [
+        one for one in found if one["code"] not in of_spectra
+    ]
+    assert [one["where"] for one in foretold if one["code"] in of_spectra] == ["event 'noise'"]
 
 
 def test_a_damaged_part_is_computed_again(tmp_path, many_welds):

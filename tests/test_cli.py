@@ -169,7 +169,7 @@ def test_warnings_of_many_welds_are_one_line_with_their_number(tmp_path):
     """Those that are summed up count one by one."""
     done = fatigue("check", small_case(pairs=16).write(tmp_path / "case"))
     assert "(and 31 more of this kind" in done.stderr
-    assert "  warnings         33\n" in done.stdout
+    assert "  warnings         34\n" in done.stdout
 
 
 def test_strict_takes_unknown_columns_for_errors(tmp_path):
@@ -191,14 +191,14 @@ def test_show_without_result_is_3(tmp_path):
 
 
 def test_show_of_a_damaged_table_is_3(tmp_path):
-    """A truncated Parquet file in the result folder is named."""
+    """A truncated Parquet file in the result folder is named, and how it differs from what was written."""
     path = small_case().write(tmp_path / "case")
     assess(path, "-o", tmp_path / "result")
     table = tmp_path / "result" / "nodes.parquet"
     table.write_bytes(table.read_bytes()[:1000])
     done = fatigue("show", tmp_path / "result")
     assert done.returncode == 3
-    assert "nodes.parquet: the table cannot be read" in done.stderr
+    assert "nodes.parquet: was changed since it was written: it has 1000 bytes" in done.stderr
 
 
 def test_show_only_one_weld(tmp_path):
