@@ -14,11 +14,14 @@ MOST_WORKERS = 8  # each of them holds up to 1 GB
 EXAMPLE = Path(__file__).parents[1] / "data" / "carbody"
 
 
-def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
-    """One worker per processor for the whole suite; none for what is named on the command line, which begins sooner."""
-    whole = config.args_source is pytest.Config.ArgsSource.TESTPATHS
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min(MOST_WORKERS, processors) if whole else 0
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config: pytest.Config) -> None:
+    """Run the whole suite on all processors, what is named on the command line in one process: that begins sooner."""
+    is_whole = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    can_share = config.pluginmanager.hasplugin("xdist") and not config.option.usepdb
+    if is_whole and can_share and config.option.numprocesses is None:
+        processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        config.option.numprocesses, config.option.dist = min(MOST_WORKERS, processors), "worksteal"
 
 
 @pytest.fixture(scope="session")

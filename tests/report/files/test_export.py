@@ -97,7 +97,9 @@ def test_csv_files_read_back_as_the_tables(result_folder):
         expected = pd.read_parquet(path.with_suffix(".parquet"))
         found = csv.read_csv(path).to_pandas()  # every digit counts; pandas 2 wants to be asked, pandas 3 not to be
         for column in expected.select_dtypes("number"):
-            np.testing.assert_array_equal(found[column].astype(float), expected[column], err_msg=f"{path.name} {column}")
+            np.testing.assert_array_equal(
+                found[column].astype(float), expected[column], err_msg=f"{path.name} {column}"
+            )
 
 
 def test_without_the_extra_the_message_names_it(result_folder, monkeypatch):
