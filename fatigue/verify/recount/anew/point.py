@@ -11,12 +11,11 @@ from fatigue.verify.recount.anew.curve import RecountCurve, ratio_factor
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
 from fatigue.verify.recount.anew.record import RecountRecord, SpectrumRules, welch_moments
 from fatigue.verify.recount.anew.rounding import Bounds, Counted, cycle_bounds, pass_bounds, point_bounds, stress_bound
-from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
+from fatigue.verify.recount.anew.spectral import NEARLY_ALL, dirlik, tovo_benasciutti
 
 Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
-NEARLY_ALL = 0.9  # of the damage from above the upper frequency: no life from the spectrum
 NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not counted among the peaks
 
 
@@ -234,8 +233,8 @@ def bounds_of_point(
     ``raw_bounds`` are what it may do to the damage of one pass of each event without end treatment.
     """
     weights = np.array([event.passes_per_km for event in events])
-    shares = weights * np.array([one.quantities["damage_per_pass"] for one in passes])
-    return point_bounds([one.bounds for one in passes], raw_bounds, weights, values, shares, mission, curve)
+    of_passes = [one.quantities for one in passes], [one.bounds for one in passes]
+    return point_bounds(*of_passes, raw_bounds, weights, values, mission, curve)
 
 
 def _cycle_rows(cycles: RecountCycles, m: Floats, b: Floats, record: RecountRecord) -> dict[str, Floats]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.curve import RecountCurve
+from fatigue.verify.recount.anew.spectral import NEARLY_ALL
 
 Floats = NDArray[np.float64]
 Bounds = dict[str, float]
@@ -106,11 +107,11 @@ def pass_bounds(of: Counted, values: Mapping[str, float], curve: RecountCurve) -
 
 
 def point_bounds(
+    quantities: Sequence[Mapping[str, float]],
     passes: Sequence[Mapping[str, float]],
     raw_damage: Sequence[float],
     weights: Floats,
     values: Mapping[str, float],
-    shares: Floats,
     mission: Mapping[str, float],
     curve: RecountCurve,
 ) -> Bounds:
@@ -118,10 +119,10 @@ def point_bounds(
 
     Parameters
     ----------
-    passes : bounds of one pass of each event; ``raw_damage``: on its damage without end treatment
+    quantities : of one pass of each event, and ``passes``: their bounds
+    raw_damage : bounds on the damage of one pass of each event without end treatment
     weights : (e,) passes per km
     values : the columns of the point
-    shares : (e,) damage per km of each event
     mission : ``target_km``, ``km_per_year`` and, where it is not 1, ``damage_limit``
     """
     limit, target, k = mission.get("damage_limit", 1.0), mission["target_km"], curve.slopes[0]
@@ -131,7 +132,11 @@ def point_bounds(
         with np.errstate(invalid="ignore"):
             return float(np.nansum(weights * of[name]))
 
+    def per_km(name: str) -> float:
+        return float(np.nansum(weights * [one[f"damage_{name}_per_pass"] for one in quantities]))
+
     damage = summed("damage_per_pass")
+    shares = weights * [one["damage_per_pass"] for one in quantities]
     used = damage * target / limit
     governing = int(shares.argmax())
     own = weights * of["damage_per_pass"]
@@ -143,7 +148,12 @@ def point_bounds(
 
     relative = _lost(_relative(damage, values["damage_per_km"]))
     estimates = {name: summed(f"damage_{name}_per_pass") for name in ("dirlik", "tb", "same_ratio")}
-    of_ratio = [_relative(estimates[name], limit / values[f"life_km_{name}"]) for name in ("dirlik", "same_ratio")]
+    of_ratio = [_relative(estimates[name], per_km(name)) for name in ("dirlik", "same_ratio")]
+    lives = {f"life_km_{name}": bound / limit for name, bound in estimates.items()}
+    if estimates["tb"] + summed("damage_tb_whole_per_pass") > abs(
+        per_km("tb") - (1.0 - NEARLY_ALL) * per_km("tb_whole")
+    ):
+        lives |= {"life_km_dirlik": np.inf, "life_km_tb": np.inf}  # there or not, as rounding will have it
     blocks = float(weights @ of["power_sum"]) * target / 2e6
     root = max(1.0 / slope for slope in curve.slopes), min(1.0 / slope for slope in curve.slopes)
     least = min([*curve.knees, *([curve.cutoff] if curve.cutoff else [])], default=np.inf)
@@ -156,7 +166,7 @@ def point_bounds(
         "utilisation": used,
         "fulfilled": np.inf if abs(values["utilisation"] - 1.0) <= used else 0.0,
         "load_factor": factor,
-        **{f"life_km_{name}": bound / limit for name, bound in estimates.items()},
+        **lives,
         "dirlik_ratio": _times(_lost(max(of_ratio) * 2.0), values["dirlik_ratio"]),
         "max_range_MPa": float(of["max_range_MPa"].max()),
         "equivalent_range_2e6_MPa": _root_bound(values["equivalent_range_2e6_MPa"] ** k, blocks, 1.0 / k),

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.curve import RecountCurve
 
+NEARLY_ALL = 0.9  # of the damage from above the upper frequency: no life from the spectrum
 NARROW = 1e-7  # of 1 - alpha2: below, both are the narrow-band formula to rounding
 
 
