@@ -57,7 +57,7 @@ def test_hints_are_made_in_one_place():
 def test_the_distribution_is_not_the_one_of_somebody_else():
     """The name is free on the package index; the extra for developers names this distribution."""
     assert PROJECT["name"] == "modal-weld-fatigue"
-    assert PROJECT["scripts"] == {"fatigue": "fatigue.cli:main"}
+    assert PROJECT["scripts"] == {"fatigue": "fatigue.__main__:main"}
     own = [r for r in PROJECT["optional-dependencies"]["dev"] if "[" in r]
     assert own == [f"{PROJECT['name']}[cluster,excel,nastran]"]
 

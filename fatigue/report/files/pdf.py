@@ -6,7 +6,9 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ BROWSERS = (
 _MAC = ("Google Chrome", "Chromium", "Microsoft Edge")
 _WINDOWS = (r"Google\Chrome\Application\chrome.exe", r"Microsoft\Edge\Application\msedge.exe")
 TIME_LIMIT_S = 300.0
+INTERRUPTS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 OF_ITS_OWN: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}  # group of processes
 
 
@@ -71,21 +74,40 @@ def _run(command: list[str], scratch: str) -> str:
     """Run a browser to its end, and return its last words; whatever stops this one ends it with all its helpers."""
     surroundings = os.environ | {"TMPDIR": scratch}  # else it leaves a folder there when it is ended
     with tempfile.TemporaryFile() as words:
+        process = None
         try:
-            process = subprocess.Popen(
-                command, stdout=words, stderr=words, stdin=subprocess.DEVNULL, env=surroundings, **OF_ITS_OWN
-            )
+            with _held_back():
+                process = subprocess.Popen(
+                    command, stdout=words, stderr=words, stdin=subprocess.DEVNULL, env=surroundings, **OF_ITS_OWN
+                )
+            process.wait(TIME_LIMIT_S)
         except OSError as error:
             return reason(error)
-        try:
-            process.wait(TIME_LIMIT_S)
         except subprocess.TimeoutExpired:
             return f"not done after {TIME_LIMIT_S:g} s"
         finally:
-            _end(process)
+            if process is not None:
+                _end(process)
         words.seek(0)
         lines = words.read().decode(errors="replace").strip().splitlines()
     return lines[-1] if lines else f"exit code {process.returncode}"
+
+
+@contextmanager
+def _held_back() -> Iterator[None]:
+    """Let an interrupt wait: of a process that is being started nobody knows the number yet, so none could end it."""
+    if threading.current_thread() is not threading.main_thread():  # others are not interrupted
+        yield
+        return
+    waiting: list[int] = []
+    handlers = {one: signal.signal(one, lambda number, _: waiting.append(number)) for one in INTERRUPTS}
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for number in waiting:
+            signal.raise_signal(number)
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
