@@ -89,18 +89,20 @@ def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountM
         factor=event.get("stress_factor", 1.0),
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
-        peak=np.abs(q).max(axis=1),
+        peak=np.maximum(q.max(axis=1), -q.min(axis=1)),
     )
 
 
 def _read(path: Path, modes: list[int]) -> tuple[Floats, Floats]:
     """Times (t,) and coordinates (m, t) of a history, piece by piece: a frame of all of them would be as much again."""
-    times, parts = [], []
+    time = np.concatenate([piece["time_s"].to_numpy(dtype=float) for piece in read_pieces(path, ["time_s"])])
+    q, first = np.empty((len(modes), len(time))), 0
     for piece in read_pieces(path):
         columns = {int(name[2:]): name for name in piece.columns if name.startswith("q_")}
-        times.append(piece["time_s"].to_numpy(dtype=float))
-        parts.append(np.stack([piece[columns[mode]].to_numpy(dtype=float) for mode in modes]))
-    return np.concatenate(times), np.concatenate(parts, axis=1)
+        for row, mode in zip(q, modes, strict=True):
+            row[first : first + len(piece)] = piece[columns[mode]].to_numpy(dtype=float)
+        first += len(piece)
+    return time, q
 
 
 def _upsample(asked: int | str, step: float, fastest: float) -> int:

@@ -87,7 +87,7 @@ def pass_bounds(of: Counted, values: Mapping[str, float], curve: RecountCurve) -
         "damage_dirlik_per_pass": _estimate_bound(of, dirlik, of_band, of.band, of.upper_hz, curve),
         "damage_tb_per_pass": _estimate_bound(of, tb, of_band, of.band, of.upper_hz, curve),
         "damage_tb_whole_per_pass": _estimate_bound(of, tb_whole, of_whole, of.whole, of.half_rate_hz, curve),
-        "cycles_per_pass": float(of.counts[of.ranges <= 2.0 * rho].sum() + (np.abs(np.diff(of.stress)) <= rho).sum()),
+        "cycles_per_pass": float(of.counts[of.ranges <= 2.0 * rho].sum() + _standing(of.stress, rho)),
         "max_range_MPa": rho,
         "max_equivalent_range_dS": d_dS,
         "bending_ratio": _lost(_relative(2.0 * of.delta, of.parts)),
@@ -187,6 +187,13 @@ def cycle_bounds(of: Counted, curve: RecountCurve) -> Bounds:
         "equivalent_range_dS": d_dS,
         "damage": float((curve.damage(top + d_dS) - curve.damage(np.maximum(top - d_dS, 0.0)))[0]),
     }
+
+
+def _standing(stress: Floats, rho: float) -> int:
+    """How many steps from sample to sample are no larger than rounding."""
+    step = np.diff(stress)
+    np.abs(step, out=step)
+    return int(np.count_nonzero(step <= rho))
 
 
 def _equivalent_bound(of: Counted, rho: float) -> float:
