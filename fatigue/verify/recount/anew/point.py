@@ -10,13 +10,20 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.anew.curve import RecountCurve, ratio_factor
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
 from fatigue.verify.recount.anew.record import RecountRecord, SpectrumRules, welch_moments
-from fatigue.verify.recount.anew.rounding import Bounds, Counted, cycle_bounds, pass_bounds, point_bounds, stress_bound
+from fatigue.verify.recount.anew.rounding import (
+    SAMPLES_AT_ONCE,
+    Bounds,
+    Counted,
+    cycle_bounds,
+    pass_bounds,
+    point_bounds,
+    stress_bound,
+)
 from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 
 Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
-SAMPLES_AT_ONCE = 1 << 16
 NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not counted among the peaks
 
 
@@ -145,7 +152,7 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
     counted = Counted(
         delta=stress_bound(point.largest, record.peak, record.factor),
         stress=s,
-        kept=kept,
+        deviation=float(deviation[4]),
         parts=float(deviation[0] + deviation[1]),
         ranges=S,
         equivalent=dS,
@@ -368,10 +375,12 @@ def _factor(r: Floats, curve: RecountCurve) -> Floats:
 
 
 def _kurtosis(s: Floats) -> float:
-    squares = s - s[0]  # first, so that a stress that stands still has none
-    squares -= squares.mean()
-    squares *= squares
-    return _quotient(float(squares @ squares) / len(s), float(squares.mean() ** 2))
+    def deviations(of: float) -> Iterator[Floats]:  # from the first, so that a stress that stands still has none
+        return (s[i : i + SAMPLES_AT_ONCE] - s[0] - of for i in range(0, len(s), SAMPLES_AT_ONCE))
+
+    mean = sum(d.sum() for d in deviations(0.0)) / len(s)
+    second, fourth = (float(sum((d**power).sum() for d in deviations(mean))) / len(s) for power in (2, 4))
+    return _quotient(fourth, second**2)
 
 
 def _stress_ratio(a: float, b: float) -> float:
