@@ -56,6 +56,63 @@ class Credit:
     by_bending: Floats
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class CycleCredit:
+    """The damage of c cycles of one point, and what its derivatives lay on their two instants; every array is (c,).
+
+    Attributes
+    ----------
+    damage, slope : Miner sums, and their derivatives by ln x as in ``Credit``
+    share : damage over signed range, laid on the end, less on the start [1/MPa]
+    by_range : derivative by the stress at the end, less at the start, but for the largest stress itself [1/MPa]
+    by_peak : derivative by the largest stress, on the instant of it [1/MPa]
+    peak_at_end : whether that is the end
+    by_ratio : derivatives through the bending ratio by membrane stress, negative, and by bending stress, laid like
+        ``share`` [1/MPa]; None where the rule does not use it
+    """
+
+    damage: Floats
+    slope: Floats
+    share: Floats
+    by_range: Floats
+    by_peak: Floats
+    peak_at_end: NDArray[np.bool_]
+    by_ratio: tuple[Floats, Floats] | None
+
+
+def cycle_credit(
+    membrane: Floats, bending: Floats, count: Floats, side: float, size: float, rule: CycleRule
+) -> CycleCredit:
+    """Damage and derivatives of cycles, from the stresses (2, c) at start and end of each.
+
+    Parameters
+    ----------
+    membrane, bending : (2, c) membrane stress, and bending stress of the top face [MPa]
+    count : (c,) 1 or 0.5
+    side : +1 top face, -1 bottom face
+    size : factor of the thickness on the range
+    rule : from the range to its damage
+    """
+    dm, db = membrane[1] - membrane[0], bending[1] - bending[0]
+    start, end = membrane + side * bending
+    ds = end - start
+    S = np.abs(ds)
+    maximum = np.where(ds > 0.0, end, start)
+    r = bending_ratio(dm, db)
+    f_M = rule.mean_stress_factor(maximum - S, maximum)
+    x = equivalent_range(S, size, rule.ratio_factor(r), f_M)
+    by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)  # d ln x / d ln S, as f_M = (S / maximum)**(1/m)
+    by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)  # d ln x / d maximum
+
+    damage = count * cycle_damage(x, rule.law)
+    slope = damage * local_slope(x, rule.law)
+    by_ratio = None
+    if rule.uses_bending_ratio:
+        by_r = -slope * log_ratio_factor_slope(r) / (np.abs(dm) + np.abs(db))
+        by_ratio = by_r * r * np.sign(dm), by_r * (1.0 - r) * np.sign(db)
+    return CycleCredit(damage, slope, damage / ds, slope * by_range / ds, slope * by_peak, ds > 0.0, by_ratio)
+
+
 def credit(cycles: Cycles, membrane: Floats, bending: Floats, side: float, size: float, rule: CycleRule) -> Credit:
     """Lay the damage of every cycle on its two instants (Eq. 23).
 
@@ -63,40 +120,24 @@ def credit(cycles: Cycles, membrane: Floats, bending: Floats, side: float, size:
     ----------
     cycles : of ``membrane + side * bending``, ranges above 0; one across the end of the record has two instants, too
     membrane, bending : (t,) membrane stress, and bending stress of the top face [MPa]
-    side : +1 top face, -1 bottom face
-    size : factor of the thickness on the range
-    rule : from the range to its damage
+    side, size, rule : as of ``cycle_credit``
     """
     start, end, samples = cycles.start, cycles.end, len(membrane)
-    dm, db = membrane[end] - membrane[start], bending[end] - bending[start]
-    stress = membrane + side * bending
-    ds = stress[end] - stress[start]
-    S = np.abs(ds)
-    peak = np.where(ds > 0.0, end, start)
-    maximum = stress[peak]
-    r = bending_ratio(dm, db)
-    f_M = rule.mean_stress_factor(maximum - S, maximum)
-    x = equivalent_range(S, size, rule.ratio_factor(r), f_M)
-    by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)  # d ln x / d ln S, as f_M = (S / maximum)**(1/m)
-    by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)  # d ln x / d maximum
-
-    damage = cycles.count * cycle_damage(x, rule.law)
-    slope = damage * local_slope(x, rule.law)
-    by_stress = _on_instants(start, end, slope * by_range / ds, samples)
-    by_stress += np.bincount(peak, slope * by_peak, samples)
+    both = np.stack([start, end])
+    of = cycle_credit(membrane[both], bending[both], cycles.count, side, size, rule)
+    by_stress = _on_instants(start, end, of.by_range, samples)
+    by_stress += np.bincount(np.where(of.peak_at_end, end, start), of.by_peak, samples)
     by_membrane, by_bending = by_stress, side * by_stress
-    if rule.uses_bending_ratio:
-        by_r = -slope * log_ratio_factor_slope(r) / (np.abs(dm) + np.abs(db))
-        by_membrane = by_membrane - _on_instants(start, end, by_r * r * np.sign(dm), samples)
-        by_bending = by_bending + _on_instants(start, end, by_r * (1.0 - r) * np.sign(db), samples)
+    if of.by_ratio is not None:
+        by_membrane = by_membrane - _on_instants(start, end, of.by_ratio[0], samples)
+        by_bending = by_bending + _on_instants(start, end, of.by_ratio[1], samples)
+    half = 0.5 * of.damage
     return Credit(
-        damage=float(damage.sum()),
-        top_cycle=float(damage.max(initial=0.0)),
-        slope=float(slope.sum()),
-        share=_on_instants(start, end, damage / ds, samples),
-        place=np.asarray(
-            np.bincount(start, 0.5 * damage, samples) + np.bincount(end, 0.5 * damage, samples), np.float64
-        ),
+        damage=float(of.damage.sum()),
+        top_cycle=float(of.damage.max(initial=0.0)),
+        slope=float(of.slope.sum()),
+        share=_on_instants(start, end, of.share, samples),
+        place=np.asarray(np.bincount(start, half, samples) + np.bincount(end, half, samples), np.float64),
         by_membrane=by_membrane,
         by_bending=by_bending,
     )

@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.records.history import ModalHistory, mean_and_covariance, stress_chunks, stress_history
-from fatigue.life.records.spool import Samples, Spool, SpoolWriter
+from fatigue.life.records.history import ModalHistory, mean_and_covariance, stress_chunks, stress_record
 from fatigue.spectrum.moments import cross_densities, has_spectrum, segment_spectra
 
 CLOSE_UP_SAMPLES = 75  # before and after an instant of a cycle
@@ -70,7 +69,7 @@ def spectrum(
     if not has_spectrum(record.history, segment_s):
         return None
     history = record.history
-    stress = replace(history, q=_stress(record.stress_factor * modal_stress[None], history.q))
+    stress = replace(history, q=stress_record(record.stress_factor * modal_stress[None], history.q))
     spectra = segment_spectra(stress, segment_s, upper_hz)
     return StressSpectrum(history.event, spectra.frequency, cross_densities(spectra)[:, 0, 0])
 
@@ -131,16 +130,6 @@ def envelope(record: EventRecord, modal_stress: NDArray[np.float64]) -> Envelope
         low=low,
         high=high,
     )
-
-
-def _stress(modal_stress: NDArray[np.float64], q: Samples) -> Samples:
-    """Stress histories (n, t) [MPa], in a file beside a record that is on disk."""
-    if not isinstance(q, Spool):
-        return stress_history(modal_stress, q)
-    with SpoolWriter(q.path.with_name("stress"), len(modal_stress), np.dtype(np.float64)) as writer:
-        for chunk in stress_chunks(modal_stress, q):
-            writer.append(chunk)
-    return writer.spool()
 
 
 def deviations(record: EventRecord, modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:

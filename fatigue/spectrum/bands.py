@@ -55,7 +55,11 @@ def coefficients(x: NDArray[np.floating], residue: Residue) -> Floats:
 
 def coefficient_frequencies(samples: int, step: float, residue: Residue) -> Floats:
     """Frequency of each of the coefficients, (t,) [Hz], ascending."""
-    index = np.arange(samples)
+    return frequency_of(np.arange(samples), samples, step, residue)
+
+
+def frequency_of(index: NDArray[np.int64], samples: int, step: float, residue: Residue) -> Floats:
+    """Frequency of some of the coefficients [Hz], given by their places."""
     cycles = index / 2.0 if residue == "half" else (index + 1) // 2
     return np.asarray(cycles / (samples * step))
 

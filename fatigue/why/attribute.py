@@ -5,6 +5,7 @@ result; ``fatigue.life.attribution`` has the method. Everything is weighted with
 the sum over the events is the ``damage_per_km`` of a point.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from typing import Self
 
@@ -19,6 +20,7 @@ from fatigue.life.rule import CycleRule
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.spectrum.bands import band_products, band_slices, coefficient_frequencies, coefficients
+from fatigue.why.long_record import is_long, long_blocks
 from fatigue.why.points import Points
 
 Floats = NDArray[np.float64]
@@ -151,17 +153,38 @@ def numbers_of_point(plan: Plan, modes: Modes, bins: Bins) -> int:
 
 def attribute_event(points: Points, load: EventLoad, one_pass: Pass, modes: Modes, bins: Bins) -> EventAttribution:
     """Damage of one event at some points, shared out."""
-    q, residue = np.asarray(load.counted.q), load.residue
-    frequency = coefficient_frequencies(q.shape[1], load.counted.step, residue)
+    q = load.counted.q
     inner = bins.edges_hz if load.moments is not None else np.zeros(0)
-    bands = band_slices(frequency, inner)
-    Q = coefficients(q, residue)
     place_s, place_km = _place_edges(load, one_pass, bins.length_km)
+    blocks = list(
+        long_blocks(points, load, q, modes, inner, place_s)
+        if is_long(q)
+        else _blocks(points, load, np.asarray(q), modes, inner, place_s)
+    )
+    per_pass = {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
+    damage, top_cycle = per_pass["damage"], per_pass.pop("top_cycle")
+    return EventAttribution(
+        event=one_pass.event,
+        top_cycle_share=np.divide(top_cycle, damage, out=np.full_like(damage, np.nan), where=damage > 0.0),
+        edges_hz=np.array([0.0, *inner, np.inf]),
+        place_s=place_s,
+        place_km=place_km,
+        **{name: one_pass.passes_per_km * value for name, value in per_pass.items()},
+    )
+
+
+def _blocks(
+    points: Points, load: EventLoad, q: NDArray[np.floating], modes: Modes, edges_hz: Floats, place_s: Floats
+) -> Iterator[dict[str, Floats]]:
+    """Some points after the other, in one pass of the event, whose record is in memory."""
+    residue = load.residue
+    frequency = coefficient_frequencies(q.shape[1], load.counted.step, residue)
+    bands = band_slices(frequency, edges_hz)
+    Q = coefficients(q, residue)
     time = load.counted.start + load.counted.step * np.arange(q.shape[1])
     bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
 
     rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # of the record only: the numbers are the same on every machine
-    blocks = []
     for first in range(0, len(points), rows):
         some = points.of(slice(first, first + rows))
         modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
@@ -177,31 +200,19 @@ def attribute_event(points: Points, load: EventLoad, one_pass: Pass, modes: Mode
         slope = modal_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
         slope += modal_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
         load_slope = np.array([c.slope for c in counted])
-        blocks.append(
-            {
-                "damage": np.array([c.damage for c in counted]),
-                "top_cycle": np.array([c.top_cycle for c in counted]),
-                "load_slope": load_slope,
-                "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
-                "rule_slope": load_slope * some.size_exponent,
-                "mode": owed.sum(axis=2),
-                "mode_slope": slope.sum(axis=2),
-                "resonant": modal_s * _resonant_products(share, Q, frequency, modes),
-                "band": owed.sum(axis=1),
-                "band_slope": slope.sum(axis=1),
-                "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in counted]),
-            }
-        )
-    per_pass = {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
-    damage, top_cycle = per_pass["damage"], per_pass.pop("top_cycle")
-    return EventAttribution(
-        event=one_pass.event,
-        top_cycle_share=np.divide(top_cycle, damage, out=np.full_like(damage, np.nan), where=damage > 0.0),
-        edges_hz=np.array([0.0, *inner, np.inf]),
-        place_s=place_s,
-        place_km=place_km,
-        **{name: one_pass.passes_per_km * value for name, value in per_pass.items()},
-    )
+        yield {
+            "damage": np.array([c.damage for c in counted]),
+            "top_cycle": np.array([c.top_cycle for c in counted]),
+            "load_slope": load_slope,
+            "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
+            "rule_slope": load_slope * some.size_exponent,
+            "mode": owed.sum(axis=2),
+            "mode_slope": slope.sum(axis=2),
+            "resonant": modal_s * _resonant_products(share, Q, frequency, modes),
+            "band": owed.sum(axis=1),
+            "band_slope": slope.sum(axis=1),
+            "place": np.stack([np.bincount(bin_of_sample, c.place, len(place_s) - 1) for c in counted]),
+        }
 
 
 def count_credit(

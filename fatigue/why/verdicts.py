@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.life.records.history import ModalHistory
+from fatigue.life.records.history import ModalHistory, stress_record
 from fatigue.life.rule import CycleRule, ratio_factor
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.body import Body
@@ -21,6 +21,7 @@ from fatigue.spectrum.stationarity import damage_rate_by_period
 from fatigue.spectrum.surrogates import RatioSplit, explained_share, ratio_split
 from fatigue.spectrum.trust import VERDICTS, Judgement, judge, trust_matrices
 from fatigue.why.attribute import EventAttribution, count_credit
+from fatigue.why.long_record import is_long
 from fatigue.why.points import Points
 
 Floats = NDArray[np.float64]
@@ -148,7 +149,9 @@ def _split(load: EventLoad, points: Points, size: Floats, assessed: pd.DataFrame
     modal coordinates: both have the same spectra.
     """
     modal_stress = load.stress_factor * (points.membrane + points.side[:, None] * points.bending)
-    stresses = replace(load.counted, mode=np.arange(len(modal_stress)), q=modal_stress @ np.asarray(load.counted.q))
+    q = load.counted.q
+    stress = stress_record(modal_stress, q) if is_long(q) else modal_stress @ np.asarray(q)
+    stresses = replace(load.counted, mode=np.arange(len(modal_stress)), q=stress)
 
     rules = [CycleRule(rule.law, uses_bending_ratio=False) for rule in points.rule]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.records.long_interpolation import interpolate_long
-from fatigue.life.records.spool import Samples, Spool, create_spool, time_slices
+from fatigue.life.records.spool import Samples, Spool, SpoolWriter, create_spool, time_slices
 
 CACHED_NUMBERS = 125_000  # in double precision: 1 MB
 SHORTEST_CHUNK = 64  # samples
@@ -74,6 +74,21 @@ def stress_chunks(modal_stress: NDArray[np.float64], q: Samples) -> Iterator[NDA
     """Chunks (..., t) of what ``stress_history`` recovers, one after the other."""
     for chunk in cached_chunks(q):
         yield modal_stress @ chunk.astype(np.float64, copy=False)
+
+
+def stress_record(modal_stress: NDArray[np.float64], q: Samples) -> Samples:
+    """Stress histories (n, t) [MPa], in a file named ``stress`` beside a record that is on disk.
+
+    Raises
+    ------
+    DataError : the disk is full
+    """
+    if not isinstance(q, Spool):
+        return stress_history(modal_stress, q)
+    with SpoolWriter(q.path.with_name("stress"), len(modal_stress), np.dtype(np.float64)) as writer:
+        for chunk in stress_chunks(modal_stress, q):
+            writer.append(chunk)
+    return writer.spool()
 
 
 def mean_and_covariance(q: Samples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -263,12 +263,13 @@ def _count(
             solved, at, curve, key = station.solved, station.at, station.weld.curve, stored.body.key(point)
             largest, thickness = station.largest, float(solved.line.thickness[at])
             one = one_pass(point_of(solved.treated[at], largest, key[3], curve, thickness), record, rules, mean_stress)
+            if point in there:
+                counted[point].cycles.append(cycle_row(key, events[-1], one, there[point]))
+            one = replace(one, rows={})
             raw = one
             if not np.array_equal(solved.raw[at], solved.treated[at]):
                 raw = one_pass(point_of(solved.raw[at], largest, key[3], curve, thickness), record, rules, mean_stress)
-            if point in there:
-                counted[point].cycles.append(cycle_row(key, events[-1], one, there[point]))
-            counted[point].treated.append(replace(one, rows={}))
+            counted[point].treated.append(one)
             counted[point].raw_damage.append(raw.quantities["damage_per_pass"])
             counted[point].raw_bounds.append(raw.bounds["damage_per_pass"])
     return counted, events

@@ -1,5 +1,6 @@
 """Cycles of a stress history by the ``rainflow`` package, each with its own two instants."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+_AT_ONCE = 1 << 16  # samples
 _CYCLE = np.dtype([("start", np.int64), ("end", np.int64), ("count", np.float64)])
 
 
@@ -27,17 +29,24 @@ def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
     halves between the same two reversals is one cycle.
     """
     n = len(stress)
-    stress = np.ldexp(stress, -int(np.frexp(np.abs(stress).max())[1]))  # products of differences must not underflow
     first = _last_of_maximum(stress) if recurs else 0
-    path = np.concatenate([stress[first:], stress[: first + 1]]) if recurs else stress
-    cycles = ((i, j, count) for _, _, count, i, j in rainflow.extract_cycles(path))
+    length = n + 1 if recurs else n
+    cycles = ((i, j, count) for _, _, count, i, j in rainflow.extract_cycles(_path(stress, first, length)))
     found = np.fromiter(cycles, dtype=_CYCLE)  # a list would take ten times the memory
-    found = found[path[found["start"]] != path[found["end"]]]
-    if not len(found) and len(path) == 2 and path[0] != path[1]:
+    found = found[stress[(found["start"] + first) % n] != stress[(found["end"] + first) % n]]
+    if not len(found) and length == 2 and stress[0] != stress[-1]:
         found = np.array([(0, 1, 0.5)], dtype=_CYCLE)  # the package wants three samples
     if recurs:
         found = _halves_joined(found)
     return RecountCycles((found["start"] + first) % n, (found["end"] + first) % n, found["count"])
+
+
+def _path(stress: Floats, first: int, length: int) -> Iterator[float]:
+    """So many samples from one on, behind the last one the first; of order 1, for products must not underflow."""
+    exponent = -int(np.frexp(max(stress.max(), -stress.min()))[1])
+    for begin in range(0, length, _AT_ONCE):
+        at = (first + np.arange(begin, min(begin + _AT_ONCE, length))) % len(stress)
+        yield from np.ldexp(stress[at], exponent).tolist()
 
 
 def _last_of_maximum(stress: Floats) -> int:

@@ -1,6 +1,6 @@
 """One point of a weld once more: every event counted by itself, then the mission."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.anew.curve import RecountCurve, ratio_factor
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
 from fatigue.verify.recount.anew.record import RecountRecord, SpectrumRules, welch_moments
-from fatigue.verify.recount.anew.rounding import Bounds, Counted, cycle_bounds, pass_bounds, point_bounds, stress_bound
+from fatigue.verify.recount.anew.rounding import (
+    SAMPLES_AT_ONCE,
+    Bounds,
+    Counted,
+    cycle_bounds,
+    pass_bounds,
+    point_bounds,
+    stress_bound,
+)
 from fatigue.verify.recount.anew.spectral import NEARLY_ALL, dirlik, tovo_benasciutti
 
 Floats = NDArray[np.float64]
@@ -90,14 +98,15 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
     """One pass of an event at a point, counted, and estimated from its spectrum."""
     curve, size = point.curve, point.curve.size_factor(point.thickness)
     modal_stress = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist])
-    m_kept, b_kept, t_m, t_b = modal_stress @ record.kept
-    m, b = (m_kept, b_kept) if record.counted is record.kept else modal_stress[:2] @ record.counted
-    kept, s = m_kept + b_kept, m + b
+    kept = _stress(modal_stress, record.kept)
+    s = kept if record.counted is record.kept else _stress(modal_stress, record.counted)
+    covariance = _covariance(modal_stress, record.kept)
+    deviation = np.sqrt(np.diag(covariance))
 
-    one_ratio = _ratio(float(np.std(m_kept)), float(np.std(b_kept)))
+    one_ratio = _ratio(*deviation[:2])
     I_one = _factor(np.array([0.0 if np.isnan(one_ratio) else one_ratio]), curve)[0]
     cycles = count_cycles(s, recurs=record.recurs)
-    rows = _cycle_rows(cycles, m, b, record)
+    rows = _cycle_rows(cycles, modal_stress, s, record)
     S, n = rows["range_MPa"], rows["count"]
     f_M = _mean_stress_factor(s[cycles.start], s[cycles.end], mean_stress.yield_MPa)
     x = S * size / _factor(rows["bending_ratio"], curve)
@@ -131,11 +140,11 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         "irregularity": _quotient(m2, (m0 * m4) ** 0.5),
         "peaks_per_s": peaks,
         "samples_per_peak": _quotient(1.0 / record.fine_step, peaks),
-        "shear_ratio": _quotient(float(np.std(t_m + t_b)), float(np.std(kept))),
+        "shear_ratio": _quotient(deviation[5], deviation[4]),
         "power_sum": float(n @ S**k),
         "R_largest": np.nan if largest is None else _stress_ratio(s[cycles.start[largest]], s[cycles.end[largest]]),
         "with_mean_stress": float(n @ curve.damage(x / f_M)) if _is_known(mean_stress, curve) else np.nan,
-        "with_shear": float(n @ curve.damage(dS * np.nan_to_num(_shear_factor(kept, t_m, t_b, I_one, curve), nan=1.0))),
+        "with_shear": float(n @ curve.damage(dS * np.nan_to_num(_shear_factor(covariance, I_one, curve), nan=1.0))),
     }
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
     kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
@@ -143,8 +152,8 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
     counted = Counted(
         delta=stress_bound(point.largest, record.peak, record.factor),
         stress=s,
-        kept=kept,
-        parts=float(np.std(m_kept) + np.std(b_kept)),
+        deviation=float(deviation[4]),
+        parts=float(deviation[0] + deviation[1]),
         ranges=S,
         equivalent=dS,
         same_ratio=S * size / I_one,
@@ -237,11 +246,35 @@ def bounds_of_point(
     return point_bounds(*of_passes, raw_bounds, weights, values, mission, curve)
 
 
-def _cycle_rows(cycles: RecountCycles, m: Floats, b: Floats, record: RecountRecord) -> dict[str, Floats]:
+def _pieces(modal_stress: Floats, q: Floats) -> Iterator[Floats]:
+    """Stresses (4, u) of some samples after the other: histories of all of them would be four times the record."""
+    for first in range(0, q.shape[1], SAMPLES_AT_ONCE):
+        yield modal_stress @ q[:, first : first + SAMPLES_AT_ONCE]
+
+
+def _stress(modal_stress: Floats, q: Floats) -> Floats:
+    """Sum of membrane and bending stress, (t,)."""
+    s, first = np.empty(q.shape[1]), 0
+    for m, b in _pieces(modal_stress[:2], q):
+        s[first : first + len(m)] = m + b
+        first += len(m)
+    return s
+
+
+def _covariance(modal_stress: Floats, q: Floats) -> Floats:
+    """Covariance (6, 6) of membrane, bending, shear in the plane and by twist, and of the sums of either two."""
+
+    def six() -> Iterator[Floats]:
+        return (np.stack([*s, s[0] + s[1], s[2] + s[3]]) for s in _pieces(modal_stress, q))
+
+    mean = sum(s.sum(axis=1, keepdims=True) for s in six()) / q.shape[1]
+    return np.asarray(sum((s - mean) @ (s - mean).T for s in six()) / q.shape[1])
+
+
+def _cycle_rows(cycles: RecountCycles, modal_stress: Floats, s: Floats, record: RecountRecord) -> dict[str, Floats]:
     """Ranges of every cycle between its own two instants."""
     i, j = cycles.start, cycles.end
-    s = m + b
-    dm, db = np.abs(m[j] - m[i]), np.abs(b[j] - b[i])
+    dm, db = np.abs(modal_stress[:2] @ record.counted[:, j] - modal_stress[:2] @ record.counted[:, i])
     return {
         "start_s": record.start + record.fine_step * i,
         "end_s": record.start + record.fine_step * j,
@@ -291,12 +324,12 @@ def _load_factor(
     return float(np.exp(lower))
 
 
-def _shear_factor(kept: Floats, t_m: Floats, t_b: Floats, I_one: float, curve: RecountCurve) -> float:
+def _shear_factor(of_stresses: Floats, I_one: float, curve: RecountCurve) -> float:
     """Factor of ASME VIII-2 5.5.5.3 on the range: principal variances of the path in the plane (sigma, sqrt(3) tau)."""
-    ratio = _ratio(float(np.std(t_m)), float(np.std(t_b)))
+    ratio = _ratio(*np.sqrt(np.diag(of_stresses)[2:4]))
     I_t = _factor(np.array([0.0 if np.isnan(ratio) else ratio]), curve)[0]
-    path = np.stack([kept / I_one, np.sqrt(3.0) * (t_m + t_b) / I_t])
-    covariance = np.cov(path, bias=True)
+    scale = np.array([1.0 / I_one, np.sqrt(3.0) / I_t])
+    covariance = of_stresses[4:, 4:] * np.outer(scale, scale)
     largest = np.linalg.eigvalsh(covariance)[-1]
     total = np.trace(covariance)
     if not covariance[0, 0] > 0:
@@ -324,9 +357,12 @@ def _factor(r: Floats, curve: RecountCurve) -> Floats:
 
 
 def _kurtosis(s: Floats) -> float:
-    deviation = s - s[0]  # first, so that a stress that stands still has none
-    deviation -= deviation.mean()
-    return _quotient(float(np.mean(deviation**4)), float(np.mean(deviation**2) ** 2))
+    def deviations(of: float) -> Iterator[Floats]:  # from the first, so that a stress that stands still has none
+        return (s[i : i + SAMPLES_AT_ONCE] - s[0] - of for i in range(0, len(s), SAMPLES_AT_ONCE))
+
+    mean = sum(d.sum() for d in deviations(0.0)) / len(s)
+    second, fourth = (float(sum((d**power).sum() for d in deviations(mean))) / len(s) for power in (2, 4))
+    return _quotient(fourth, second**2)
 
 
 def _stress_ratio(a: float, b: float) -> float:

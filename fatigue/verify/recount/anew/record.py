@@ -68,10 +68,13 @@ def spectrum_rules(case: Mapping[str, Any], modes: RecountModes, step: float) ->
 
 def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float) -> RecountRecord:
     """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
-    time, q = _read(inputs.folder / event["history"], modes.mode.tolist())
-    step = (time[-1] - time[0]) / (len(time) - 1)
+    path = inputs.folder / event["history"]
+    time = np.concatenate([piece["time_s"].to_numpy(dtype=float) for piece in read_pieces(path, ["time_s"])])
+    samples, step = len(time), float((time[-1] - time[0]) / (len(time) - 1))
     first = int(np.argmax(time - time[0] >= event.get("start_s", 0.0) - step / 2))
-    q = q[:, first:]
+    start = float(time[first])
+    del time  # as long as a mode
+    q = _coordinates(path, modes.mode.tolist(), samples)[:, first:]
 
     by_number = "per_1000_km" in event
     by_default = "half" if by_number else inputs.case.get("counting", {}).get("residue", "repeat")
@@ -82,25 +85,26 @@ def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountM
         name=event["name"],
         kept=q,
         step=step,
-        start=float(time[first]),
+        start=start,
         counted=finer(q, upsample, recurs=recurs),
         fine_step=step / upsample,
         recurs=recurs,
         factor=event.get("stress_factor", 1.0),
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
-        peak=np.abs(q).max(axis=1),
+        peak=np.maximum(q.max(axis=1), -q.min(axis=1)),
     )
 
 
-def _read(path: Path, modes: list[int]) -> tuple[Floats, Floats]:
-    """Times (t,) and coordinates (m, t) of a history, piece by piece: a frame of all of them would be as much again."""
-    times, parts = [], []
+def _coordinates(path: Path, modes: list[int], samples: int) -> Floats:
+    """Coordinates (m, t) of a history, piece by piece: a frame of all of them would be as much again."""
+    q, first = np.empty((len(modes), samples)), 0
     for piece in read_pieces(path):
         columns = {int(name[2:]): name for name in piece.columns if name.startswith("q_")}
-        times.append(piece["time_s"].to_numpy(dtype=float))
-        parts.append(np.stack([piece[columns[mode]].to_numpy(dtype=float) for mode in modes]))
-    return np.concatenate(times), np.concatenate(parts, axis=1)
+        for row, mode in zip(q, modes, strict=True):
+            row[first : first + len(piece)] = piece[columns[mode]].to_numpy(dtype=float)
+        first += len(piece)
+    return q
 
 
 def _upsample(asked: int | str, step: float, fastest: float) -> int:
