@@ -181,8 +181,10 @@ def _blocks(
     frequency = coefficient_frequencies(q.shape[1], load.counted.step, residue)
     bands = band_slices(frequency, edges_hz)
     Q = coefficients(q, residue)
-    time = load.counted.start + load.counted.step * np.arange(q.shape[1])
-    bin_of_sample = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place_s) - 2)
+    bin_of_sample = np.searchsorted(
+        place_s, load.counted.start + load.counted.step * np.arange(q.shape[1]), side="right"
+    )
+    bin_of_sample = np.clip(bin_of_sample - 1, 0, len(place_s) - 2)
 
     rows = max(1, _SAMPLES_AT_ONCE // q.shape[1])  # of the record only: the numbers are the same on every machine
     for first in range(0, len(points), rows):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.attribution import CycleCredit, cycle_credit
 from fatigue.life.counting.long_rainflow import Piece, long_cycles
-from fatigue.life.records.history import Residue, stress_record
+from fatigue.life.records.history import LONG_NUMBERS, LONGEST_TRANSFORM, Residue, stress_record
 from fatigue.life.records.long_transform import AT_ONCE
 from fatigue.life.records.spool import CHUNK, Samples, Spool, create_spool, time_slices
 from fatigue.life.rule import CycleRule
@@ -25,7 +25,6 @@ from fatigue.why.points import Points
 
 Floats = NDArray[np.float64]
 
-LONG_NUMBERS = 4_000_000  # of a record, samples times modes: 32 MB in double precision, some times over
 STRESS_AT_ONCE = 4_000_000  # samples of the points that are shared out together
 COUNTED_AT_ONCE = 16 * CHUNK  # samples
 _SIGNS = np.array([-1.0, 1.0])  # at the start and at the end of a cycle
@@ -52,7 +51,8 @@ class _Sums(NamedTuple):
 
 def is_long(q: Samples) -> TypeGuard[Spool]:
     """Whether modal coordinates are on disk, and too many to be held in memory in double precision."""
-    return isinstance(q, Spool) and q.shape[0] * q.shape[1] > LONG_NUMBERS
+    modes, samples = q.shape
+    return isinstance(q, Spool) and (samples > LONGEST_TRANSFORM or modes * samples > LONG_NUMBERS)
 
 
 def long_blocks(

@@ -295,8 +295,8 @@ def test_bounds_of_a_screened_point_must_hold(copy_of_short):
 def test_dirlik_of_a_screened_point_is_exact(copy_of_short):
     """The frequency domain is computed for every point, so it has no safe side."""
     screen(copy_of_short, 1.0)
-    edit(copy_of_short, "nodes", lambda frame: frame.assign(life_km_dirlik=frame["life_km_dirlik"] * 0.99))
-    assert differing(recount(copy_of_short, sample=None)) == {"nodes.life_km_dirlik"}
+    edit(copy_of_short, "nodes", lambda frame: frame.assign(dirlik_ratio=frame["dirlik_ratio"] * 0.99))
+    assert differing(recount(copy_of_short, sample=None)) == {"nodes.dirlik_ratio"}
 
 
 # --------------------------------------------------------------------------------------------------------- inputs

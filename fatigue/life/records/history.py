@@ -13,6 +13,7 @@ from fatigue.life.records.spool import Samples, Spool, SpoolWriter, create_spool
 
 CACHED_NUMBERS = 125_000  # in double precision: 1 MB
 SHORTEST_CHUNK = 64  # samples
+LONG_NUMBERS = 4_000_000  # of a record on disk that is diagnosed there: in double precision 32 MB, some times over
 LONGEST_TRANSFORM = 1_000_000  # samples of a record on disk whose transforms are made in memory: 56 MB
 
 Residue = Literal["repeat", "half"]

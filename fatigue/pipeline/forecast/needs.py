@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fatigue.life.records.history import LONGEST_TRANSFORM
+from fatigue.life.records.history import LONG_NUMBERS, LONGEST_TRANSFORM
 from fatigue.pipeline.count.result import OF_EVENT
 from fatigue.pipeline.forecast.size import JobSize
 from fatigue.pipeline.mission.event_load import held_copies
@@ -35,7 +35,8 @@ MOST_WAITING = 70.0 * MB
 CYCLES_LISTED = 100.0  # bytes for each sample of a record whose cycles are listed in memory
 LONGEST_LISTED = 1_000_000  # samples of such a record
 ROW = {"nodes": 250.0, "damage": 180.0, "structural_stress": 90.0, "cycle": 60.0}  # bytes of a row of a result
-DIAGNOSED, DIAGNOSED_MODE = 130.0, 12.0  # bytes for each sample of the longest record: alone, for each mode
+DIAGNOSED, DIAGNOSED_MODE = 130.0, 12.0  # bytes for each sample of a record in memory: alone, for each mode
+DIAGNOSED_LONG = 200.0 * MB  # of any record on disk
 CYCLES_PER_SAMPLE = 1 / 6  # of a record that is sampled twelve times a cycle
 
 # Processor time [s] on a core of 2 to 3 GHz
@@ -87,7 +88,14 @@ def job_needs(size: JobSize) -> JobNeeds:
 
 def diagnosis_memory(size: JobSize) -> float:
     """Memory of a diagnosis [bytes]: one record, its transform, and the damage of a point laid on its samples."""
-    return IMPORTS + (DIAGNOSED + DIAGNOSED_MODE * size.modes) * max(size.counted)
+    return IMPORTS + max(_diagnosed(size.modes, n) for n in size.counted)
+
+
+def _diagnosed(modes: int, samples: int) -> float:
+    """Memory for the diagnosis of one record; a long one stays on disk."""
+    if modes * samples > LONG_NUMBERS or (samples > LONGEST_TRANSFORM and 4 * modes * samples > HELD_BYTES):
+        return DIAGNOSED_LONG
+    return (DIAGNOSED + DIAGNOSED_MODE * modes) * samples
 
 
 def held_records(size: JobSize) -> float:
