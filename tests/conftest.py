@@ -17,7 +17,7 @@ EXAMPLE = Path(__file__).parents[1] / "data" / "carbody"
 @pytest.hookimpl(tryfirst=True)
 def pytest_cmdline_main(config: pytest.Config) -> None:
     """Run the whole suite on all processors, what is named on the command line in one process: that begins sooner."""
-    is_whole = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    is_whole = config.args_source is pytest.Config.ArgsSource.TESTPATHS and "PYTEST_XDIST_WORKER" not in os.environ
     can_share = config.pluginmanager.hasplugin("xdist") and not config.option.usepdb
     if is_whole and can_share and config.option.numprocesses is None:
         processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
