@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from fatigue.errors import DataError
 from fatigue.life.records import spool
-from fatigue.life.records.spool import Spool, create_spool, time_slices
+from fatigue.life.records.spool import Spool, SpoolWriter, create_spool, time_slices
 
 
 def spooled(q, path: Path) -> Spool:
@@ -19,6 +19,21 @@ def spooled(q, path: Path) -> Spool:
     made = create_spool(path, q.shape, q.dtype)
     made[:, :] = q
     return made
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.integers(0, 20), max_size=6), st.integers(1, 4), st.sampled_from([np.float32, np.float64]))
+def test_what_is_appended_is_there_in_its_order(tmp_path_factory, widths, modes, kind):
+    """Parts of any width, shorter and longer than a chunk, one after the other."""
+    parts = [np.random.default_rng(i).normal(size=(modes, width)).astype(kind) for i, width in enumerate(widths)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(spool, "CHUNK", 7)
+        with SpoolWriter(tmp_path_factory.mktemp("q") / "new" / "q", modes, np.dtype(kind)) as writer:
+            for part in parts:
+                writer.append(part)
+        found = writer.spool()
+        assert (found.shape, found.dtype) == ((modes, sum(widths)), kind)
+        np.testing.assert_array_equal(np.asarray(found), np.concatenate([np.empty((modes, 0), kind), *parts], axis=1))
 
 
 @settings(deadline=None, max_examples=60)
