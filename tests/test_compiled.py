@@ -67,6 +67,7 @@ for name, found in sums.items():
 
 
 @pytest.mark.parametrize(("script", "lines"), [(SCRIPT, 10), (SUMS, 7)], ids=["tables", "sums"])
+@pytest.mark.slow
 def test_the_process_that_compiles_writes_the_same_bytes_as_those_after_it(tmp_path, script, lines):
     """Tables of both counters, with bounds; sums one by one; the second process reads compiled code from disk."""
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "machine-code")}
@@ -120,6 +121,7 @@ def test_machine_code_older_than_a_source_file_is_removed(room, changed, age_s, 
     assert (room / "inner" / "__pycache__" / "loops.add-3.py311.nbi").exists() == stays
 
 
+@pytest.mark.slow
 def test_a_changed_formula_is_compiled_anew(tmp_path):
     """Two files, the loop in one and what it calls in the other: machine code on disk follows the other one, too."""
     (tmp_path / "called.py").write_text("def factor(x):\n    return 2.0 * x\n")

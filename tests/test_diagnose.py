@@ -404,6 +404,7 @@ def test_refuses_rows_too_many(tmp_path, table):
         diagnose(tmp_path / "result")
 
 
+@pytest.mark.slow
 def test_what_the_example_says_at_a_hanger_and_at_the_roof_bracket(example_result):
     """Worn wheels at 9.2 Hz on a seventh of the track break the hangers, broad-band running the roof bracket."""
     model = read_model(load_case(EXAMPLE / "case.toml"), strict=False)

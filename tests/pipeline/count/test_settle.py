@@ -183,6 +183,7 @@ def test_the_record_says_what_was_settled_how(results):
     assert rule["stations"] == {"counted": top[""], **{k: int(top.get(k, 0)) for k in ("modal bound", "weld bound")}}
 
 
+@pytest.mark.slow
 def test_an_independent_recount_finds_the_bounds_safe(results):
     """`fatigue verify --results` accepts the screened result, all points."""
     found = recount(results / "screened", sample=None)

@@ -34,6 +34,7 @@ def cluster():
         yield cluster
 
 
+@pytest.mark.slow
 def test_two_workers_write_the_same_bytes(tmp_path, cluster):
     """From the command line, on an existing scheduler."""
     path = small_case(pairs=8).write(tmp_path / "case")
@@ -47,6 +48,7 @@ def test_two_workers_write_the_same_bytes(tmp_path, cluster):
     assert digests(tmp_path / "cluster") == digests(tmp_path / "threads")
 
 
+@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_loses_nothing(tmp_path, cluster):
     """The other one takes over, and the bytes are the same."""
     path = small_case(seconds=60.0, pairs=16).write(tmp_path / "case")
@@ -98,6 +100,7 @@ def certificates(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_certificates_let_in_who_has_one_and_nobody_else(tmp_path, certificates):
     """Over TLS the same bytes, certificates by dask's configuration, no warning; without one a line says what lacks."""
     distributed = pytest.importorskip("distributed")

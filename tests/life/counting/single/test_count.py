@@ -132,6 +132,7 @@ def assert_same(fast: BlockCount, exact: BlockCount, rtol: float = 1e-6) -> None
 
 @pytest.mark.parametrize("residue", RESIDUES)
 @pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.slow
 def test_adversarial_histories_count_as_in_double_precision(kind: str, residue: Residue) -> None:
     """Every field, in histories of some hundred samples."""
     rng = np.random.default_rng(KINDS.index(kind))
