@@ -2,7 +2,6 @@
 
 import numpy as np
 from scipy.integrate import quad
-from scipy.interpolate import lagrange
 from scipy.optimize import brentq
 
 
@@ -22,7 +21,8 @@ def edge_list(line):
 def edge_functions(line, edge):
     """Shape functions of one edge and its |dx/dxi|, as functions of xi in [-1, 1]."""
     stations = np.linspace(-1, 1, len(edge))
-    shape = [lagrange(stations, np.eye(len(edge))[i]) for i in range(len(edge))]
+    at_one_node = np.linalg.solve(np.vander(stations), np.eye(len(edge)))  # coefficients: 1 there, 0 at the others
+    shape = [np.poly1d(coefficients) for coefficients in at_one_node.T]
     slope = [function.deriv() for function in shape]
 
     def speed(xi):
