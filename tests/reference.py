@@ -37,12 +37,16 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
 )
 CASE_TABLES = {  # of case.toml, and the models that describe them
     "[body]": "Body",
+    "[[body.unit_load]]": "UnitLoad",
     "[curve]": "Curve",
     "[curves.NAME]": "CustomCurve",
     "[counting]": "Counting",
     "[spectrum]": "Spectrum",
     "[mission]": "Mission",
     "[[mission.event]]": "Event",
+    "[[mission.event.unit_load]]": "GivenLoad",
+    "[[mission.unit_load]]": "MissionLoad",
+    "[[mission.sequence]]": "Sequence",
 }
 
 

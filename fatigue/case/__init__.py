@@ -1,6 +1,7 @@
 """A case: what is assessed, with which curve, over which mission.
 
-``tables`` are the tables of ``case.toml`` as frozen models, ``load`` reads and checks a case file, ``problems`` says
+``tables`` are the tables of ``case.toml`` as frozen models, ``unit_loads`` and ``sequences`` those of loads beside the
+modes and of the order of events, ``load`` reads and checks a case file, ``problems`` says
 what is wrong with it in the words of the file, ``plausibility`` what is allowed and hardly meant.
 """
 

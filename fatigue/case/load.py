@@ -11,7 +11,9 @@ from pydantic import BaseModel, ValidationError
 
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
+from fatigue.case.sequences import Sequence
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
+from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.files.mishaps import refusal
 from fatigue.files.misplaced import misplaced
@@ -30,6 +32,10 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
     ("spectrum",): Spectrum,
     ("mission",): Mission,
     ("mission", "event"): Event,
+    ("mission", "sequence"): Sequence,
+    ("mission", "unit_load"): MissionLoad,
+    ("mission", "event", "unit_load"): GivenLoad,
+    ("body", "unit_load"): UnitLoad,
 }
 
 

@@ -6,63 +6,47 @@ Nothing is converted silently: a text is never taken for a number, and an unknow
 import itertools
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Literal, Self, TypeAlias
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
+from pydantic import Field, PrivateAttr, field_validator
 
-from fatigue.case.problems import Contradictions, absent, clash, path_problems
+from fatigue.case.problems import absent, clash, path_problems
+from fatigue.case.sequences import Sequence
+from fatigue.case.table import NotNegative, Positive, Table, Text
+from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import Problem
 from fatigue.life.curves import Applies, Extension, Survival, ThicknessRule
 from fatigue.life.records.history import Residue
 
 BODY_FILES = ("modes", "welds", "weld_nodes", "nodal_forces", "element_forces", "weld_elements", "nodes", "elements")
+MeanOfQ = Literal["keep", "remove"]
 LARGEST_UPSAMPLE = 64  # peaks come at half the sampling rate at most: 128 samples per peak, of the damage 1e-4 k lost
 
-_Positive: TypeAlias = Annotated[float, Field(gt=0)]
-_NotNegative: TypeAlias = Annotated[float, Field(ge=0)]
-_Text: TypeAlias = Annotated[str, Field(min_length=1)]
 
-
-class _Table(BaseModel):
-    """One table of the case: no unknown key, no conversion, no NaN or infinity, never changed once read."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-    @model_validator(mode="after")
-    def _agrees_with_itself(self) -> Self:
-        if problems := list(self._contradictions()):
-            raise Contradictions(problems)
-        return self
-
-    def _contradictions(self) -> Iterator[Problem]:
-        """Refusals of keys of this table that are fine alone and wrong together."""
-        yield from ()
-
-
-class Body(_Table):
+class Body(Table):
     """The flexible body: files in the neutral format, relative to the case file."""
 
-    modes: _Text = Field(description="the file of the modes (.parquet or .csv)")
-    welds: _Text = Field(description="the file of the welds (.parquet or .csv)")
-    weld_nodes: _Text = Field(description="the file of the nodes of every weld line (.parquet or .csv)")
-    nodal_forces: _Text | None = Field(
+    modes: Text = Field(description="the file of the modes (.parquet or .csv)")
+    welds: Text = Field(description="the file of the welds (.parquet or .csv)")
+    weld_nodes: Text = Field(description="the file of the nodes of every weld line (.parquet or .csv)")
+    nodal_forces: Text | None = Field(
         default=None, description="the file of modal nodal forces [N, N mm], summed over the assessed plate side"
     )
-    element_forces: _Text | None = Field(
+    element_forces: Text | None = Field(
         default=None, description="the file of modal element nodal forces [N, N mm], one row per element corner"
     )
-    weld_elements: _Text | None = Field(
+    weld_elements: Text | None = Field(
         default=None, description="the file of the elements of each weld's assessed side"
     )
-    nodes: _Text | None = Field(
+    nodes: Text | None = Field(
         default=None,
         description="the file of all nodes [mm], for the balance check, the comparison with the welds and pictures",
     )
-    elements: _Text | None = Field(
+    elements: Text | None = Field(
         default=None,
         description="the file of the elements' nodes and thickness, for the comparison with the welds and pictures",
     )
-    weld_register: _Text | None = Field(
+    weld_register: Text | None = Field(
         default=None,
         alias="register",  # which is a method of every class that has abstract ones
         description="the weld register (.csv), by default the welds_register.csv beside the welds if there is one",
@@ -73,6 +57,9 @@ class Body(_Table):
     )
     ignore_modes: Annotated[tuple[int, ...], Field(strict=False)] = Field(
         default=(), description="a list of mode ids left out of the forces and of the histories"
+    )
+    unit_load: Annotated[tuple[UnitLoad, ...], Field(strict=False)] = Field(
+        default=(), description="one [[body.unit_load]] table per load beside the modes"
     )
 
     def _contradictions(self) -> Iterator[Problem]:
@@ -93,10 +80,10 @@ class Body(_Table):
             yield absent("nodes", what, "Give the file of the nodes the elements refer to")
 
 
-class Curve(_Table):
+class Curve(Table):
     """The S-N curve of every weld that names no other, and how it is used."""
 
-    name: _Text = Field(description="the key of a curve of the catalogue or of [curves]")
+    name: Text = Field(description="the key of a curve of the catalogue or of [curves]")
     survival: Survival | None = Field(
         default=None,
         description="the survival level; left out: mean-2sigma on curves with scatter, as tabulated on the others",
@@ -107,13 +94,13 @@ class Curve(_Table):
     extension: Extension = Field(
         default="none", description="the curve beyond knee_cycles: 'none', 'haibach' or 'cutoff'"
     )
-    knee_cycles: _Positive = Field(
+    knee_cycles: Positive = Field(
         default=1e7, description="the number of cycles [-] at the knee of the extension, above 0"
     )
     mean_stress: Literal["none", "asme"] = Field(
         default="none", description="the mean stress correction: 'none' or 'asme'"
     )
-    yield_MPa: _Positive | None = Field(  # noqa: N815  (the unit keeps its spelling)
+    yield_MPa: Positive | None = Field(  # noqa: N815  (the unit keeps its spelling)
         default=None, description="the yield strength [MPa], above 0"
     )
 
@@ -123,31 +110,31 @@ class Curve(_Table):
             yield absent("yield_MPa", what, "Give the yield strength [MPa] or set mean_stress = 'none'")
 
 
-class CustomCurve(_Table):
+class CustomCurve(Table):
     """An S-N curve of the user: straight lines in log-log, the first one fixed by its range at 2e6 cycles."""
 
-    slopes: Annotated[tuple[_Positive, ...], Field(strict=False, min_length=1)] = Field(
+    slopes: Annotated[tuple[Positive, ...], Field(strict=False, min_length=1)] = Field(
         description="a list of the slopes [-] from large ranges to small ones, each above 0"
     )
-    knees_cycles: Annotated[tuple[_Positive, ...], Field(strict=False)] = Field(
+    knees_cycles: Annotated[tuple[Positive, ...], Field(strict=False)] = Field(
         default=(),
         description="a list of the cycles [-] at the knees, ascending; as many as slopes: the last one is a cut-off",
     )
-    range_at_2e6_MPa: _Positive = Field(  # noqa: N815
+    range_at_2e6_MPa: Positive = Field(  # noqa: N815
         description="the range at 2e6 cycles, of stress [MPa] or of dS [MPa mm^-0.222], above 0"
     )
     applies: Applies = Field(
         description="the range the curve is for: 'structural' (stress) or 'dS' (equivalent structural stress)"
     )
-    source: _Text = Field(description="the source: document, edition, clause")
-    log10_scatter: _Positive | None = Field(
+    source: Text = Field(description="the source: document, edition, clause")
+    log10_scatter: Positive | None = Field(
         default=None,
         description="the standard deviation of log10 of the cycles [-], above 0; the curve is then the mean",
     )
-    thickness_reference_mm: _Positive | None = Field(
+    thickness_reference_mm: Positive | None = Field(
         default=None, description="the thickness [mm] above which the range is increased by (t / reference) ^ exponent"
     )
-    thickness_exponent: _NotNegative | None = Field(default=None, description="the thickness exponent [-], at least 0")
+    thickness_exponent: NotNegative | None = Field(default=None, description="the thickness exponent [-], at least 0")
 
     def _contradictions(self) -> Iterator[Problem]:
         knees, slopes = self.knees_cycles, self.slopes
@@ -162,12 +149,20 @@ class CustomCurve(_Table):
             yield absent(without, what, "Give both or neither")
 
 
-class Counting(_Table):
+class Counting(Table):
     """How cycles are counted."""
 
     residue: Residue = Field(default="repeat", description="the treatment of the residue: 'repeat' or 'half'")
     upsample: Annotated[int, Field(ge=1, le=LARGEST_UPSAMPLE)] | Literal["auto"] = Field(
         default=1, description=f"the upsampling factor before counting: 1, 2, 4 ... {LARGEST_UPSAMPLE} or 'auto'"
+    )
+    mean_of_q: MeanOfQ = Field(
+        default="keep",
+        description="the time means of the modal coordinates in means and stress ratios: 'keep' or 'remove'",
+    )
+    reversals: Literal["samples", "vertex"] = Field(
+        default="samples",
+        description="where a reversal is read: at its 'samples', or at the 'vertex' of the parabola through three",
     )
 
     @field_validator("upsample", mode="before")
@@ -184,40 +179,53 @@ class Counting(_Table):
         return value
 
 
-class Spectrum(_Table):
+class Spectrum(Table):
     """How spectra are estimated: Hann windows, 50 % overlap, constant detrend."""
 
-    segment_s: _Positive = Field(default=4.0, description="the length of one segment [s], above 0")
-    upper_hz: _Positive | None = Field(
+    segment_s: Positive = Field(default=4.0, description="the length of one segment [s], above 0")
+    upper_hz: Positive | None = Field(
         default=None,
         description="the upper frequency [Hz], above 0; left out: 0.4 of the sampling rate or 1.5 x the highest normal "
         "mode, whichever is lower",
     )
 
 
-class Event(_Table):
+class Event(Table):
     """One operating condition: a history that recurs over a share of the mileage, or so many times per 1000 km."""
 
-    name: _Text = Field(description="a name of the event, unique in the mission")
-    history: _Text = Field(description="the file of the modal coordinates over time (.parquet or .csv)")
+    name: Text = Field(description="a name of the event, unique in the mission")
+    history: Text = Field(description="the file of the modal coordinates over time (.parquet or .csv)")
     share: Annotated[float, Field(ge=0, le=1)] | None = Field(
         default=None, description="the share of the mileage [-], 0 to 1; all shares sum to 1"
     )
-    speed_km_h: _Positive | None = Field(default=None, description="the speed [km/h], above 0")
-    length_km: _Positive | None = Field(
+    speed_km_h: Positive | None = Field(default=None, description="the speed [km/h], above 0")
+    length_km: Positive | None = Field(
         default=None, description="the length [km] of the kept part of the history, above 0"
     )
-    per_1000_km: _NotNegative | None = Field(
+    per_1000_km: NotNegative | None = Field(
         default=None, description="how often the event happens in 1000 km [-], at least 0, instead of a share"
     )
-    start_s: _NotNegative = Field(
+    start_s: NotNegative = Field(
         default=0.0, description="the time [s] cut off at the start of the history, at least 0"
     )
-    stress_factor: _Positive = Field(default=1.0, description="the factor [-] on all stresses of the event, above 0")
+    stress_factor: Positive = Field(default=1.0, description="the factor [-] on all stresses of the event, above 0")
     residue: Residue | None = Field(
         default=None,
         description="the treatment of the residue of this event: 'repeat' or 'half'; left out: that of [counting], "
         "or 'half' for an event counted by number",
+    )
+    mean_of_q: MeanOfQ | None = Field(
+        default=None,
+        description="the time means of the modal coordinates of this event: 'keep' or 'remove'; left out: as in "
+        "[counting]",
+    )
+    stints_per_1000_km: NotNegative | None = Field(
+        default=None,
+        description="how often in 1000 km the event follows on another one [-], in an order that is not known, at "
+        "least 0",
+    )
+    unit_load: Annotated[tuple[GivenLoad, ...], Field(strict=False)] = Field(
+        default=(), description="one [[mission.event.unit_load]] table per unit load that the event gives"
     )
 
     def _contradictions(self) -> Iterator[Problem]:
@@ -238,20 +246,24 @@ class Event(_Table):
                 yield clash(key, what, "Remove it, or give a share instead of per_1000_km")
 
 
-class Mission(_Table):
+class Mission(Table):
     """What the vehicle does, and how long it has to last."""
 
-    target_km: _Positive = Field(description="the target mileage [km], above 0")
-    km_per_year: _Positive = Field(description="the mileage per year [km], above 0")
-    damage_limit: _Positive = Field(
-        default=1.0, description="the allowed damage sum [-] at the target mileage, above 0"
-    )
+    target_km: Positive = Field(description="the target mileage [km], above 0")
+    km_per_year: Positive = Field(description="the mileage per year [km], above 0")
+    damage_limit: Positive = Field(default=1.0, description="the allowed damage sum [-] at the target mileage, above 0")
     event: Annotated[tuple[Event, ...], Field(strict=False, min_length=1)] = Field(
         description="one [[mission.event]] table per operating condition"
     )
+    unit_load: Annotated[tuple[MissionLoad, ...], Field(strict=False)] = Field(
+        default=(), description="one [[mission.unit_load]] table per unit load that is constant in the whole mission"
+    )
+    sequence: Annotated[tuple[Sequence, ...], Field(strict=False)] = Field(
+        default=(), description="one [[mission.sequence]] table per known order of events"
+    )
 
 
-class Case(_Table):
+class Case(Table):
     """One assessment: body, curve, counting and mission, with the text and the place they came from."""
 
     title: str = Field(default="Untitled", description="the title of the report")
@@ -295,3 +307,7 @@ class Case(_Table):
         if event.residue is not None:
             return event.residue
         return self.counting.residue if event.per_1000_km is None else "half"
+
+    def mean_of_q(self, event: Event) -> MeanOfQ:
+        """What is done with the time means of the modal coordinates of an event: its own rule, else the common one."""
+        return self.counting.mean_of_q if event.mean_of_q is None else event.mean_of_q

@@ -30,6 +30,7 @@ class EventLoad:
     stress_factor : partial or allowance factor on all stresses of the event
     duration : duration of one pass [s]
     mean : (m,) time mean of q over the kept samples
+    offset : (m,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
     covariance : (m, m) covariance of q over the kept samples
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
     is_upsampled : whether mean and covariance are of other samples than those that are counted
@@ -44,6 +45,7 @@ class EventLoad:
     stress_factor: float
     duration: float
     mean: NDArray[np.float64]
+    offset: NDArray[np.float64]
     covariance: NDArray[np.float64]
     is_upsampled: bool
     moments: MomentMatrices | None
@@ -104,6 +106,7 @@ def prepare_event(
         stress_factor=how.stress_factor,
         duration=history.duration,
         mean=mean,
+        offset=np.zeros(len(mean)),
         covariance=covariance,
         is_upsampled=counted is not history,
         moments=moments,

@@ -11,6 +11,7 @@ from fatigue.files.look_alike import name_warnings
 from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
@@ -49,6 +50,11 @@ class Body:
     conversion: Mapping[str, Any] | None
     strict: bool
     warnings: tuple[Problem, ...]
+
+    @property
+    def coordinates(self) -> Coordinates:
+        """Modes and unit loads: what the stress of the body is a sum over."""
+        return Coordinates(self.modes, tuple(load.name for load in self.case.body.unit_load))
 
     @property
     def excluded(self) -> tuple[RegisterRow, ...]:
