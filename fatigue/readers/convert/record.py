@@ -3,12 +3,13 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
 from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
+from fatigue.readers.convert.inputs import ForeignInputs
+from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.option_fields import words_of
 from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.neutral.forces.convention import Convention
@@ -18,7 +19,7 @@ from fatigue.readers.neutral.register.weld_register import RegisterRow
 
 def conversion_record(
     options: ConvertOptions,
-    inputs: Iterable[Path],
+    inputs: ForeignInputs,
     convention: Convention,
     audit: Audit,
     warnings: Iterable[Problem],
@@ -26,12 +27,26 @@ def conversion_record(
 ) -> dict[str, Any]:
     """What ``convert.json`` holds besides the hashes of the files that were written."""
     return {
-        "inputs": {str(path): sha256(path) for path in inputs},
+        "inputs": {str(path): sha256(path) for path in inputs.files(options)},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in audit.rows],
         "remarks": [str(problem) for problem in warnings],
+        "unit_loads": [load_record(load) for load in inputs.unit_loads],
         LINES: _lines_of_welds(welds),
         COMMAND: words_of(options),
+    }
+
+
+def load_record(load: UnitLoad) -> dict[str, Any]:
+    """What a unit load is, and what it was made of."""
+    return {
+        "name": load.name,
+        "unit": load.unit,
+        "is_unit_known": load.is_unit_known,
+        "amount": load.amount,
+        "subcase": load.case.subcase,
+        "file": load.case.source,
+        **asdict(load.case.heading),
     }
 
 
