@@ -232,6 +232,26 @@ WELDS = (
     Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
 )
 
+HISTOGRAM = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column("kind", "text", "-", "of which range: S, structural stress; dS, equivalent range, the one of the damage"),
+    Column(
+        "bin",
+        "int",
+        "-",
+        "class b of ranges from 10^(b/64 - 3) to 10^((b+1)/64 - 3) [MPa, or MPa mm^-0.222 for dS]; the first begins at "
+        "0, the last, 511, has no end; only classes with cycles",
+    ),
+    Column("count_per_pass", "float", "-", "sum n: cycles of one pass in this class"),
+    Column(
+        "power_sum_per_pass",
+        "float",
+        "MPa^k",
+        "sum n x^k of their ranges x, k the first slope of the curve; in double precision",
+    ),
+)
+
 _CHOSEN = Column(
     "chosen",
     "text",
@@ -367,4 +387,5 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "diagnosis": DIAGNOSIS,
     "levers": LEVERS,
 }
-TABLES = ASSESSED | DIAGNOSED
+OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED

@@ -14,7 +14,8 @@ from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
-from fatigue.pipeline.count.worst import worst_points
+from fatigue.pipeline.count.worst import histogram_points, worst_points
+from fatigue.pipeline.forecast.needs import PER_STRESS_SAMPLE
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
@@ -49,7 +50,8 @@ class JobTime:
     """Processor time [s] of an assessment by what it is spent on; on n idle cores all but the first and last shrink.
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
-    ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
+    ``counting_exact`` with ``--exact``, and once more at the points of histograms; ``tables`` and ``report``: written.
+    ``screened`` says whether bounds settle
     points by default, ``upsample`` is the factor by which records are upsampled, found at the longest one.
     """
 
@@ -132,11 +134,15 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
     cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
+    worst = worst_points(model.stations, result)
+    binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
+    alone, each = PER_STRESS_SAMPLE[False]
+    binning_s = 2 * binned * upsampled * (alone + each * len(body.modes.mode))
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
-        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled),
-        counting_exact=of_groups * exact.of(events, upsampled),
+        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled) + binning_s,
+        counting_exact=of_groups * exact.of(events, upsampled) + binning_s,
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
+from fatigue.pipeline.count.worst import ABOVE
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
@@ -14,6 +15,12 @@ from fatigue.results import software_versions, way_to_case
 RESIDUE_RULES = {
     "repeat": "the record recurs: every cycle closes (ASTM E1049-85 5.4.5, ISO 12110-2)",
     "half": "a single pass: what does not close counts as half cycles (ASTM E1049-85 5.4.4)",
+}
+_HISTOGRAM_RULES = {
+    "worst": f"the worst point of each weld, and counted toe points from a utilisation of {ABOVE:g} on; counted once "
+    "more in double precision",
+    "all": "every counted point; counted once more in double precision",
+    "none": "none",
 }
 
 
@@ -62,6 +69,7 @@ def provenance_record(
             "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,
+            "histogram": _HISTOGRAM_RULES[work.histogram],
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,
