@@ -14,6 +14,7 @@ from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import ModalHistory, kept
 from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, held_copies, prepare_event
+from fatigue.pipeline.mission.offsets import with_offset
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
@@ -84,7 +85,7 @@ def event_load(
 ) -> EventLoad:
     """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
     how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single, holds_single)
-    load = _load_of(body, _record(body, event, scratch), how, scratch)
+    load = with_offset(body, event, _load_of(body, _record(body, event, scratch), how, scratch))
     if upsample > 1 and scratch is not None:
         (scratch / RECORD).unlink()
     return load
@@ -100,7 +101,8 @@ def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> M
 
 def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool) -> EventLoad:
     """What all stations share of a record in memory."""
-    return _load_of(body, history, HowCounted(body.case.residue(event), event.stress_factor, upsample, single))
+    how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
+    return with_offset(body, event, _load_of(body, history, how))
 
 
 def _load_of(body: Body, history: ModalHistory, how: HowCounted, scratch: Path | None = None) -> EventLoad:
