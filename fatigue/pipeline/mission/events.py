@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from fatigue.case import LARGEST_UPSAMPLE, Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
-from fatigue.life.records.history import ModalHistory, kept
+from fatigue.life.records.history import ModalHistory, kept, mean_and_covariance
 from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, held_copies, prepare_event
-from fatigue.pipeline.mission.offsets import with_offset
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level, with_offset
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
@@ -168,6 +168,16 @@ def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | No
     held = np.empty(len(sizes), dtype=np.bool_)
     held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
     return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
+
+
+def mean_levels(body: Body, scratch: Path) -> list[MeanLevel]:
+    """Means of every event, whose records are read for it, one after the other; ``scratch``: folder for a long one."""
+    levels = []
+    for event in body.case.mission.event:
+        mean, _ = mean_and_covariance(_record(body, event, scratch).q)
+        levels.append(mean_level(body, event, mean))
+        (scratch / RECORD).unlink(missing_ok=True)
+    return levels
 
 
 def _below_and_above(spectra: Spectra) -> tuple[MomentMatrices, MomentMatrices | None]:

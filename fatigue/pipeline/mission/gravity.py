@@ -10,15 +10,17 @@ All welds are solved once for it, group after group; without a gravity load noth
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import MeanOfQ
-from fatigue.errors import Problem
+from fatigue.errors import CaseError, Problem, refuse
+from fatigue.pipeline.mission.offsets import MeanLevel
+from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
 from fatigue.shown import few, shortened
@@ -32,16 +34,6 @@ OTHER_SHAPE = 0.5  # cosine below which the mean of q is something else
 SAME_SHAPE = 0.9  # cosine from which it is the dead load; between the two a short modal basis lacks its shape
 ONCE = (0.5, 1.5)  # factors of a dead load that is there once
 NOT_A_SWING = 0.5  # mean over time from which a gravity load given over time is a dead load, too
-
-
-@dataclass(frozen=True, slots=True)
-class MeanLevel:
-    """Means of one event: of its coordinates over the kept samples (c,), and their constants (c,)."""
-
-    event: str
-    mean_of_q: MeanOfQ
-    mean: Floats
-    constant: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +60,23 @@ class HeldGravity:
     is_on_top: bool
 
     @property
+    def in_words(self) -> str:
+        """What is in the mean of q, and what becomes of it."""
+        words = {
+            "absent": "not in the mean of q",
+            "unclear": "unclear whether in the mean of q",
+            "contained": "in the mean of q",
+            "reversed": "in the mean of q, reversed",
+            "units": "in the mean of q, in other units",
+        }[self.verdict]
+        return words + (", which is removed" if self.mean_of_q == "remove" else "") + f"; {self.given:g} given"
+
+    def as_record(self) -> dict[str, Any]:
+        """The same for machines; null for what is not known."""
+        unknown = {name: None for name in ("beta", "cos") if np.isnan(getattr(self, name))}
+        return asdict(self) | unknown
+
+    @property
     def from_q(self) -> float:
         """Times that the level of the event holds the dead load by its q; NaN where nobody knows."""
         held = {"absent": 0.0, "contained": 1.0, "reversed": -1.0}
@@ -79,6 +88,21 @@ class HeldGravity:
         return self.verdict == "contained" and self.is_on_top and self.mean_of_q == "keep"
 
 
+def gravity_audit(
+    groups: WeldGroups, levels: Sequence[MeanLevel], threads: int | None = None
+) -> tuple[tuple[HeldGravity, ...], list[Problem]]:
+    """What the mean of q of every event holds of the dead load, and the warnings about it.
+
+    Raises
+    ------
+    CaseError : the dead load is there twice, or comes and goes in a sequence by the mean of q alone
+    """
+    case = groups.body.case
+    found = held_gravity(groups, levels, threads)
+    refuse(CaseError, gravity_problems(found, [sequence.order for sequence in case.mission.sequence], case.path.name))
+    return found, gravity_warnings(found, case.path.name)
+
+
 def held_gravity(
     groups: WeldGroups, levels: Sequence[MeanLevel], threads: int | None = None
 ) -> tuple[HeldGravity, ...]:
@@ -87,9 +111,9 @@ def held_gravity(
     ``threads`` solve a group of welds each, by default one per processor core.
     """
     body = groups.body
-    name = next((load.name for load in body.case.body.unit_load if load.role == "gravity"), None)
-    if name is None:
+    if not has_gravity(body):
         return ()
+    name = next(load.name for load in body.case.body.unit_load if load.role == "gravity")
     coordinates = body.coordinates
     at = coordinates.unit_load.index(name)
     means = np.stack([np.where(coordinates.is_mode, level.mean, 0.0) for level in levels], axis=1)
@@ -106,6 +130,11 @@ def held_gravity(
         own = level.event, name, level.mean_of_q
         found.append(HeldGravity(*own, beta, cos, verdict, constant + mean, is_on_top))
     return tuple(found)
+
+
+def has_gravity(body: Body) -> bool:
+    """Whether a unit load of the body is its dead load."""
+    return any(load.role == "gravity" for load in body.case.body.unit_load)
 
 
 def verdict_of(aa: float, ag: float, gg: float, given: float = 0.0) -> tuple[float, float, Verdict]:

@@ -5,16 +5,31 @@ stay as they are, and what is constant enters where the level of stress does, in
 counts and damage without a mean-stress factor are the same for every offset, bit by bit.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Event
+from fatigue.case import Event, MeanOfQ
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.body import Body
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeanLevel:
+    """Means of one event: of its coordinates over the kept samples (c,), and their constants (c,)."""
+
+    event: str
+    mean_of_q: MeanOfQ
+    mean: Floats
+    constant: Floats
+
+
+def mean_level(body: Body, event: Event, mean: Floats) -> MeanLevel:
+    """Means of an event, of which those over the kept samples are known."""
+    return MeanLevel(event.name, body.case.mean_of_q(event), mean, event_constants(body, event))
 
 
 def with_offset(body: Body, event: Event, load: EventLoad) -> EventLoad:
