@@ -28,6 +28,8 @@ from fatigue.pipeline.count.worst import HistogramPoints, WorstPoint, histogram_
 from fatigue.pipeline.forecast.needs import job_needs
 from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
+from fatigue.pipeline.mission.gravity import gravity_audit
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
@@ -154,13 +156,14 @@ def assess(
             expected = foretold(size, folder)
             stage("preparing the records of the events (%d); %s expected", len(plan.passes), expected)
             work = open_work(groups, plan, options, state.folder, threads)
+            gravity, of_gravity = gravity_audit(groups, levels_of(body, work), threads)
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, options, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
-            done.warnings.add((*body.warnings, *record_warnings))
+            done.warnings.add((*body.warnings, *record_warnings, *of_gravity))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
             write_tables(unpublished, key, assessed, work, done, threads)
@@ -168,7 +171,7 @@ def assess(
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
             record = {"program": "fatigue", "result": key}
-            record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings)
+            record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings, gravity)
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
             stage("putting the result in place")
@@ -186,6 +189,11 @@ def foretold(size: JobSize, folder: Path) -> str:
         log.warning("%s", problem)
     log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
     return needs.as_text()
+
+
+def levels_of(body: Body, work: Work) -> list[MeanLevel]:
+    """Means of every event, of its coordinates and constants."""
+    return [mean_level(body, event, load.mean) for event, load in zip(body.case.mission.event, work.loads, strict=True)]
 
 
 def _senseless(threads: object, share: object, executor: object, histogram: object) -> Iterator[Problem]:

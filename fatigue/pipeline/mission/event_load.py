@@ -55,6 +55,11 @@ class EventLoad:
     top_mode_hz: float | None
 
     @property
+    def level(self) -> NDArray[np.float64]:
+        """Time mean of every coordinate over the kept samples, its constant included, (m,): what mean stress is of."""
+        return self.mean + self.offset
+
+    @property
     def record(self) -> CountedRecord:
         """The record as it is counted."""
         return CountedRecord(self.counted.q, self.residue, self.single)

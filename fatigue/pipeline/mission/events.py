@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from fatigue.case import LARGEST_UPSAMPLE, Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
-from fatigue.life.records.history import ModalHistory, kept
+from fatigue.life.records.history import ModalHistory, kept, mean_and_covariance
 from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, held_copies, prepare_event
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level, with_offset
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
@@ -84,7 +85,7 @@ def event_load(
 ) -> EventLoad:
     """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
     how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single, holds_single)
-    load = _load_of(body, _record(body, event, scratch), how, scratch)
+    load = with_offset(body, event, _load_of(body, _record(body, event, scratch), how, scratch))
     if upsample > 1 and scratch is not None:
         (scratch / RECORD).unlink()
     return load
@@ -100,7 +101,8 @@ def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> M
 
 def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool) -> EventLoad:
     """What all stations share of a record in memory."""
-    return _load_of(body, history, HowCounted(body.case.residue(event), event.stress_factor, upsample, single))
+    how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
+    return with_offset(body, event, _load_of(body, history, how))
 
 
 def _load_of(body: Body, history: ModalHistory, how: HowCounted, scratch: Path | None = None) -> EventLoad:
@@ -166,6 +168,16 @@ def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | No
     held = np.empty(len(sizes), dtype=np.bool_)
     held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
     return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
+
+
+def mean_levels(body: Body, scratch: Path) -> list[MeanLevel]:
+    """Means of every event, whose records are read for it, one after the other; ``scratch``: folder for a long one."""
+    levels = []
+    for event in body.case.mission.event:
+        mean, _ = mean_and_covariance(_record(body, event, scratch).q)
+        levels.append(mean_level(body, event, mean))
+        (scratch / RECORD).unlink(missing_ok=True)
+    return levels
 
 
 def _below_and_above(spectra: Spectra) -> tuple[MomentMatrices, MomentMatrices | None]:
