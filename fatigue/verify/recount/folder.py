@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
-from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
+from fatigue.results import ASSESSED, TABLES, read_provenance, strangers, upsampling_factors
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
 from fatigue.verify.recount.anew.point import (
@@ -168,7 +168,7 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
+            passes, mission = _count(inputs, modes, few, fastest, upsampling_factors(record), stored, cycles_of)
             of_few = _values(inputs, few, passes, mission)
             rounding = _rounding(inputs, few, passes, mission, of_few)
             steps = _steps(inputs, few.values())
@@ -202,9 +202,8 @@ def _toes(inputs: RecountInputs, body: Layout) -> NDArray[np.bool_]:
 
 def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
     """Samples on which a point is counted, as far as they are known before the records are read."""
-    upsample = inputs.case.get("counting", {}).get("upsample", 1)
-    factor = upsample if isinstance(upsample, int) else 1
-    return factor * sum(int(event["samples"]) for event in record["mission"]["events"])
+    events = record["mission"]["events"]
+    return sum(int(e["samples"]) * factor for e, factor in zip(events, upsampling_factors(record), strict=True))
 
 
 def _welds(
@@ -247,6 +246,7 @@ def _count(
     modes: RecountModes,
     stations: Mapping[int, Station],
     fastest: Sequence[float],
+    recorded: Sequence[int],
     stored: Stored,
     cycles_of: frozenset[int],
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
@@ -255,7 +255,7 @@ def _count(
     counted = {point: Passes([], [], [], []) for point in stations}
     events = []
     for number, given in enumerate(inputs.case["mission"]["event"]):
-        record = read_record(inputs, given, modes, fastest[number])
+        record = read_record(inputs, given, modes, fastest[number], recorded[number])
         rules = spectrum_rules(inputs.case, modes, record.step)
         events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)

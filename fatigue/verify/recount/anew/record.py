@@ -14,6 +14,7 @@ from fatigue.verify.recount.inputs.tables import read_pieces
 Floats = NDArray[np.float64]
 
 SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,8 +67,13 @@ def spectrum_rules(case: Mapping[str, Any], modes: RecountModes, step: float) ->
     return SpectrumRules(asked.get("segment_s", 4.0), upper)
 
 
-def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float) -> RecountRecord:
-    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
+def read_record(
+    inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float, recorded: int
+) -> RecountRecord:
+    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s].
+
+    Where there is no spectrum to have it from, the upsampling factor that the provenance has ``recorded`` is believed.
+    """
     path = inputs.folder / event["history"]
     time = np.concatenate([piece["time_s"].to_numpy(dtype=float) for piece in read_pieces(path, ["time_s"])])
     samples, step = len(time), float((time[-1] - time[0]) / (len(time) - 1))
@@ -79,7 +85,10 @@ def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountM
     by_number = "per_1000_km" in event
     by_default = "half" if by_number else inputs.case.get("counting", {}).get("residue", "repeat")
     recurs = event.get("residue", by_default) == "repeat"
-    upsample = _upsample(inputs.case.get("counting", {}).get("upsample", 1), step, fastest)
+    upsample = inputs.case.get("counting", {}).get("upsample", "auto")
+    if upsample == "auto":
+        has_spectrum = 4 <= round(spectrum_rules(inputs.case, modes, step).segment_s / step) <= q.shape[1]
+        upsample = _upsample(step, fastest, q.shape[1]) if has_spectrum else recorded
     length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * q.shape[1] * step / 3600)
     return RecountRecord(
         name=event["name"],
@@ -107,12 +116,10 @@ def _coordinates(path: Path, modes: list[int], samples: int) -> Floats:
     return q
 
 
-def _upsample(asked: int | str, step: float, fastest: float) -> int:
-    """Upsampling factor as asked, or the power of 2 that gives the fastest point its samples per peak."""
-    if asked != "auto":
-        return int(asked)
+def _upsample(step: float, fastest: float, samples: int) -> int:
+    """Power of 2 that gives the fastest point its samples per peak; 1 for load cases, which no signal is made of."""
     factor = 1
-    while factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+    while samples >= FEWEST_SAMPLES and factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
         factor *= 2
     return factor
 
