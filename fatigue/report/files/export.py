@@ -14,6 +14,7 @@ from fatigue.files.mishaps import cannot_write, refused_writing
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
     CSV_TABLES,
+    LOAD_SPECTRA,
     TABLES,
     WORKBOOK,
     Column,
@@ -181,7 +182,7 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
 
 
 def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
-    """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
+    """Write the tables of points, events, cycles and welds, and load spectra if there are any, as CSV files.
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
     that a spreadsheet would take for a formula gets an apostrophe before it. ``into`` is another folder to write to,
@@ -195,6 +196,8 @@ def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:
+        if name in LOAD_SPECTRA and not (folder / f"{name}.parquet").exists():
+            continue
         texts = [column.name for column in TABLES[name] if column.type == "text"]
         paths.append((into or folder) / f"{name}.csv")
         with refused_writing(paths[-1]), paths[-1].open("w", encoding="utf-8", newline="") as file:
