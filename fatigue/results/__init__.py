@@ -38,8 +38,9 @@ from fatigue.results.columns import (
     TABLES,
     TRACK,
     WELDS,
-    Column,
 )
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
@@ -78,6 +79,7 @@ __all__ = [
     "JOURNAL",
     "LEVERS",
     "LIST",
+    "LOAD_SPECTRA",
     "NODES",
     "OPTIONAL",
     "PAGE",

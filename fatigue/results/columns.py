@@ -1,28 +1,8 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
-from dataclasses import dataclass
-from typing import Literal
-
-ColumnType = Literal["text", "int", "flag", "float"]
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """One column of a result table: name, type, unit and meaning, written into the file beside the numbers."""
-
-    name: str
-    type: ColumnType
-    unit: str
-    meaning: str
-
-
-_POINT = (
-    Column("weld", "text", "-", "weld line"),
-    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
-    Column("node", "int", "-", "FE node id"),
-    Column("order", "int", "-", "position along the weld line, as given"),
-    Column("surface", "text", "-", "top (side of the plate normal) or bottom face of the assessed plate"),
-)
+from fatigue.results.dictionary.column import POINT as _POINT
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 
 NODES = (
     *_POINT,
@@ -388,4 +368,4 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "levers": LEVERS,
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
-TABLES = ASSESSED | OPTIONAL | DIAGNOSED
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA
