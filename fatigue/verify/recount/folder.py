@@ -30,7 +30,8 @@ from fatigue.verify.recount.anew.point import (
 from fatigue.verify.recount.anew.record import read_record, spectrum_rules
 from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
-from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, open_inputs, read_modes
+from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs
+from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.stored.rows import (
@@ -141,9 +142,9 @@ def _recount(
     most_samples: int,
 ) -> Recount:
     """The recount of a folder whose inputs are as they were; ``astray`` are its files that are not."""
-    modes, body = read_modes(inputs), layout(inputs)
+    coordinates, body = read_coordinates(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
-    stored = open_tables(folder, body, events, modes)
+    stored = open_tables(folder, body, events, coordinates)
     checks = [*stored.keys, *left_out_check(stored, inputs)]
     if not all(check.passed for check in checks):
         return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
@@ -159,8 +160,8 @@ def _recount(
     found: list[ColumnCheck] = []
     mission: list[RecountEvent] = []
     weld_of_point = body.weld[choice.points // 2]
-    for group in groups_of_welds(body, np.unique(weld_of_point).tolist(), len(modes.mode), FORCES_AT_ONCE):
-        welds = _welds(inputs, modes, record, [body.welds[weld] for weld in group])
+    for group in groups_of_welds(body, np.unique(weld_of_point).tolist(), len(coordinates), FORCES_AT_ONCE):
+        welds = _welds(inputs, coordinates, record, [body.welds[weld] for weld in group])
         stations = _stations(body, welds, group)
         points = choice.points[np.isin(weld_of_point, group)]
         values: dict[Key, Values] = {}
@@ -168,7 +169,7 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
+            passes, mission = _count(inputs, coordinates, few, fastest, stored, cycles_of)
             of_few = _values(inputs, few, passes, mission)
             rounding = _rounding(inputs, few, passes, mission, of_few)
             steps = _steps(inputs, few.values())
@@ -176,7 +177,7 @@ def _recount(
             values |= {body.key(point): of_few[point] for point in few}
             bounds |= {body.key(point): rounding[point] for point in few}
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
-        found += _compared_stress(modes, recounted, stored)
+        found += _compared_stress(coordinates, recounted, stored)
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
         found += _compared_welds(chosen, stored, values, bounds, all_counted=all_counted)
     checks += merged(found)
@@ -208,11 +209,11 @@ def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
 
 
 def _welds(
-    inputs: RecountInputs, modes: RecountModes, record: Mapping[str, Any], names: Sequence[str]
+    inputs: RecountInputs, coordinates: RecountCoordinates, record: Mapping[str, Any], names: Sequence[str]
 ) -> dict[str, RecountWeld]:
     """Some welds, read and solved."""
     parts: dict[str, list[Any]] = {name: [] for name in names}
-    for solved in solved_lines(inputs, modes, names):
+    for solved in solved_lines(inputs, coordinates, names):
         parts[solved.line.weld].append(solved)
     welds, closed = {}, closed_welds(inputs, names)
     for name in names:
@@ -244,7 +245,7 @@ def _stations(body: Layout, welds: Mapping[str, RecountWeld], group: Sequence[in
 
 def _count(
     inputs: RecountInputs,
-    modes: RecountModes,
+    coordinates: RecountCoordinates,
     stations: Mapping[int, Station],
     fastest: Sequence[float],
     stored: Stored,
@@ -255,8 +256,8 @@ def _count(
     counted = {point: Passes([], [], [], []) for point in stations}
     events = []
     for number, given in enumerate(inputs.case["mission"]["event"]):
-        record = read_record(inputs, given, modes, fastest[number])
-        rules = spectrum_rules(inputs.case, modes, record.step)
+        record = read_record(inputs, given, coordinates, fastest[number])
+        rules = spectrum_rules(inputs.case, coordinates, record.step)
         events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
         for point, station in stations.items():
@@ -335,18 +336,20 @@ def _compared(
     ]
 
 
-def _compared_stress(modes: RecountModes, stations: Mapping[int, Station], stored: Stored) -> list[ColumnCheck]:
+def _compared_stress(
+    coordinates: RecountCoordinates, stations: Mapping[int, Station], stored: Stored
+) -> list[ColumnCheck]:
     """Checks of the stored stress of some stations beside the solved one, few of them at a time."""
-    numbers, m = np.array(list(stations)), len(modes.mode)
+    numbers, c = np.array(list(stations)), len(coordinates)
     checks: list[ColumnCheck] = []
-    for first in range(0, len(numbers), max(1, STRESS_ROWS_AT_ONCE // m)):
-        few = numbers[first : first + max(1, STRESS_ROWS_AT_ONCE // m)]
-        found = rows_of(stored, "structural_stress", stored.stress.of((few[:, None] * m + np.arange(m)).ravel()))
-        of_station = [found[i * m : (i + 1) * m] for i in range(len(few))]
+    for first in range(0, len(numbers), max(1, STRESS_ROWS_AT_ONCE // c)):
+        few = numbers[first : first + max(1, STRESS_ROWS_AT_ONCE // c)]
+        found = rows_of(stored, "structural_stress", stored.stress.of((few[:, None] * c + np.arange(c)).ravel()))
+        of_station = [found[i * c : (i + 1) * c] for i in range(len(few))]
         rows = [
             row
             for number, of in zip(few.tolist(), of_station, strict=True)
-            for row in stress_rows(stations[number], modes.mode, of)
+            for row in stress_rows(stations[number], coordinates, of)
         ]
         checks += compare("structural_stress", rows, {})
     return checks

@@ -108,14 +108,17 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
     cycles = count_cycles(s, recurs=record.recurs)
     rows = _cycle_rows(cycles, modal_stress, s, record)
     S, n = rows["range_MPa"], rows["count"]
-    f_M = _mean_stress_factor(s[cycles.start], s[cycles.end], mean_stress.yield_MPa)
+    level = float((modal_stress[0] + modal_stress[1]) @ record.offset)
+    rows["mean_MPa"] += level
+    a, b = s[cycles.start] + level, s[cycles.end] + level
+    f_M = _mean_stress_factor(a, b, mean_stress.yield_MPa)
     x = S * size / _factor(rows["bending_ratio"], curve)
     dS = x / f_M if mean_stress.counts else x
     damage = float(n @ curve.damage(dS))
     largest = int(np.argmax(S)) if len(S) else None
     k = curve.slopes[0]
 
-    moments = welch_moments(kept, record.step, rules)
+    moments = welch_moments(kept, record.step, rules) if record.has_spectrum else None
     nothing = moments is None
     band, whole = (np.full(4, np.nan),) * 2 if moments is None else moments
     to_equivalent = (size / I_one) ** 2
@@ -134,7 +137,7 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         "max_range_MPa": 0.0 if largest is None else float(S[largest]),
         "max_equivalent_range_dS": float(dS.max(initial=0.0)),
         "bending_ratio": one_ratio,
-        "mean_stress_MPa": float(kept.mean()),
+        "mean_stress_MPa": float(kept.mean()) + level,
         "kurtosis": _kurtosis(s),
         "outside_share": outside,
         "irregularity": _quotient(m2, (m0 * m4) ** 0.5),
@@ -142,15 +145,17 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         "samples_per_peak": _quotient(1.0 / record.fine_step, peaks),
         "shear_ratio": _quotient(deviation[5], deviation[4]),
         "power_sum": float(n @ S**k),
-        "R_largest": np.nan if largest is None else _stress_ratio(s[cycles.start[largest]], s[cycles.end[largest]]),
+        "R_largest": np.nan if largest is None else _stress_ratio(a[largest], b[largest]),
         "with_mean_stress": float(n @ curve.damage(x / f_M)) if _is_known(mean_stress, curve) else np.nan,
         "with_shear": float(n @ curve.damage(dS * np.nan_to_num(_shear_factor(covariance, I_one, curve), nan=1.0))),
     }
     rows |= {"equivalent_range_dS": dS, "damage": n * curve.damage(dS)}
     kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
-    low, high = np.minimum(s[cycles.start], s[cycles.end]), np.maximum(s[cycles.start], s[cycles.end])
+    low, high = np.minimum(a, b), np.maximum(a, b)
     counted = Counted(
         delta=stress_bound(point.largest, record.peak, record.factor),
+        delta_level=stress_bound(point.largest, record.peak + np.abs(record.offset), record.factor),
+        level=level,
         stress=s,
         deviation=float(deviation[4]),
         parts=float(deviation[0] + deviation[1]),
@@ -158,7 +163,7 @@ def one_pass(point: RecountPoint, record: RecountRecord, rules: SpectrumRules, m
         equivalent=dS,
         same_ratio=S * size / I_one,
         counts=n,
-        R=_stress_ratios(s[cycles.start], s[cycles.end]),
+        R=_stress_ratios(a, b),
         reversals=s[np.unique(np.concatenate([cycles.start, cycles.end]))],
         size=size,
         band=band,

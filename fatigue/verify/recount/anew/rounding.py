@@ -35,8 +35,9 @@ class Counted:
 
     Attributes
     ----------
-    delta : bound on the rounding of a stress [MPa]
-    stress : (u,) counted stress [MPa]
+    delta : bound on the rounding of a stress [MPa], and ``delta_level`` with what is constant
+    level : constant stress [MPa]
+    stress : (u,) counted stress, without it [MPa]
     deviation : standard deviation of the kept stress [MPa]
     parts : standard deviations of membrane and bending together [MPa]
     ranges, equivalent, same_ratio : (c,) of every cycle [MPa, dS, dS], and ``counts``
@@ -51,6 +52,8 @@ class Counted:
     """
 
     delta: float
+    delta_level: float
+    level: float
     stress: Floats
     deviation: float
     parts: float
@@ -94,7 +97,7 @@ def pass_bounds(of: Counted, values: Mapping[str, float], curve: RecountCurve) -
         "max_range_MPa": rho,
         "max_equivalent_range_dS": d_dS,
         "bending_ratio": _lost(_relative(2.0 * of.delta, of.parts)),
-        "mean_stress_MPa": of.delta,
+        "mean_stress_MPa": of.delta_level,
         "kurtosis": _lost(8.0 * noise) * values["kurtosis"] if noise < LOST else np.inf,
         "outside_share": _lost(2.0 * of_whole),
         "irregularity": _lost(4.0 * of_band),
@@ -102,7 +105,9 @@ def pass_bounds(of: Counted, values: Mapping[str, float], curve: RecountCurve) -
         "samples_per_peak": _times(_lost(4.0 * of_whole), values["samples_per_peak"]),
         "shear_ratio": _times(_lost(2.0 * noise), 1.0 + values["shear_ratio"]),
         "power_sum": float(of.counts @ ((of.ranges + rho) ** k - of.ranges**k) + samples * rho**k),
-        "R_largest": _ratio_bound(of.R[largest], values["R_largest"], _relative(rho, values["max_range_MPa"])),
+        "R_largest": _ratio_bound(
+            of.R[largest], values["R_largest"], _relative(2.0 * of.delta_level, values["max_range_MPa"])
+        ),
         "with_mean_stress": _times(damage, 1.0 + values["with_mean_stress"] / max(values["damage_per_pass"], 1e-300)),
         "with_shear": _times(_lost(4.0 * k * noise), values["with_shear"]),
     }
@@ -213,7 +218,8 @@ def _equivalent_bound(of: Counted, rho: float) -> float:
     ``rho^(1 - 1/3.6) s_max^(1/3.6)``.
     """
     bound = MASTER_RATIO * of.size * rho
-    highest = float(max(of.stress.max(), -of.stress.min()))
+    rho = max(rho, 2.0 * of.delta_level)
+    highest = float(max(of.stress.max() + of.level, -of.stress.min() - of.level))
     return bound * (highest / rho) ** (1.0 / 3.6) if of.mean_stress and rho > 0.0 and highest > rho else bound
 
 
