@@ -17,16 +17,9 @@ from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
-from fatigue.verify.recount.anew.point import (
-    MeanStress,
-    OnePass,
-    RecountEvent,
-    Values,
-    bounds_of_point,
-    one_pass,
-    point_of,
-    point_values,
-)
+from fatigue.verify.recount.anew.mean_stress import MeanStress
+from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
+from fatigue.verify.recount.anew.point import OnePass, Values, one_pass, point_of
 from fatigue.verify.recount.anew.record import read_record, spectrum_rules
 from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points

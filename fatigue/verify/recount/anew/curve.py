@@ -1,7 +1,7 @@
 """The S-N curve of a weld once more, from the case text and from constants copied here a second time."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -79,6 +79,15 @@ class RecountCurve:
             total += float(np.exp(k * (np.log(scale) - log_s) - log_n) * gamma(a) * share)
             upper = lower
         return total
+
+    def bending_factor(self, r: Floats) -> Floats:
+        """Divisor of the range for each bending ratio."""
+        return ratio_factor(r) if self.on_equivalent else np.ones_like(r)
+
+    @property
+    def first_slope(self) -> "RecountCurve":
+        """The first slope for all ranges: no curve that bends down or ends is below it in damage."""
+        return replace(self, slopes=self.slopes[:1], points=self.points[:1], knees=(), cutoff=0.0)
 
     def size_factor(self, thickness: float) -> float:
         """Factor of the plate thickness [mm] on the range."""

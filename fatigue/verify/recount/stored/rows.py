@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.curve import RecountCurve
 from fatigue.verify.recount.anew.line import RecountLineStress, edge_length, edges
-from fatigue.verify.recount.anew.point import OnePass, RecountEvent, Values
+from fatigue.verify.recount.anew.mission import RecountEvent
+from fatigue.verify.recount.anew.point import OnePass, Values
 from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
 from fatigue.verify.recount.layout import Key
