@@ -5,7 +5,6 @@ the keys of its stations and two columns of its points.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from numbers import Integral
 from pathlib import Path
 from typing import Any
@@ -14,15 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
-from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
+from fatigue.results import ASSESSED, read_provenance, strangers
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
-from fatigue.verify.recount.anew.mean_stress import MeanStress
-from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
-from fatigue.verify.recount.anew.point import OnePass, Values, one_pass, point_of
-from fatigue.verify.recount.anew.record import read_record, spectrum_rules
+from fatigue.verify.recount.anew.mission import RecountEvent
+from fatigue.verify.recount.anew.point import Values
 from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
+from fatigue.verify.recount.counted import Passes, bounds_of, count, loop_names, mean_stress_of, values_of
 from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
@@ -30,7 +28,6 @@ from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck,
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
     Station,
-    cycle_row,
     damage_row,
     largest_stress,
     node_row,
@@ -55,20 +52,6 @@ FORCES_AT_ONCE = 400_000  # nodes times modes of the welds that are solved at a 
 SAMPLES_AT_ONCE = 50_000_000  # of stress that are counted before rows are compared: a curve with knees keeps cycles
 POINTS_AT_ONCE = 2000
 STRESS_ROWS_AT_ONCE = 20_000
-CYCLE_COLUMNS = [column.name for column in TABLES["cycles"] if column.type == "float"]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Passes:
-    """One pass of every event at a point, the damage of each without end treatment, and its cycles compared.
-
-    ``raw_bounds`` are what rounding may do to the damage without end treatment.
-    """
-
-    treated: list[OnePass]
-    raw_damage: list[float]
-    raw_bounds: list[float]
-    cycles: list[Row]
 
 
 def recount(
@@ -137,7 +120,7 @@ def _recount(
     """The recount of a folder whose inputs are as they were; ``astray`` are its files that are not."""
     coordinates, body = read_coordinates(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
-    stored = open_tables(folder, body, events, coordinates)
+    stored = open_tables(folder, body, [*events, *loop_names(inputs)], coordinates)
     checks = [*stored.keys, *left_out_check(stored, inputs)]
     if not all(check.passed for check in checks):
         return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
@@ -162,9 +145,9 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = _count(inputs, coordinates, few, fastest, stored, cycles_of)
-            of_few = _values(inputs, few, passes, mission)
-            rounding = _rounding(inputs, few, passes, mission, of_few)
+            passes, mission = count(inputs, coordinates, few, fastest, stored, cycles_of)
+            of_few = values_of(inputs, few, passes, mission)
+            rounding = bounds_of(inputs, few, passes, mission, of_few)
             steps = _steps(inputs, few.values())
             found += _compared(few, stored, of_few, rounding, passes, mission, raw_life_enough, steps)
             values |= {body.key(point): of_few[point] for point in few}
@@ -234,70 +217,6 @@ def _stations(body: Layout, welds: Mapping[str, RecountWeld], group: Sequence[in
         )
         stations |= dict(enumerate(places, start=int(body.first[index])))
     return stations
-
-
-def _count(
-    inputs: RecountInputs,
-    coordinates: RecountCoordinates,
-    stations: Mapping[int, Station],
-    fastest: Sequence[float],
-    stored: Stored,
-    cycles_of: frozenset[int],
-) -> tuple[dict[int, Passes], list[RecountEvent]]:
-    """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once."""
-    mean_stress = _mean_stress(inputs)
-    counted = {point: Passes([], [], [], []) for point in stations}
-    events = []
-    for number, given in enumerate(inputs.case["mission"]["event"]):
-        record = read_record(inputs, given, coordinates, fastest[number])
-        rules = spectrum_rules(inputs.case, coordinates, record.step)
-        events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
-        there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
-        for point, station in stations.items():
-            solved, at, curve, key = station.solved, station.at, station.weld.curve, stored.body.key(point)
-            largest, thickness = station.largest, float(solved.line.thickness[at])
-            one = one_pass(point_of(solved.treated[at], largest, key[3], curve, thickness), record, rules, mean_stress)
-            if point in there:
-                counted[point].cycles.append(cycle_row(key, events[-1], one, there[point]))
-            one = replace(one, rows={})
-            raw = one
-            if not np.array_equal(solved.raw[at], solved.treated[at]):
-                raw = one_pass(point_of(solved.raw[at], largest, key[3], curve, thickness), record, rules, mean_stress)
-            counted[point].treated.append(one)
-            counted[point].raw_damage.append(raw.quantities["damage_per_pass"])
-            counted[point].raw_bounds.append(raw.bounds["damage_per_pass"])
-    return counted, events
-
-
-def _mean_stress(inputs: RecountInputs) -> MeanStress:
-    asked = inputs.case["curve"]
-    return MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
-
-
-def _values(
-    inputs: RecountInputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[RecountEvent]
-) -> dict[int, Values]:
-    """Columns of the table of points, point by point: the events weighted with the mission."""
-    mission, mean_stress = inputs.case["mission"], _mean_stress(inputs)
-    return {
-        point: point_values(of.treated, of.raw_damage, events, mission, stations[point].weld.curve, mean_stress)
-        for point, of in passes.items()
-    }
-
-
-def _rounding(
-    inputs: RecountInputs,
-    stations: Mapping[int, Station],
-    passes: Mapping[int, Passes],
-    events: Sequence[RecountEvent],
-    values: Mapping[int, Values],
-) -> dict[int, Bounds]:
-    """What rounding may do to the columns of the table of points, point by point."""
-    mission = inputs.case["mission"]
-    return {
-        point: bounds_of_point(of.treated, of.raw_bounds, events, mission, stations[point].weld.curve, values[point])
-        for point, of in passes.items()
-    }
 
 
 def _compared(
@@ -372,5 +291,5 @@ def _compared_welds(
 
 def _steps(inputs: RecountInputs, stations: Iterable[Station]) -> dict[str, float]:
     """Tolerances of columns that are found in steps where damage does not scale with one power of the load."""
-    scales = not _mean_stress(inputs).counts and all(station.weld.curve.is_straight for station in stations)
+    scales = not mean_stress_of(inputs).counts and all(station.weld.curve.is_straight for station in stations)
     return {} if scales else {"load_factor": LOAD_FACTOR_STEP}

@@ -28,7 +28,8 @@ class Chained:
     ----------
     delta : bound on the rounding of a stress, with what is constant [MPa]
     stress : (r,) at the turning points of all its events [MPa]
-    ranges, equivalent, R : (c,) of the cycles that it adds or takes away [MPa, dS, 1], and ``counts``
+    ranges, equivalent : (c,) of the cycles that it adds or takes away [MPa, dS], and ``counts``
+    R : (l,) stress ratios of the largest cycles that close, as far as rounding may take one for another
     of_events : damage of one pass of each of its entries together
     size : factor of the plate thickness
     mean_stress : whether the equivalent range has the factor of the mean stress
@@ -53,14 +54,19 @@ def chain_bounds(of: Chained, damage: float, largest: float, R_largest: float, c
     n, points = np.abs(of.counts), len(of.stress)
     of_cycles = damage_bound(of.equivalent, n, d_dS, points, curve)
     of_sums = SUMMED * UNIT * (2.0 * of.of_events + abs(damage))
-    top = of.ranges >= of.ranges.max(initial=0.0) - 2.0 * rho
     return {
         "damage_per_pass": of_cycles + of_sums,
         "cycles_per_pass": float(n[of.ranges <= 2.0 * rho].sum() + np.count_nonzero(np.abs(np.diff(of.stress)) <= rho)),
         "max_range_MPa": rho,
         "max_equivalent_range_dS": d_dS,
         "power_sum": float(n @ ((of.ranges + rho) ** k - of.ranges**k) + points * rho**k),
-        "R_largest": ratio_bound(of.R[top], R_largest, relative_bound(rho, largest)),
+        "R_largest": ratio_bound(of.R, R_largest, relative_bound(rho, largest)),
         "with_mean_stress": of_cycles + of_sums,
         "with_shear": of_cycles + of_sums,
     }
+
+
+def chain_cycle_bounds(of: Chained) -> Bounds:
+    """``delta`` and ``ties`` as of ``rounding.cycle_bounds``; equal stresses of two events are ties with any rounding."""
+    rho = 2.0 * of.delta
+    return {"delta": of.delta, "ties": float(np.count_nonzero(np.diff(np.sort(of.stress)) <= rho))}

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -84,10 +85,17 @@ class RecountCurve:
         """Divisor of the range for each bending ratio."""
         return ratio_factor(r) if self.on_equivalent else np.ones_like(r)
 
-    @property
-    def first_slope(self) -> "RecountCurve":
-        """The first slope for all ranges: no curve that bends down or ends is below it in damage."""
-        return replace(self, slopes=self.slopes[:1], points=self.points[:1], knees=(), cutoff=0.0)
+    def convex_damage(self, x: Floats) -> Floats:
+        """Damage that is convex in the range and nowhere below that of the curve: its first slope for all ranges.
+
+        Where a slope is flatter than one before it, the largest damage of all slopes.
+        """
+        steepens = all(a <= b for a, b in pairwise(self.slopes))
+        straight = [
+            replace(self, slopes=(k,), points=(point,), knees=(), cutoff=0.0).damage(x)
+            for k, point in zip(self.slopes, self.points, strict=True)
+        ]
+        return straight[0] if steepens else np.max(straight, axis=0)
 
     def size_factor(self, thickness: float) -> float:
         """Factor of the plate thickness [mm] on the range."""

@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.chain_rounding import Chained, chain_bounds
+from fatigue.verify.recount.anew.chain_rounding import Chained, chain_bounds, chain_cycle_bounds
+from fatigue.verify.recount.anew.curve import RecountCurve
 from fatigue.verify.recount.anew.mean_stress import MeanStress, stress_ratio, stress_ratios
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values
 from fatigue.verify.recount.anew.sequence import Net, net_cycles
@@ -27,31 +28,35 @@ def loop_pass(
     net, curve, size = net_cycles(order, turns), point.curve, point.curve.size_factor(point.thickness)
     n = net.count
     s = net.stress
-    rows = cycles_between(net, net.start, net.end)
-    f_M = mean_stress.factor(s[net.start], s[net.end])
-    x = rows["range_MPa"] * size / curve.bending_factor(rows["bending_ratio"])
+    rows, f_M = cycles_between(net, net.start, net.end), mean_stress.factor(s[net.start], s[net.end])
+    x = _equivalent(rows, size, curve)
     dS = x / f_M if mean_stress.counts else x
+    closing = cycles_between(net, *net.closing)
+    S_closing, dS_closing = closing["range_MPa"], _equivalent(closing, size, curve)
+    if mean_stress.counts:
+        dS_closing = dS_closing / mean_stress.factor(*s[net.closing])
     damage, k = curve.damage(dS), curve.slopes[0]
-    top = np.array([s[place] for place in net.largest or ()])
+    top = s[net.closing[:, S_closing.argmax()]] if len(S_closing) else np.zeros(0)
     values: Values = dict.fromkeys(passes[0].quantities, np.nan)
     values |= {
         "damage_per_pass": float(n @ damage),
         "cycles_per_pass": float(n.sum()),
-        "max_range_MPa": float(np.ptp(top)) if len(top) else 0.0,
-        "max_equivalent_range_dS": float(dS[n > 0.0].max(initial=0.0)),
+        "max_range_MPa": float(S_closing.max(initial=0.0)),
+        "max_equivalent_range_dS": float(dS_closing.max(initial=0.0)),
         "power_sum": float(n @ rows["range_MPa"] ** k),
         "R_largest": stress_ratio(*top.tolist()) if len(top) else np.nan,
         "with_mean_stress": float(n @ curve.damage(x / f_M)) if mean_stress.is_known(curve) else np.nan,
         "with_shear": float(n @ damage),
     }
     rows |= {"count": n, "equivalent_range_dS": dS, "damage": n * damage}
+    delta = max(passes[event].cycle_bounds["delta_level"] for event in turns)
     chained = Chained(
-        delta=max(passes[event].cycle_bounds["delta_level"] for event in turns),
+        delta=delta,
         stress=s,
         ranges=rows["range_MPa"],
         equivalent=dS,
         counts=n,
-        R=stress_ratios(s[net.start], s[net.end]),
+        R=stress_ratios(*s[net.closing[:, S_closing >= S_closing.max(initial=0.0) - 4.0 * delta]]),
         of_events=sum(passes[event].quantities["damage_per_pass"] for event in order),
         size=size,
         mean_stress=mean_stress.counts,
@@ -61,7 +66,7 @@ def loop_pass(
     bounds = dict.fromkeys(passes[0].bounds, 0.0) | chain_bounds(
         chained, values["damage_per_pass"], values["max_range_MPa"], values["R_largest"], curve
     )
-    return OnePass(values, x[kept], n[kept], low[kept], high[kept], rows, bounds, {}), net
+    return OnePass(values, x[kept], n[kept], low[kept], high[kept], rows, bounds, chain_cycle_bounds(chained)), net
 
 
 def cycles_between(turns: Turns | Net, start: Counts, end: Counts) -> dict[str, Floats]:
@@ -84,7 +89,8 @@ def bound_per_km(
 ) -> float:
     """What cycles across events add at most per km in any order, where events occur in so many stints per km.
 
-    Paired ranges are taken for pure membrane stress and on the first slope: the damage is convex in them then.
+    Paired ranges are taken for pure membrane stress and on the first slope: the damage is convex in them then. Where
+    the mean stress counts, each of them may reach up to the highest stress of all.
     """
     curve, size = point.curve, point.curve.size_factor(point.thickness)
     residues, replaced = [], 0.0
@@ -93,11 +99,18 @@ def bound_per_km(
         assert turns is not None
         open_, closed = open_and_closed(turns)
         rows, s = cycles_between(turns, closed.start, closed.end), turns.stress
-        dS = rows["range_MPa"] * size / curve.bending_factor(rows["bending_ratio"])
+        dS = _equivalent(rows, size, curve)
         if mean_stress.counts:
             dS = dS / mean_stress.factor(s[closed.start], s[closed.end])
         residues.append(s[open_])
         replaced += per_km * (passes[event].quantities["damage_per_pass"] - float(curve.damage(dS).sum()))
     ranges, counts = paired(residues, list(stints.values()))
     dS = ranges * size / curve.bending_factor(np.zeros(1))
-    return float(counts @ curve.first_slope.damage(dS)) - replaced
+    if mean_stress.counts:
+        dS = dS / mean_stress.least_factor(ranges, max(residue.max() for residue in residues))
+    return float(counts @ curve.convex_damage(dS)) - replaced
+
+
+def _equivalent(rows: Mapping[str, Floats], size: float, curve: RecountCurve) -> Floats:
+    """Equivalent range of cycles without mean stress, (c,)."""
+    return np.asarray(rows["range_MPa"] * size / curve.bending_factor(rows["bending_ratio"]))

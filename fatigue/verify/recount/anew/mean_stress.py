@@ -26,6 +26,12 @@ class MeanStress:
             factor[tension] = (1 - low[tension] / high[tension]) ** (1 / 3.6)
         return factor
 
+    def least_factor(self, ranges: Floats, highest: float) -> Floats:
+        """``f_M`` of ranges that reach up to the highest stress of all; no cycle of such a range has a smaller one."""
+        if self.yield_MPa is None or highest < self.yield_MPa / 2:
+            return np.ones(len(ranges))
+        return np.minimum(ranges / highest, 1.0) ** (1 / 3.6)
+
     def is_known(self, curve: RecountCurve) -> bool:
         """Whether there is something to say of mean stress: a yield stress, and a curve in dS."""
         return self.yield_MPa is not None and curve.on_equivalent

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.cycles import count_cycles
+from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
 from fatigue.verify.recount.anew.turns import Turns
+from fatigue.verify.recount.anew.unknown_order import open_and_closed
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
@@ -30,7 +31,7 @@ class Net:
     event : (r,) number of the event of each turning point
     membrane, bending : (r,) stresses [MPa]
     time : (r,) file time [s]
-    largest : start and end of the largest cycle of the chain, also where it is one of an event by itself
+    closing : starts and ends of the cycles between passes, (2, l), also where an event by itself has the same
     """
 
     start: Counts
@@ -40,7 +41,7 @@ class Net:
     membrane: Floats
     bending: Floats
     time: Floats
-    largest: tuple[int, int] | None
+    closing: Counts
 
     @property
     def stress(self) -> Floats:
@@ -65,28 +66,38 @@ def net_cycles(order: Sequence[int], turns: Mapping[int, Turns]) -> Net:
         passes[event] += of_stint
     path = np.concatenate(chain)
     found = count_cycles(stress[path], recurs=True)
-    start, end, count = [path[found.start]], [path[found.end]], [found.count]
-    for event in events:
-        own = turns[event].cycles
-        start.append(first[event] + own.start)
-        end.append(first[event] + own.end)
-        count.append(-passes[event] * own.count)
-
-    ranges = np.abs(stress[end[0]] - stress[start[0]])
-    top = int(ranges.argmax()) if len(ranges) else None
-    net = _added_up(np.concatenate(start), np.concatenate(end), np.concatenate(count))
+    of_chain = RecountCycles(path[found.start], path[found.end], found.count)
+    own = {event: _moved(turns[event].cycles, first[event]) for event in events}
+    closed = {event: _moved(open_and_closed(turns[event])[1], first[event]) for event in events}
+    entries = {event: order.count(event) for event in events}
+    start, end, count = _added_up([(of_chain, 1), *((own[event], -passes[event]) for event in events)])
+    closing = _added_up(
+        [
+            (of_chain, 1),
+            *((own[event], entries[event] - passes[event]) for event in events),
+            *((closed[event], -entries[event]) for event in events),
+        ]
+    )
     return Net(
-        *net,
+        start,
+        end,
+        count,
         event=np.repeat(events, sizes).astype(np.int64),
         membrane=membrane,
         bending=bending,
         time=time,
-        largest=None if top is None else (int(start[0][top]), int(end[0][top])),
+        closing=np.stack(closing[:2])[:, closing[2] > 0.0],
     )
 
 
-def _added_up(start: Counts, end: Counts, count: Floats) -> tuple[Counts, Counts, Floats]:
-    """Cycles between the same two turning points as one, without those of which none is left."""
+def _moved(cycles: RecountCycles, first: int) -> RecountCycles:
+    return RecountCycles(cycles.start + first, cycles.end + first, cycles.count)
+
+
+def _added_up(some: Sequence[tuple[RecountCycles, int]]) -> tuple[Counts, Counts, Floats]:
+    """Cycles so many times each, those between the same two turning points as one; nothing of those that cancel."""
+    start, end = (np.concatenate([getattr(cycles, name) for cycles, _ in some]) for name in ("start", "end"))
+    count = np.concatenate([times * cycles.count for cycles, times in some])
     if not len(start):
         return start, end, count
     both = np.stack([np.minimum(start, end), np.maximum(start, end)])

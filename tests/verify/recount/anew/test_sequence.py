@@ -68,9 +68,10 @@ def test_the_bending_ratio_of_a_cycle_across_events_is_that_of_its_two_instants(
 
     net = net_cycles([0, 1, 2, 3], turns)
     assert net.count @ damage(net, net.start, net.end) == pytest.approx(8.32234332251934e-06, rel=1e-9)
-    largest = cycles_between(net, *(np.array([place]) for place in net.largest))
-    assert largest["range_MPa"][0] == 88.0
-    assert largest["bending_ratio"][0] == pytest.approx(0.13636363636363635)
+    closing = cycles_between(net, *net.closing)
+    largest = closing["range_MPa"].argmax()
+    assert closing["range_MPa"][largest] == 88.0
+    assert closing["bending_ratio"][largest] == pytest.approx(0.13636363636363635)
     base = [of.cycles.count @ damage(of, of.cycles.start, of.cycles.end) for of in turns.values()]
     expected = [2.134470094016236e-07, 1.1391701407016234e-06, 8.174674187697746e-07, 1.1391701407016234e-06]
     np.testing.assert_allclose(base, expected, rtol=1e-9)
