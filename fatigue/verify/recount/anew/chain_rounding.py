@@ -67,6 +67,6 @@ def chain_bounds(of: Chained, damage: float, largest: float, R_largest: float, c
 
 
 def chain_cycle_bounds(of: Chained) -> Bounds:
-    """``delta`` and ``ties`` as of ``rounding.cycle_bounds``; equal stresses of two events are ties with any rounding."""
+    """``delta`` and ``ties`` as of ``rounding.cycle_bounds``; equal stresses of two events are always ties."""
     rho = 2.0 * of.delta
     return {"delta": of.delta, "ties": float(np.count_nonzero(np.diff(np.sort(of.stress)) <= rho))}

@@ -74,8 +74,8 @@ def _without_pairs(columns: Columns, size: float) -> Columns:
         return columns
     level = np.round(np.stack([columns["range_MPa"], columns["mean_MPa"]]) / (SAME * size))
     _, at, which = np.unique(level, axis=1, return_index=True, return_inverse=True)
-    merged = {name: column[at] for name, column in columns.items()}
+    merged: Columns = {name: column[at] for name, column in columns.items()}
     for name in ("count", "damage"):
-        merged[name] = np.bincount(which.ravel(), columns[name])
+        merged[name] = np.bincount(which.ravel(), columns[name]).astype(np.float64)
     left = np.abs(merged["count"]) > 1e-9
     return {name: column[left] for name, column in merged.items()}
