@@ -40,6 +40,7 @@ from fatigue.results import (
     relist,
     row_count,
     table_writer,
+    upsampling_factors,
 )
 from fatigue.results.folder import result_log
 from fatigue.results.lock import locked, settle_folder
@@ -98,7 +99,8 @@ def diagnose(
     refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
     body = _same_body(record, folder, case_file)
     plan, _ = mission_plan(body)
-    needed = diagnosis_memory(job_size(body, plan))
+    factors = upsampling_factors(record)
+    needed = diagnosis_memory(job_size(body, plan, factors=factors))
     for problem in memory_warnings("the diagnosis", needed, "Use a machine with more memory, or shorter records"):
         log.warning("%s", problem)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
@@ -110,13 +112,14 @@ def diagnose(
     ):
         _refuse_another(folder, record)
         numbers = numbers_of_point(plan, body.modes, bins)
-        chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
+        samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
+        chosen = choose_points(folder, samples, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         points, worst = gather_points(folder, groups, chosen), chosen.worst
         assessed = assessed_rows(folder, chosen.rows, plan)
-        loads = event_loads(groups, plan, staging / "histories")
+        loads = event_loads(groups, plan, staging / "histories", factors=factors)
 
         stage("sharing out the damage of %d points, event by event (%d)", len(points), len(plan.passes))
         events: list[EventAttribution] = []

@@ -48,6 +48,7 @@ from fatigue.results.provenance import (
     is_same_result,
     read_provenance,
     software_versions,
+    upsampling_factors,
     write_provenance,
 )
 from fatigue.results.rows import (
@@ -118,6 +119,7 @@ __all__ = [
     "software_versions",
     "strangers",
     "table_writer",
+    "upsampling_factors",
     "way_to_case",
     "worst_toes",
     "write_json",

@@ -59,6 +59,8 @@ def provenance_record(
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
             "upsample": case.counting.upsample,
+            "upsampled": {load.counted.event: load.upsample for load in work.loads},
+            "reversals": case.counting.reversals,
             "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,

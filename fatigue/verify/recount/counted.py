@@ -45,16 +45,19 @@ def count(
     inputs: RecountInputs,
     coordinates: RecountCoordinates,
     stations: Mapping[int, Station],
-    fastest: Sequence[float],
+    sampling: Sequence[tuple[float, int]],
     stored: Stored,
     cycles_of: frozenset[int],
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
-    """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once."""
+    """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once.
+
+    ``sampling`` is the highest rate of peaks of all points [1/s] in every event, and its recorded upsampling factor.
+    """
     mean_stress, in_a_row = mean_stress_of(inputs), _in_a_row(inputs)
     counted = {point: Passes() for point in stations}
     events = []
     for number, given in enumerate(inputs.case["mission"]["event"]):
-        record = read_record(inputs, given, coordinates, fastest[number])
+        record = read_record(inputs, given, coordinates, *sampling[number])
         rules = spectrum_rules(inputs.case, coordinates, record.step)
         events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)

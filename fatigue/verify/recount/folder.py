@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
-from fatigue.results import ASSESSED, read_provenance, strangers
+from fatigue.results import ASSESSED, read_provenance, strangers, upsampling_factors
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
 from fatigue.verify.recount.anew.mission import RecountEvent
@@ -126,10 +126,11 @@ def _recount(
         return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
 
     toe, utilisation = toes_and_utilisation(stored)
-    worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(inputs, record)
+    worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(record)
     most = max(2, most_samples // samples)
     choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, most=most)
-    fastest, cycles_of = fastest_peaks(folder, inputs, events), with_cycles(stored, governing, record)
+    sampling = list(zip(fastest_peaks(folder, inputs, events), upsampling_factors(record), strict=True))
+    cycles_of = with_cycles(stored, governing, record)
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
@@ -145,7 +146,7 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = count(inputs, coordinates, few, fastest, stored, cycles_of)
+            passes, mission = count(inputs, coordinates, few, sampling, stored, cycles_of)
             of_few = values_of(inputs, few, passes, mission)
             rounding = bounds_of(inputs, few, passes, mission, of_few)
             steps = _steps(inputs, few.values())
@@ -177,11 +178,10 @@ def _toes(inputs: RecountInputs, body: Layout) -> NDArray[np.bool_]:
     return np.array([[face in TOES[surface] for face in FACES] for surface in surfaces])[body.weld].ravel()
 
 
-def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
+def _samples(record: Mapping[str, Any]) -> int:
     """Samples on which a point is counted, as far as they are known before the records are read."""
-    upsample = inputs.case.get("counting", {}).get("upsample", 1)
-    factor = upsample if isinstance(upsample, int) else 1
-    return factor * sum(int(event["samples"]) for event in record["mission"]["events"])
+    events = record["mission"]["events"]
+    return sum(int(e["samples"]) * factor for e, factor in zip(events, upsampling_factors(record), strict=True))
 
 
 def _welds(

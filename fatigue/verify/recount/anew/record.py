@@ -18,6 +18,7 @@ from fatigue.verify.recount.inputs.tables import read_pieces
 Floats = NDArray[np.float64]
 
 SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,15 +73,22 @@ def spectrum_rules(case: Mapping[str, Any], coordinates: RecountCoordinates, ste
 
 
 def read_record(
-    inputs: RecountInputs, event: Mapping[str, Any], coordinates: RecountCoordinates, fastest: float
+    inputs: RecountInputs, event: Mapping[str, Any], coordinates: RecountCoordinates, fastest: float, recorded: int
 ) -> RecountRecord:
-    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
+    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s].
+
+    Where there is no spectrum to have it from, the upsampling factor that the provenance has ``recorded`` is believed.
+    """
     counting, loads = inputs.case.get("counting", {}), loads_of(inputs, event)
     by_number = "per_1000_km" in event
     recurs = event.get("residue", "half" if by_number else counting.get("residue", "repeat")) == "repeat"
     if "history" in event:
         q, step, start = _history(inputs.folder / event["history"], event.get("start_s", 0.0), coordinates)
-        refined, upsample = factor_for(loads, step), _upsample(counting.get("upsample", 1), step, fastest)
+        refined, upsample = factor_for(loads, step), counting.get("upsample", "auto")
+        if upsample == "auto":
+            segment = round(inputs.case.get("spectrum", {}).get("segment_s", 4.0) * refined / step)
+            has_spectrum = 4 <= segment <= q.shape[1] * refined
+            upsample = _upsample(step, fastest, q.shape[1]) if has_spectrum else recorded
     else:
         samples = max(len(load.samples) for load in loads if load.samples is not None)
         q, step, start, refined, upsample = np.zeros((len(coordinates), samples)), 1.0, 0.0, 1, 1
@@ -154,12 +162,10 @@ def _with_loads(
     return kept, kept if factors[1] == 1 else finer_by(factors[1], kept, step)
 
 
-def _upsample(asked: int | str, step: float, fastest: float) -> int:
-    """Upsampling factor as asked, or the power of 2 that gives the fastest point its samples per peak."""
-    if asked != "auto":
-        return int(asked)
+def _upsample(step: float, fastest: float, samples: int) -> int:
+    """Power of 2 that gives the fastest point its samples per peak; 1 for load cases, which no signal is made of."""
     factor = 1
-    while factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+    while samples >= FEWEST_SAMPLES and factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
         factor *= 2
     return factor
 

@@ -131,7 +131,7 @@ def with_cycles(stored: Stored, governing: NDArray[np.int64], record: Mapping[st
 def fastest_peaks(folder: Path, inputs: RecountInputs, events: Sequence[str]) -> list[float]:
     """Highest peak rate of all points in every event [1/s]; 0 where nobody asks for it or there is none."""
     highest = np.zeros(len(events))
-    if inputs.case.get("counting", {}).get("upsample") == "auto":
+    if inputs.case.get("counting", {}).get("upsample", "auto") == "auto":
         for columns in number_groups(folder, "damage", ["peaks_per_s"], {"event": events}):
             np.maximum.at(highest, columns["event"], np.nan_to_num(columns["peaks_per_s"]))
     return highest.tolist()
