@@ -28,6 +28,7 @@ from fatigue.pipeline.count.worst import WorstPoint, worst_points
 from fatigue.pipeline.forecast.needs import job_needs
 from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
+from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
@@ -139,6 +140,8 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
+            for line in listed(event_counts(case, plan)):
+                log.info("event %s", line)
             stage(
                 "preparing the records of the events (%d); %s expected",
                 len(plan.passes),
