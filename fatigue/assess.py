@@ -171,8 +171,9 @@ def assess(
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
-            record = {"program": "fatigue", "result": key}
-            record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings, gravity)
+            record = {"program": "fatigue", "result": key} | provenance_record(
+                body, work, done.stations, folder, inputs.register, warnings, gravity
+            )
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
             stage("putting the result in place")
