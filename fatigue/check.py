@@ -20,6 +20,7 @@ from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
+from fatigue.pipeline.mission.counted import EventCount, event_counts, listed
 from fatigue.pipeline.mission.events import mean_levels
 from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
 from fatigue.pipeline.mission.plan import mission_plan
@@ -38,7 +39,8 @@ class CheckedCase:
     """Sizes of a case that passed every check, and the warnings about it.
 
     Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded and ``candidates``
-    are candidates. ``samples`` are stress samples of one face: stations times kept samples, over all events.
+    are candidates. ``samples`` are stress samples of one face: stations times kept samples, over all events. ``counts``
+    says what each event counts.
     ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` the time
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
     takes, ``gravity`` is what the mean of q of each event holds of the dead load, where the body has a gravity load;
@@ -53,9 +55,11 @@ class CheckedCase:
     parts: int
     stations: int
     modes: int
+    unit_loads: int
     events: int
     samples: int
     distance_km: float
+    counts: tuple[EventCount, ...]
     estimated_s: float
     estimated_exact_s: float
     estimated_memory_MB: float  # noqa: N815 - the unit keeps its spelling
@@ -72,9 +76,10 @@ class CheckedCase:
 
     def as_record(self) -> dict[str, Any]:
         """The sizes for machines."""
-        others = ("warnings", "estimate", "gravity")
-        plain = {name: getattr(self, name) for name in self.__slots__ if name not in others}
+        nested = ("warnings", "estimate", "counts", "gravity")
+        plain = {name: getattr(self, name) for name in self.__slots__ if name not in nested}
         return plain | {
+            "counts": [asdict(one) | {"counts": one.counts} for one in self.counts],
             "estimate": asdict(self.estimate),
             "gravity": [one.as_record() for one in self.gravity],
             "warnings": [str(problem) for problem in self.warnings],
@@ -97,7 +102,9 @@ class CheckedCase:
                 f"  welds            {self.welds} in {self.parts} straight parts, {self.stations} stations, both faces",
                 *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",
+                *([f"  unit loads       {self.unit_loads}"] * (self.unit_loads > 0)),
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
+                *(f"    {line}" for line in listed(self.counts)),
                 f"  stress samples   {2 * self.samples:.3g}",
                 *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
                 f"  estimated time   {_time_text(self.estimate)}",
@@ -155,9 +162,11 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         parts=parts,
         stations=stations,
         modes=len(body.modes.mode),
+        unit_loads=len(body.coordinates.unit_loads),
         events=len(plan.passes),
         samples=samples,
         distance_km=sum(p.length or 0.0 for p in plan.passes),
+        counts=event_counts(case, plan),
         estimated_s=estimate.total,
         estimated_exact_s=estimate.total_exact,
         estimated_memory_MB=round(needs.memory / 1e6, 1),

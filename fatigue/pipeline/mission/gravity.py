@@ -175,16 +175,16 @@ def gravity_warnings(found: Sequence[HeldGravity], case_file: str) -> list[Probl
         warnings.append(Problem("gravity_unclear", _where(worst, case_file), what, remedy, len(doubtful)))
     return [
         *warnings,
-        *_other_factors(
-            found,
-            "reversed",
+        *_factor_warnings(
+            "gravity_reversed",
+            [one for one in found if one.verdict == "reversed"],
             "is against it",
             "Check the direction of gravity and the signs of mode shapes and forces; one of them is turned",
             case_file,
         ),
-        *_other_factors(
-            found,
-            "units",
+        *_factor_warnings(
+            "gravity_units",
+            [one for one in found if one.verdict == "units"],
             f"is neither once ({ONCE[0]:g} to {ONCE[1]:g} times) nor absent",
             "Check the units of q, of the forces and of the gravity load (9.81, 1000): one of them is another",
             case_file,
@@ -192,18 +192,17 @@ def gravity_warnings(found: Sequence[HeldGravity], case_file: str) -> list[Probl
     ]
 
 
-def _other_factors(
-    found: Sequence[HeldGravity], verdict: Verdict, finding: str, remedy: str, case_file: str
+def _factor_warnings(
+    code: str, some: Sequence[HeldGravity], finding: str, remedy: str, case_file: str
 ) -> Iterator[Problem]:
     """Warning about dead loads of the same shape with another sign or in other units."""
-    some = [one for one in found if one.verdict == verdict]
     if some:
         worst = max(some, key=lambda one: abs(np.log(abs(one.beta))))
         what = (
             f"the mean of q in event '{shortened(worst.event)}' makes {worst.beta:.4g} times the stress of "
             f"{worst.unit_load} at 1 (cosine {worst.cos:.3f}), which {finding}{_likewise(some, worst)}"
         )
-        yield Problem(f"gravity_{verdict}", _where(worst, case_file), what, remedy, len(some))
+        yield Problem(code, _where(worst, case_file), what, remedy, len(some))
 
 
 def _products(groups: WeldGroups, columns: Floats, number: int) -> Floats:

@@ -11,8 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import Event, MeanOfQ
+from fatigue.life.records.history import cached_chunks
+from fatigue.life.records.spool import Samples
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.unit_loads import event_constants
 from fatigue.pipeline.solve.body import Body
+from fatigue.readers.neutral.event.event_record import EventRecord
 
 Floats = NDArray[np.float64]
 
@@ -32,21 +36,17 @@ def mean_level(body: Body, event: Event, mean: Floats) -> MeanLevel:
     return MeanLevel(event.name, body.case.mean_of_q(event), mean, event_constants(body, event))
 
 
-def with_offset(body: Body, event: Event, load: EventLoad) -> EventLoad:
+def with_offset(body: Body, event: Event, load: EventLoad, record: EventRecord) -> EventLoad:
     """The same event with the constant of each coordinate: what is given, less the mean of q where it is removed.
 
-    The mean is that of the kept samples, whatever is counted between them. That of a unit load over time is left: the
-    case gives it.
+    ``record`` is that of the event. The mean is that of its kept samples, whatever is counted between them. That of a
+    unit load over time is left: the case gives it.
     """
-    constants = event_constants(body, event)
+    offset = event_constants(body, event)
     if body.case.mean_of_q(event) == "remove":
-        constants = constants - np.where(body.coordinates.is_mode, load.mean, 0.0)
-    return replace(load, offset=constants)
-
-
-def event_constants(body: Body, event: Event) -> Floats:
-    """Constants of the coordinates in an event, (c,)."""
-    return np.zeros(len(body.coordinates))
+        mean = _mean_of_every(record.refined, record.history.q) if record.refined > 1 else load.mean
+        offset = offset - np.where(body.coordinates.is_mode, mean, 0.0)
+    return replace(load, offset=offset)
 
 
 def face_offset(membrane: Floats, bending: Floats, load: EventLoad) -> Floats | None:
@@ -58,3 +58,14 @@ def face_offset(membrane: Floats, bending: Floats, load: EventLoad) -> Floats | 
         return None
     of_membrane, of_bending = membrane @ load.offset, bending @ load.offset
     return np.stack([of_membrane + of_bending, of_membrane - of_bending], axis=1)
+
+
+def _mean_of_every(factor: int, q: Samples) -> Floats:
+    """Mean (c,) of the samples 0, ``factor``, 2 ``factor`` ... of a record (c, t): those between were not kept."""
+    total, samples, before = np.zeros(q.shape[0]), 0, 0
+    for chunk in cached_chunks(q):
+        some = chunk[:, -before % factor :: factor]
+        total += some.sum(axis=1, dtype=np.float64)
+        samples += some.shape[1]
+        before += chunk.shape[1]
+    return total / samples
