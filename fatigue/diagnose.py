@@ -109,7 +109,7 @@ def diagnose(
         staging_in(folder) as staging,
     ):
         _refuse_another(folder, record)
-        numbers = numbers_of_point(plan, body.modes, bins)
+        numbers = numbers_of_point(plan, len(body.coordinates), bins)
         chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
         stage("preparing the records of the events (%d)", len(plan.passes))
