@@ -273,7 +273,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))
-        tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
+        tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     tables["welds"].write(weld_rows(model, plan, result, worst))
     return worst
 
@@ -286,8 +286,8 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     """Warnings that only all welds together give: about loads that are not there, stress, sampling and spectra."""
-    files = [event.history for event in body.case.mission.event]
-    of_stress = done.stress.warnings(work.loads, body.modes.mode, files)
+    files = [event.history or body.case.path.name for event in body.case.mission.event]
+    of_stress = done.stress.warnings(work.loads, body.coordinates, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     return [*load_warnings(body, done.extents), *of_stress, *sampling_warnings(body, done), *of_spectra]
 

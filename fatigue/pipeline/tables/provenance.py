@@ -45,6 +45,7 @@ def provenance_record(
             "frequency_hz": body.modes.frequency.tolist(),
             "kind": list(body.modes.kind),
         },
+        "unit_loads": [load.model_dump() for load in case.body.unit_load],
         "force_convention": case.body.force_convention,
         "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
         "rules": {

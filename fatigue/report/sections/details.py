@@ -71,7 +71,9 @@ def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, De
             steps[event.name] = record.history.step
             upper = upper_hz(result, inputs, record.history.step)
             for name, weld in welds.items():
-                spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
+                spectrum = None
+                if event.history is not None:
+                    spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
                 if spectrum is not None:
                     details[name].spectra.append(spectrum)
                 if weld.governing_event == event.name:
