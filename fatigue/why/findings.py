@@ -248,7 +248,14 @@ def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
             "no mode has" if np.isnan(damping).all() else f"{np.count_nonzero(np.isnan(damping))} modes do not have"
         )
         yield f"{without} a damping ratio, so it is not said what such a mode does in resonance"
+    static = {event.name for event in body.case.mission.event if event.history is None}
     for event in attribution.events:
+        if event.event in static:
+            yield (
+                f"event '{event.event}' is a static load case, so its damage is that of its values one after another, "
+                "with no frequency and no place on the track"
+            )
+            continue
         if not event.has_bands:
             yield (
                 f"event '{event.event}': the record is shorter than one spectral segment, so its damage is not shared "
