@@ -106,7 +106,7 @@ def diagnose(
         staging_in(folder) as staging,
     ):
         _refuse_another(folder, record)
-        numbers = numbers_of_point(plan, body.modes, bins)
+        numbers = numbers_of_point(plan, len(body.coordinates), bins)
         samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
         chosen = choose_points(folder, samples, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)

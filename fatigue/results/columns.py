@@ -248,10 +248,12 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses; thickness: "
-        "the plate through its stress, at constant line force and moment; thickness_rule: the plate through the rule",
+        "event: the whole event; mode with unit_load, and band: its parts, each set adds up to the event; load: all "
+        "stresses; thickness: the plate through its stress, at constant line force and moment; thickness_rule: the "
+        "plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
+    Column("unit_load", "text", "-", "name of the unit load, for kind unit_load"),
     Column("low_hz", "float", "Hz", "lower edge, for kind band"),
     Column("high_hz", "float", "Hz", "upper edge, for kind band; empty: no upper edge"),
     Column(
@@ -343,13 +345,14 @@ LEVERS = (
     *_POINT,
     _CHOSEN,
     Column("rank", "int", "-", "1: buys most"),
-    Column("mode", "int", "-", "mode id"),
-    Column("frequency_hz", "float", "Hz", "natural frequency of the mode"),
-    Column("kind", "text", "-", "normal, interface or rigid"),
-    Column("share", "float", "-", "share of the damage owed to the mode"),
-    Column("life_exponent", "float", "-", "d ln(life) / d ln(amplitude of the mode in all events)"),
+    Column("mode", "int", "-", "mode id, empty of a unit load"),
+    Column("unit_load", "text", "-", "name of the unit load, empty of a mode"),
+    Column("frequency_hz", "float", "Hz", "natural frequency of the mode, empty of a unit load"),
+    Column("kind", "text", "-", "normal, interface, rigid or unit_load"),
+    Column("share", "float", "-", "share of the damage owed to it"),
+    Column("life_exponent", "float", "-", "d ln(life) / d ln(its amplitude in all events)"),
     Column("life_km", "float", "km", "life as it is"),
-    Column("life_km_estimated", "float", "km", "life with the mode 10 % smaller, by the exponent"),
+    Column("life_km_estimated", "float", "km", "life with it 10 % smaller, by the exponent"),
     Column("life_km_counted", "float", "km", "the same with all cycles counted again"),
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )

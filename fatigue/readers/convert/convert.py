@@ -115,7 +115,7 @@ def convert(options: ConvertOptions) -> Conversion:
         *(*found.warnings, *left_out, *inputs.warnings),
         *(*loads_at_welds(results, metric, found), *load_warnings(loads, lacking, kept_case)),
     )
-    record = conversion_record(options, inputs, convention, judged, warnings, found.rows)
+    record = conversion_record(options, inputs.files(options), convention, judged, warnings, found.rows, loads)
     write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,

@@ -3,12 +3,12 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
 from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
-from fatigue.readers.convert.inputs import ForeignInputs
 from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.option_fields import words_of
 from fatigue.readers.convert.options import ConvertOptions
@@ -19,19 +19,20 @@ from fatigue.readers.neutral.register.weld_register import RegisterRow
 
 def conversion_record(
     options: ConvertOptions,
-    inputs: ForeignInputs,
+    inputs: Iterable[Path],
     convention: Convention,
     audit: Audit,
     warnings: Iterable[Problem],
     welds: Sequence[RegisterRow],
+    loads: Sequence[UnitLoad],
 ) -> dict[str, Any]:
     """What ``convert.json`` holds besides the hashes of the files that were written."""
     return {
-        "inputs": {str(path): sha256(path) for path in inputs.files(options)},
+        "inputs": {str(path): sha256(path) for path in inputs},
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in audit.rows],
         "remarks": [str(problem) for problem in warnings],
-        "unit_loads": [load_record(load) for load in inputs.unit_loads],
+        "unit_loads": [load_record(load) for load in loads],
         LINES: _lines_of_welds(welds),
         COMMAND: words_of(options),
     }

@@ -26,6 +26,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             f"force convention {record['force_convention']}, global axes, {len(record['modes']['used'])} modes",
             "case file: body.force_convention",
         ),
+        *(_load_rule(load) for load in record.get("unit_loads", ())),
         Rule(
             "Line forces",
             "consistent with the edge shape functions along each weld line, solved once for all modes",
@@ -81,6 +82,23 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
         Rule("Frequency-domain life", "Dirlik, with one bending ratio per point and event", "Dirlik 1985"),
         Rule("Frequency-domain life, second", "Tovo-Benasciutti", "Benasciutti and Tovo 2005, Int. J. Fatigue 27"),
     ]
+
+
+def _load_rule(load: Mapping[str, Any]) -> Rule:
+    """What one unit load is, and what events that do not give it have of it; its values stand under Loads."""
+    what = f"forces per {load['unit']}, one more coordinate beside the modes, role {load['role']}; an event that does "
+    what += "not give it " + ("is refused" if load["when_missing"] == "error" else "has none of it")
+    ways = ", ".join(dict.fromkeys(_WAYS[given["way"]] for given in load["given"].values()))
+    return Rule(f"Unit load {load['name']}", f"{what}; here: {ways}", "case file: body.unit_load")
+
+
+_WAYS = {
+    "constant": "constant",
+    "values": "static values",
+    "column": "column of the event's record",
+    "file": "a history of its own",
+    "missing": "not given, zero",
+}
 
 
 def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
