@@ -47,9 +47,6 @@ class UnitLoad(Table):
         if not self.nodal_forces and not self.element_forces:
             remedy = "Give the file of its forces, of the same form as those of the modes"
             yield absent("nodal_forces", "neither nodal_forces nor element_forces is given", remedy)
-        if self.elements_carry_load and self.nodal_forces:
-            what = "true is given with nodal_forces, of which no balance of elements is checked"
-            yield clash("elements_carry_load", what, "Remove it, or give element_forces")
 
 
 class GivenLoad(Table):

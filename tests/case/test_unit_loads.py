@@ -83,10 +83,6 @@ WRONG = [
         "unit_load[1].nodal_forces: nodal_forces and element_forces are both",
     ),
     (
-        PRESSURE + "elements_carry_load = true\n",
-        "elements_carry_load: true is given with nodal_forces",
-    ),
-    (
         PRESSURE + of_event("presure", constant=1.0),
         "name: there is no unit load 'presure'. Write 'pressure'",
     ),

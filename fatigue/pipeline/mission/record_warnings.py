@@ -64,7 +64,7 @@ def record_warnings(records: Sequence[CheckedEvent], coordinates: Coordinates, c
     return [
         *_at_rest_warnings(still, coordinates),
         *_lost_mode_warnings(moving, coordinates.modes),
-        *_lost_load_warnings(moving, coordinates),
+        *_lost_load_warnings(records, coordinates),
         *_same_record_warnings(moving),
         *_speed_warnings(records, case_file),
     ]
@@ -129,20 +129,22 @@ def _lost_mode_warnings(records: Sequence[CheckedEvent], modes: Modes) -> list[P
 
 
 def _lost_load_warnings(records: Sequence[CheckedEvent], coordinates: Coordinates) -> list[Problem]:
-    """Warning about unit loads that are given over time or by values, and do not change."""
+    """Warning about unit loads that events give over time or by values, and that change in none of them.
+
+    In some events a load may well stand still: there is no tunnel on the line.
+    """
     found: list[tuple[CheckedEvent, LoadSource]] = []
-    for record in records:
-        moves = record.outline.moves[len(coordinates.modes.mode) :]
-        given = zip(record.loads, moves.tolist(), strict=True)
-        found += [(record, load) for load, changes in given if load.way in OVER_TIME and not changes]
+    for row in range(len(coordinates.unit_loads)):
+        given = [record for record in records if record.loads[row].way in OVER_TIME]
+        if given and not any(record.outline.moves[len(coordinates.modes.mode) + row] for record in given):
+            found.append((given[0], given[0].loads[row]))
     if not found:
         return []
     record, load = found[0]
     file = record.file if load.path is None else load.path.name
-    event = shortened(record.event.name)
-    what = f"the unit load '{load.name}' does not change in event '{event}', so it makes no range"
+    what = f"the unit load '{load.name}' is given over time and changes in no event, so it makes no range"
     if len(found) > 1:
-        others = [f"'{one.name}' in '{of.event.name}'" for of, one in found[1:]]
+        others = [f"'{one.name}'" for _, one in found[1:]]
         what += f"; nor do {few(others)}"
     remedy = "Check the column, or give a constant"
     where = f"{file}: column {load.column or 'values'}"
