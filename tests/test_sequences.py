@@ -108,35 +108,39 @@ def test_load_factor_put_back_meets_the_target(curve: str, tmp_path: Path) -> No
 
     def made() -> SmallCase:
         case = empty_and_laden(**CURVES[curve])
-        case.extra = LOOP.replace("1.5", "20")
+        case.extra = LOOP.replace("1.5", "200")
         for event in case.events[1::2]:
-            event["per_1000_km"] = 20.0
+            event["per_1000_km"] = 200.0
         return case
 
     nodes = assessed(made(), tmp_path / "as it is")[1]["nodes"]
     worst = nodes.loc[nodes["utilisation"].idxmax()]
-    again = assessed(scaled(made(), worst["load_factor"]), tmp_path / "scaled")[1]["nodes"]
-    # a cut-off and the onset of f_M are jumps: the factor is the last one below
-    exact = curve in ("straight", "haibach")
-    assert again.loc[worst.name, "utilisation"] == pytest.approx(1.0, abs=1e-6 if exact else 5e-2)
-    assert again.loc[worst.name, "utilisation"] <= 1.0 + 1e-6
-    assert worst["damage_per_km_transitions"] > 0.1 * worst["damage_per_km"]
+
+    def utilisation(factor: float, name: str) -> float:
+        again = assessed(scaled(made(), factor), tmp_path / name)[1]["nodes"]
+        return float(again.loc[worst.name, "utilisation"])
+
+    at_factor = utilisation(worst["load_factor"], "scaled")
+    if curve in ("straight", "haibach"):
+        assert at_factor == pytest.approx(1.0, abs=1e-6)
+    else:  # a cut-off and the onset of f_M are jumps: the factor is the last one that meets the target
+        assert at_factor <= 1.0 < utilisation(1.0005 * worst["load_factor"], "a little more")
+    assert worst["damage_per_km_transitions"] > 0.01 * worst["damage_per_km"]
 
 
 @pytest.mark.parametrize("curve", CURVES)
 def test_bounds_of_screened_points_hold(curve: str, tmp_path: Path) -> None:
     """Counted in full no point exceeds what screening says of it, the cycles across events included."""
-    case = empty_and_laden(**CURVES[curve])
+    case = scaled(empty_and_laden(**CURVES[curve]), 0.05)
     case.extra = LOOP
     exact = assessed(case, tmp_path / "exact", share=0.0)[1]["nodes"]
-    bounded = assessed(case, tmp_path / "screened", share=1.0)[1]["nodes"]
+    bounded = assessed(case, tmp_path / "screened", share=1.0, proves_worst=False)[1]["nodes"]
     at = bounded["screened"].fillna("") != ""
     assert (bounded["damage_per_km"] >= exact["damage_per_km"] * (1.0 - 1e-9)).all()
     assert (bounded["max_range_MPa"] >= exact["max_range_MPa"] * (1.0 - 1e-9)).all()
     assert (bounded["load_factor"] <= exact["load_factor"] * (1.0 + 1e-9)).all()
     assert bounded.loc[~at, "damage_per_km"].to_numpy() == pytest.approx(exact.loc[~at, "damage_per_km"].to_numpy())
-    if curve == "straight":
-        assert at.any()
+    assert at.sum() > 10
 
 
 def test_unknown_order_is_a_bound_beside_the_damage(tmp_path: Path) -> None:
