@@ -40,7 +40,8 @@ from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
+from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
+from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.histogram import HistogramWriter
 from fatigue.pipeline.tables.provenance import provenance_record
@@ -294,7 +295,7 @@ def write_tables(
     """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
     wants_histograms = work.histogram != "none"
     with result_tables(folder, key, [*ASSESSED, *["histogram"] * wants_histograms]) as tables, closing(assessed):
-        cycles = CycleWriter(tables["cycles"], work.loads)
+        cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, threads) if wants_histograms else None
         for group in assessed:
             worst = write_group(tables, group, work)

@@ -175,12 +175,12 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
         "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
         "kurtosis", "samples_per_peak", "damage_tb_whole_per_pass", "outside_share",
     ]  # fmt: skip
-    events = len(plan.passes)
-    expected, found = row_count(folder, "nodes") * events, row_count(folder, "damage")
+    events, of_point = len(plan.passes), len(plan.names)
+    expected, found = row_count(folder, "nodes") * of_point, row_count(folder, "damage")
     if found != expected:
         what = f"has {found} rows where the points and events of the result make {expected}"
         raise DataError(Problem("other_points", str(folder / "damage.parquet"), what, "Run the assessment again"))
-    table = read_rows(folder, "damage", (rows[:, None] * events + np.arange(events)).ravel(), columns).to_pandas()
+    table = read_rows(folder, "damage", (rows[:, None] * of_point + np.arange(events)).ravel(), columns).to_pandas()
     return [table[number::events].reset_index(drop=True) for number in range(events)]
 
 
