@@ -85,7 +85,8 @@ class BlockCount:
     mean : mean of the structural stress samples and the offset [MPa]; NaN without samples
     kurtosis : fourth over squared second central moment of the samples, 3 if Gaussian; NaN of a constant row
     histogram : (n, 2, HISTOGRAM_BINS, 2) sum of n and sum of n dS**k between the ``HISTOGRAM_EDGES`` of dS, ranges
-        beyond them in the end bins; (n, 2, 0, 2) for a straight law, where damage scales with load**k
+        beyond them in the end bins; (n, 2, 0, 2) for a straight law, where damage scales with load**k;
+        (n, 2, 2 HISTOGRAM_BINS, 2) where ranges S are asked for too, under any law: their bins follow those of dS
     """
 
     damage: Floats

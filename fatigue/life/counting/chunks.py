@@ -94,14 +94,16 @@ class _Stage(NamedTuple):
     steps: int
 
 
-def count_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK) -> BlockCount:
-    """Count a block as ``count`` does, ``chunk`` samples at a time.
+def count_chunks(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK, *, ranges: bool = False
+) -> BlockCount:
+    """Count a block as ``count`` does, ``chunk`` samples at a time; ``ranges``: see ``nothing_counted``.
 
     Raises
     ------
     NumericalError : a stress is not finite
     """
-    counted = nothing_counted(len(stress), rule.law)
+    counted = nothing_counted(len(stress), rule.law, ranges=ranges)
     _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk)
     return block_count(*counted, rule, stress.level)
 

@@ -50,14 +50,14 @@ class _Histories(NamedTuple):
     trials: Trials
 
 
-def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
-    """Count a block as ``count`` does: the histories of a few points at a time."""
+def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, *, ranges: bool = False) -> BlockCount:
+    """Count a block as ``count`` does: the histories of a few points at a time; ``ranges``: see ``nothing_counted``."""
     rows = _rows_at_once(record)
     counts = []
     for first in range(0, len(stress), rows):
         some = stress.at(slice(first, first + rows))
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
-        counts.append(_count_some(some, (membrane, bending), record.recurs, rule))
+        counts.append(_count_some(some, (membrane, bending), record.recurs, rule, ranges=ranges))
     return BlockCount(*(np.concatenate([getattr(count, f.name) for count in counts]) for f in fields(BlockCount)))
 
 
@@ -93,11 +93,13 @@ def count_histories(
     return _count_some(BlockStress(membrane, bending, size, same_ratio), (membrane, bending), residue == "repeat", rule)
 
 
-def _count_some(some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule) -> BlockCount:
+def _count_some(
+    some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule, *, ranges: bool = False
+) -> BlockCount:
     """Count some points, of which membrane and bending stress over time are given."""
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
-    totals, histogram = nothing_counted(len(membrane), rule.law)
+    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=ranges)
     of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
     _count(block, recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))

@@ -51,10 +51,11 @@ def compiled_rule(rule: CycleRule) -> CompiledRule:
     return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress)
 
 
-def nothing_counted(points: int, law: DamageLaw) -> tuple[NDArray[np.void], Floats]:
-    """Totals and histogram of a block before its first cycle."""
+def nothing_counted(points: int, law: DamageLaw, *, ranges: bool = False) -> tuple[NDArray[np.void], Floats]:
+    """Totals and histogram of a block before its first cycle; with ``ranges`` any law has bins of dS, and of S too."""
     totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
-    return totals, np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
+    bins = 2 * HISTOGRAM_BINS if ranges else 0 if law.is_straight else HISTOGRAM_BINS
+    return totals, np.zeros((points, 2, bins, 2))
 
 
 def own_of(stress: BlockStress) -> tuple[Floats, Floats]:
@@ -111,6 +112,15 @@ def cycle_damage(x: float, rule: CompiledRule) -> float:
 
 
 @compiled()
+def add_to_bin(n: float, x: float, k: float, histogram: Floats) -> None:
+    """Add n cycles of the range x to sum n and sum n x^k of its bin."""
+    decades = math.log10(max(x, 1e-3)) + 3.0
+    bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
+    histogram[bin_, 0] += n
+    histogram[bin_, 1] += n * math.exp(k * math.log(x))
+
+
+@compiled()
 def tally(
     point: Surface, total: NDArray[np.void], histogram: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
 ) -> None:
@@ -146,9 +156,8 @@ def tally(
         if histogram.shape[0] > 0:
             total["damage_same_ratio"] += n * cycle_damage(S * same_scale, rule)
             total["damage_with_shear"] += n * cycle_damage(dS * point.shear_factor, rule)
-            decades = math.log10(max(dS, 1e-3)) + 3.0
-            bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
-            histogram[bin_, 0] += n
-            histogram[bin_, 1] += n * math.exp(k * math.log(dS))
+            add_to_bin(n, dS, k, histogram[:HISTOGRAM_BINS])
+            if histogram.shape[0] > HISTOGRAM_BINS:
+                add_to_bin(n, S, k, histogram[HISTOGRAM_BINS:])
     if histogram.shape[0] == 0:  # d(a S) = d(a) S**k of a straight law
         total["damage_same_ratio"] = cycle_damage(same_scale, rule) * total["power_sum"]
