@@ -5,6 +5,7 @@ refused here. What is there is added up to numbers of welds, stations and stress
 counted under a chunk of one record, and from its time follows the time of the whole job.
 """
 
+import math
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -182,8 +183,17 @@ def _gravity_lines(gravity: Sequence[HeldGravity]) -> Iterator[tuple[str, str]]:
     """What the mean of q of the events holds of the dead load, verdict by verdict, in words."""
     verdicts = dict.fromkeys(one.in_words for one in gravity)
     for number, words in enumerate(verdicts):
-        events = few([f"'{one.event}'" for one in gravity if one.in_words == words])
-        yield "" if number else "dead load", f"{words}: {events}"
+        alike = [one for one in gravity if one.in_words == words]
+        told = f"beta {_span([one.beta for one in alike])}, cosine {_span([one.cos for one in alike])}"
+        events = [f"'{one.event}'" for one in alike]
+        yield "" if number else "dead load", f"{words} ({told}): {few(events)}"
+
+
+def _span(numbers: Sequence[float]) -> str:
+    """The smallest and the largest of some numbers, one where they are shown alike; a dash where none is known."""
+    known = [number for number in numbers if not math.isnan(number)]
+    shown = list(dict.fromkeys(f"{number:.3g}" for number in (min(known), max(known)))) if known else ["-"]
+    return " to ".join(shown)
 
 
 def _time_text(needed: JobTime) -> str:
