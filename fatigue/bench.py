@@ -193,7 +193,7 @@ def bench(folder: Path | str, points: Path | str, blocks: Path | str, *, no_lock
         programmes=programmes,
         target_km=record["mission"]["target_km"],
         assumptions=assumptions(record),
-        warnings=(*warnings, *asked.warnings, *_mean_stress(record)),
+        warnings=(*warnings, *asked.warnings, *mean_stress_warnings(record)),
     )
     _write(folder, record, found, no_lock=no_lock)
     return found
@@ -224,11 +224,13 @@ def _not_reached(points: BenchPoints, blocks: Blocks, share: NDArray[np.float64]
     yield from faults.problems()
 
 
-def _mean_stress(record: Mapping[str, Any]) -> Iterator[Problem]:
+def mean_stress_warnings(record: Mapping[str, Any]) -> Iterator[Problem]:
     """Warning of targets with a mean-stress factor, which the cycles of the bench do not have."""
     if record["rules"]["mean_stress"] != "none":
         what = "the damage of the result contains the mean-stress factor, a cycle of the bench swings about zero"
-        yield Problem("bench_mean_stress", "targets", what, "Run the blocks about zero, or expect more damage")
+        yield Problem(
+            "bench_mean_stress", "targets", what, "Run the blocks about zero: in high mean tension they do more damage"
+        )
 
 
 def _write(folder: Path, record: Mapping[str, Any], found: Bench, *, no_lock: bool) -> None:

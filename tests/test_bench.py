@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.assess import assess
-from fatigue.bench import _mean_stress, bench
+from fatigue.bench import bench, mean_stress_warnings
 from fatigue.case import load_case
 from fatigue.decide import bench_points
 from fatigue.decide.bench_files import read_points
@@ -145,9 +145,9 @@ def test_by_node_and_with_a_register_of_units(folder):
 def test_mean_stress_is_told(folder):
     """Targets with f_M, blocks without: one warning."""
     record = read_provenance(folder)
-    assert not list(_mean_stress(record))
+    assert not list(mean_stress_warnings(record))
     record["rules"]["mean_stress"] = "asme"
-    (problem,) = _mean_stress(record)
+    (problem,) = mean_stress_warnings(record)
     assert problem.code == "bench_mean_stress"
 
 
