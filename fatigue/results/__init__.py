@@ -26,6 +26,7 @@ from fatigue.results.belonging import (
 from fatigue.results.columns import (
     ASSESSED,
     ATTRIBUTION,
+    BENCHED,
     CYCLES,
     DAMAGE,
     DIAGNOSED,
@@ -69,6 +70,7 @@ from fatigue.results.weld_table import assessed, not_assessed, read_welds
 __all__ = [
     "ASSESSED",
     "ATTRIBUTION",
+    "BENCHED",
     "CSV_TABLES",
     "CYCLES",
     "DAMAGE",
