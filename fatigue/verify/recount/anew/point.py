@@ -26,6 +26,7 @@ from fatigue.verify.recount.anew.vertex import Vertices, vertices
 Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
+SAME_INSTANT = 1e-6  # of a step: of a vertex that lies on a sample
 NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not counted among the peaks
 
 
@@ -172,6 +173,7 @@ def one_pass(
     x, n, low, high = (of_all[kept_cycles] for of_all in (x, n, low, high))
     turns = None if event is None else _turns(event, cycles, modal_stress, s, record, read)
     bounds = pass_bounds(counted, values, curve), cycle_bounds(counted, curve)
+    bounds[1]["instant"] = SAME_INSTANT * record.fine_step
     return OnePass(values, x, n, low, high, rows, *bounds, turns)
 
 
