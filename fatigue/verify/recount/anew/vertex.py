@@ -64,7 +64,8 @@ def vertices(s: Floats, record: RecountRecord, rho: float) -> Vertices:
     at = np.flatnonzero(inner & (down * up > 0.0))
     a, b = down[at], up[at]
     level = np.abs(down) <= rho
-    level &= (record.counted != np.roll(record.counted, 1, axis=1)).any(axis=0) if level.any() else False
+    still = np.flatnonzero(level)  # of equal coordinates both programs make equal stresses
+    level[still] = (record.counted[:, still] != record.counted[:, still - 1]).any(axis=0)
     unsure = np.flatnonzero(inner & (level | np.roll(level, -1)))
     steps = np.maximum(np.abs(down[unsure]), np.abs(up[unsure]))
     return Vertices(at, (a - b) / (2.0 * (a + b)), len(s), float(steps.max(initial=0.0)) / 8.0)
