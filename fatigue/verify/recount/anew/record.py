@@ -38,6 +38,7 @@ class RecountRecord:
     length_km : distance of one pass, None for an event counted by number
     passes_per_km : of the mission
     peak : (c,) largest absolute value of each coordinate
+    vertex : whether reversals are read at the vertices of parabolas through their samples
     has_spectrum : whether the samples are of one time; those of a static load case are not
     """
 
@@ -54,6 +55,7 @@ class RecountRecord:
     length_km: float | None
     passes_per_km: float
     peak: Floats
+    vertex: bool
     has_spectrum: bool
 
 
@@ -114,6 +116,7 @@ def read_record(
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
         peak=np.maximum(counted.max(axis=1), -counted.min(axis=1)),
+        vertex=counting.get("reversals", "samples") == "vertex",
         has_spectrum="history" in event,
     )
 
