@@ -163,7 +163,7 @@ def spectra(
         classes=len(sorted_into.ranges) - 1,
         exponents=() if given is None else tuple(given.tolist()),
         target_km=plan.target_km,
-        at_points=tuple(at_points),
+        at_points=tuple(sorted(at_points, key=lambda point: -point.damage_per_km)),
         signals=tuple(signals),
         warnings=tuple(warnings),
     )

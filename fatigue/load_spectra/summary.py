@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.load_spectra.gathered import PointSpectra
+from fatigue.load_spectra.gathered import MISSION, PointSpectra
 from fatigue.load_spectra.rows import FACES, equivalents
 from fatigue.load_spectra.signals import SignalSpectra
 from fatigue.shown import shortened, visible
@@ -45,7 +45,7 @@ class EventLine:
 
 @dataclass(frozen=True, slots=True)
 class PointLine:
-    """One point with its events, the mission behind them."""
+    """One point with its events, the mission behind them, and what was measured last."""
 
     weld: str
     part: int
@@ -53,6 +53,11 @@ class PointLine:
     node: int
     surface: str
     events: tuple[EventLine, ...]
+
+    @property
+    def damage_per_km(self) -> float:
+        """Miner sum of the mission [1/km]."""
+        return next(event.damage_per_km for event in self.events if event.event == MISSION)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +74,7 @@ class SignalLine:
 
 @dataclass(frozen=True, slots=True)
 class LoadSpectra:
-    """The load spectra of a result in short; all numbers are in the tables of its folder.
+    """The load spectra of a result in short, worst point first; all numbers are in the tables of its folder.
 
     ``points`` says which points were chosen, ``exponents`` are those given, none: the first slope of each curve.
     """

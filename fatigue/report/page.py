@@ -22,6 +22,7 @@ from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.load_spectra import read_load_spectra, spectra_words
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
@@ -83,7 +84,7 @@ def report_page(
     missing: list[Problem] = []
     details, steps = _details(result, inputs, missing)
     body = _body(inputs, missing)
-    why = read_why(folder, result)
+    why, spectra = read_why(folder, result), read_load_spectra(folder, result)
     for problem in missing:
         log.warning("the report lacks something: %s", problem)
     for problem in inputs.outdated:
@@ -105,7 +106,10 @@ def report_page(
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
-        "pages": [weld_page(result, weld, details.get(weld), why, figs, links[weld]) for weld in result.detailed],
+        "pages": [
+            weld_page(result, weld, details.get(weld), why, spectra, figs, links[weld]) for weld in result.detailed
+        ],
+        "spectra_words": spectra_words(spectra),
         **body_sections.domains(result, figs),
         "undetailed": len(result.assessed) - len(result.detailed),
         "undrawn": len(result.assessed) - len(result.drawn),
