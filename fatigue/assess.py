@@ -37,7 +37,8 @@ from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
+from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
+from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
@@ -153,7 +154,7 @@ def assess(
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
             with result_tables(unpublished, key) as tables, closing(assessed):
-                cycles = CycleWriter(tables["cycles"], work.loads)
+                cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
                 for group in assessed:
                     worst = write_group(tables, group, work)
                     cycles.add(points_kept_of(worst, group, work))

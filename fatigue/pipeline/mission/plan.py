@@ -5,6 +5,7 @@ from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.events import top_mode_hz
+from fatigue.pipeline.mission.loops import plan_loops
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
 from fatigue.pipeline.mission.record_warnings import EventRecord, record_warnings
 from fatigue.pipeline.solve.body import Body
@@ -36,7 +37,9 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
             records.append(checked[2])
     refuse(DataError, problems)
     warnings += record_warnings(records, body.modes, body.case.path.name)
-    return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
+    loops = plan_loops(body.case, passes)
+    plan = Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit, loops)
+    return plan, tuple(warnings)
 
 
 def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], EventRecord] | FatigueError:
@@ -58,6 +61,8 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], EventRecord
         length=event_length_km(event, samples * grid.step),
         share=event.share,
         per_1000_km=event.per_1000_km,
+        half=case.residue(event) == "half",
+        stints_per_1000_km=event.stints_per_1000_km,
     )
     warnings += step_warnings(grid, body.modes, path.name, event.name)
     return (
