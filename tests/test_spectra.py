@@ -9,12 +9,15 @@ import pytest
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError
+from fatigue.life.counting import long_rainflow
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rule import cycle_damage, ratio_factor
+from fatigue.load_spectra import recounted
 from fatigue.results import LOAD_SPECTRA, read_provenance
 from fatigue.spectra import spectra
 from tests.small_case import THICKNESS, small_case
+from tests.test_sequences import LOOP, empty_and_laden
 
 KEY = ["weld", "part", "order", "surface"]
 
@@ -193,6 +196,17 @@ def test_chosen_points_and_threads_change_no_number(own):
     assert rows.to_numpy().tolist() == [["A", 1, 1, "top"], ["A", 1, 1, "bottom"], ["B", 1, 3, "top"]]
 
 
+def test_records_of_any_length_give_the_same_rows(own, monkeypatch):
+    """Counted in one go, or piece by piece as their chunks come."""
+    spectra(own / "result", threads=1)
+    one = {name: pd.read_parquet(own / "result" / f"{name}.parquet") for name in LOAD_SPECTRA}
+    monkeypatch.setattr(recounted, "_SAMPLES_AT_ONCE", 100)
+    monkeypatch.setattr(long_rainflow, "FEWEST", 7)
+    spectra(own / "result", threads=1)
+    for name, rows in one.items():
+        pd.testing.assert_frame_equal(rows, pd.read_parquet(own / "result" / f"{name}.parquet"), rtol=1e-12)
+
+
 def test_edges_of_a_file(own):
     """Classes as they are given; what lies outside is warned of, and in no class."""
     path = write(own, "edges.csv", "range_MPa,level_MPa\n0,-200\n50,0\n80,200\n100,\n")
@@ -290,6 +304,64 @@ def test_factors_and_upsampling_are_those_of_the_assessment(tmp_path):
     assert (both["max_range_MPa"] == both["max_range_MPa_d"]).all()
     crossings = pd.read_parquet(tmp_path / "result" / "level_crossings.parquet")
     assert (crossings["up_crossings_per_km"] >= 0.0).all()
+
+
+def test_cycles_across_events_are_listed_with_those_they_replace(tmp_path):
+    """A loop has its rows, replaced cycles below 0, so that the mission is that of the points."""
+    case = empty_and_laden()
+    case.extra = LOOP
+    assess(load_case(case.write(tmp_path / "case")), tmp_path / "result", threads=1, report=False)
+    summary = spectra(tmp_path / "result", threads=1)
+    names = (*LOAD_SPECTRA, "nodes", "damage")
+    table = {name: pd.read_parquet(tmp_path / "result" / f"{name}.parquet") for name in names}
+    both = table["equivalent"].merge(table["damage"], on=[*KEY, "event"], suffixes=("", "_d"))
+    loop = both.query("event == '(sequence 1)'")
+    assert len(loop) == 2
+    np.testing.assert_allclose(both["damage_per_km"], both["passes_per_km"] * both["damage_per_pass"], rtol=1e-9)
+    np.testing.assert_allclose(both["cycles_per_km"], both["passes_per_km"] * both["cycles_per_pass"], atol=1e-12)
+    np.testing.assert_allclose(loop["max_range_MPa"], loop["max_range_MPa_d"], rtol=1e-12)
+    assert set(loop["del_reference"]) == {"1 per run"}
+    mission = table["equivalent"].query("event == '(mission)'").merge(table["nodes"], on=KEY, suffixes=("", "_n"))
+    for column in ("damage_per_km", "max_range_MPa", "equivalent_range_2e6_MPa"):
+        np.testing.assert_allclose(mission[column], mission[f"{column}_n"], rtol=1e-12)
+    spectrum = table["spectrum"]
+    assert (spectrum.query("event == '(sequence 1)'")["count_per_km"] < 0.0).any()
+    assert (spectrum.query("event == '(mission)'")["count_per_km"] >= 0.0).all()
+    assert (table["range_mean"].query("event == '(mission)'")["count_per_km"] > 0.0).all()
+    crossings = table["level_crossings"].query("event == '(mission)'")["up_crossings_per_km"]
+    assert (crossings >= -1e-12).all()
+    assert "(sequence 1)" in summary.as_text()
+
+
+def test_a_loop_is_counted_as_its_record_in_one_piece(tmp_path):
+    """Events and the loop add up to the spectra of one record with all passes in their order, run after run."""
+    case = empty_and_laden()
+    case.extra = LOOP
+    rates = {"sine": 1.5, "load": 1.5, "laden": 1.5, "unload": 1.5}
+    case.events = [
+        {"name": name, "history": name, "per_1000_km": rate, "residue": "half" if "load" in name else "repeat"}
+        for name, rate in rates.items()
+    ]
+    whole = empty_and_laden()
+    pieces = [whole.histories[name].drop(columns="time_s") for name in rates]
+    joined = pd.concat(pieces, ignore_index=True)
+    joined.insert(0, "time_s", 0.005 * np.arange(len(joined)))
+    whole.histories = {"all": joined}
+    whole.events = [{"name": "all", "history": "all", "per_1000_km": 1.5, "residue": "repeat"}]
+    tables = []
+    for name, one in (("loop", case), ("whole", whole)):
+        assess(load_case(one.write(tmp_path / name / "case")), tmp_path / name / "result", threads=1, report=False)
+        spectra(tmp_path / name / "result", threads=1, exponents=[3.0])
+        read = {of: pd.read_parquet(tmp_path / name / "result" / f"{of}.parquet") for of in LOAD_SPECTRA}
+        tables.append({of: rows.query("event == '(mission)'") for of, rows in read.items()})
+    loop, one = tables
+    for name, value in (("spectrum", "count_per_km"), ("level_crossings", "up_crossings_per_km")):
+        np.testing.assert_allclose(loop[name][value], one[name][value], atol=1e-12)
+    for name in ("range_mean", "from_to"):
+        assert len(loop[name]) == len(one[name])
+        np.testing.assert_allclose(loop[name].iloc[:, 6:], one[name].iloc[:, 6:], rtol=1e-9, atol=1e-12)
+    numbers = ["equivalent_range_2e6_MPa", "cycles_per_km", "max_range_MPa", "damage_per_km", "bending_ratio"]
+    np.testing.assert_allclose(loop["equivalent"][numbers], one["equivalent"][numbers], rtol=1e-9)
 
 
 def test_a_measured_spectrum_stands_beside_the_mission(own):
