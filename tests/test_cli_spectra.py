@@ -43,7 +43,8 @@ def test_spectra_are_told_written_and_drawn(result, tmp_path):
     assert [warning["code"] for warning in found["warnings"]] == ["measured_point", "measured_ratio"]
     assert done.stderr.count("names no point") == 1
     assert len(pd.read_csv(result / "spectrum.csv")) == 2 * 5 * 8
-    assert "names no point" in (result / "report.html").read_text(encoding="utf-8")
+    assert (result / "report.html").read_text(encoding="utf-8").count("m.csv</bdi>: names no point") == 2
+    assert "damage of (measured) / (mission)" in fatigue("spectra", result, *options).stdout
     assert fatigue("verify", "--results", result, "--sample", "2").returncode == 0
     assert fatigue("show", result).returncode in {0, 1}
 

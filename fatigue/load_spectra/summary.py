@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import Problem
 from fatigue.load_spectra.gathered import MISSION, PointSpectra
+from fatigue.load_spectra.measured import MEASURED
 from fatigue.load_spectra.rows import FACES, equivalents
 from fatigue.load_spectra.signals import SignalSpectra
 from fatigue.shown import shortened, visible
@@ -62,9 +63,10 @@ class PointLine:
 
 @dataclass(frozen=True, slots=True)
 class SignalLine:
-    """One coordinate of the body under the whole mission, in its own unit."""
+    """One coordinate of the body under the whole mission, in its own unit; ``unit_load`` is empty for a mode."""
 
     signal: str
+    unit_load: str
     unit: str
     cycles_per_km: float
     largest: float | None
@@ -104,6 +106,7 @@ class LoadSpectra:
             textwrap.fill(said, WIDTH),
             *(_point_text(point) for point in self.at_points[:POINTS_TOLD]),
         ]
+        parts += _signals_text([line for line in self.signals if line.unit_load])
         if (more := len(self.at_points) - POINTS_TOLD) > 0:
             parts.append(f"{more} more points are in the tables.")
         return "\n\n".join(parts)
@@ -124,7 +127,22 @@ def _point_text(point: PointLine) -> str:
             S_eq, alone = of.equivalent_range_2e6_MPa, of.del_MPa
             equivalent = (f"{of.exponent:.4g}", _number(S_eq), _number(half), _number(alone))
             lines.append(_columns((*own, *equivalent, _number(event.damage_per_km) if i == 0 else "")))
+    by_name = {event.event: event.damage_per_km for event in point.events}
+    if MEASURED in by_name and by_name[MISSION] > 0.0:
+        lines.append(f"  damage of (measured) / (mission): {_number(by_name[MEASURED] / by_name[MISSION])}")
     return "\n".join(lines)
+
+
+def _signals_text(signals: Sequence[SignalLine]) -> list[str]:
+    """A table of the unit loads under the mission; modes are in the tables only."""
+    if not signals:
+        return []
+    lines = ["Unit loads under the mission, each in its own unit", _columns(("load", "cycles/km", "largest", "DEL"))]
+    for line in signals:
+        name = shortened(visible(f"{line.unit_load} [{line.unit}]"))
+        equivalent = ", ".join(_number(value) for value in line.del_per_km)
+        lines.append(_columns((name, _number(line.cycles_per_km), _number(line.largest), equivalent)))
+    return ["\n".join(lines)]
 
 
 def _columns(cells: Sequence[str]) -> str:
@@ -172,6 +190,7 @@ def signal_line(spectra: SignalSpectra) -> SignalLine:
     largest = float(np.fmax.reduce(spectra.ranges[-1].largest, initial=np.nan))
     return SignalLine(
         signal=spectra.signal.column,
+        unit_load=spectra.signal.unit_load,
         unit=spectra.signal.unit,
         cycles_per_km=float(spectra.cycles[-1]),
         largest=_or_none(largest),

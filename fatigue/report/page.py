@@ -22,7 +22,7 @@ from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
-from fatigue.report.sections.load_spectra import read_load_spectra, spectra_words
+from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
@@ -99,7 +99,7 @@ def report_page(
         "outdated": inputs.outdated,
         "head": _head(result),
         "assumptions": method.assumptions(record),
-        "warnings": _warnings(record),
+        "warnings": _warnings([*record["warnings"], *spectra_warnings(spectra)]),
         "worst_welds": tables.weld_table(result.assessed, links),
         "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
         # figures are numbered in the order of these lines, the order of the page
@@ -212,10 +212,10 @@ def _listed(result: ShownResult) -> pd.DataFrame:
     return result.welds[listed]
 
 
-def _warnings(record: Mapping[str, Any]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
+def _warnings(warnings: Sequence[Mapping[str, Any]]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
     """Warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
-    for warning in record["warnings"]:
+    for warning in warnings:
         groups.setdefault(warning["code"], []).append({**warning, "where": _shortened(warning["where"])})
     return [(code, sum(warning.get("count", 1) for warning in group), group) for code, group in groups.items()]
 

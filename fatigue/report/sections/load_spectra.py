@@ -107,7 +107,7 @@ def equivalent_table(id_: str, own: LoadSpectra) -> PageTable | None:
 
 
 def spectra_words(spectra: LoadSpectra | None) -> list[str]:
-    """What the page says of all load spectra together: which points have them, and the doubts."""
+    """What the page says of all load spectra together: which points have them, and what was measured."""
     if spectra is None:
         return []
     said = spectra.said
@@ -116,5 +116,9 @@ def spectra_words(spectra: LoadSpectra | None) -> list[str]:
     if "compare" in files:
         of_km = wording.km(said.get("compare_km"))
         words.append(f"Measured: {files['compare'].get('file')}, its counts for {of_km}.")
-    words += [f"{w['where']}: {w['what']}. {w['remedy']}." for w in said.get("warnings", ())]
     return words
+
+
+def spectra_warnings(spectra: LoadSpectra | None) -> list[Mapping[str, Any]]:
+    """Warnings about the load spectra, which stand with those of the assessment."""
+    return [] if spectra is None else list(spectra.said.get("warnings", []))
