@@ -26,7 +26,6 @@ from fatigue.results.belonging import (
 from fatigue.results.columns import (
     ASSESSED,
     ATTRIBUTION,
-    BENCHED,
     CYCLES,
     DAMAGE,
     DIAGNOSED,
@@ -40,6 +39,7 @@ from fatigue.results.columns import (
     TRACK,
     WELDS,
 )
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.enlist import enlist, relist

@@ -19,7 +19,8 @@ import pyarrow.parquet as pq
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
-from fatigue.results.columns import ASSESSED, BENCHED, DIAGNOSED, OPTIONAL, TABLES
+from fatigue.results.columns import ASSESSED, DIAGNOSED, OPTIONAL, TABLES
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.json_records import write_json
 from fatigue.results.outputs import altered

@@ -1,5 +1,6 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
@@ -410,41 +411,6 @@ LEVERS = (
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )
 
-_METHOD = Column(
-    "method",
-    "text",
-    "-",
-    "least_squares: closest to all targets; cover: every target reached, none exceeded by more than need be",
-)
-_BLOCK = Column("block", "text", "-", "block of the bench, by its name or its row")
-
-BENCH_BLOCKS = (
-    _METHOD,
-    _BLOCK,
-    Column("cycles", "float", "-", "cycles of the block in the programme; 0: it is not used"),
-    Column("whole_cycles", "float", "-", "the same rounded up"),
-)
-
-BENCH_POINTS = (
-    _METHOD,
-    *_POINT,
-    Column("factor", "float", "-", "factor on the target damage, as asked for"),
-    Column("target_damage", "float", "-", "Miner sum of the point at target_km, times its factor"),
-    Column("achieved_over_target", "float", "-", "Miner sum of the programme over the target"),
-    Column("achieved_over_target_whole", "float", "-", "the same in whole cycles"),
-)
-
-BENCH_DAMAGE = (
-    *_POINT,
-    _BLOCK,
-    Column("membrane_range_MPa", "float", "MPa", "membrane stress range of a cycle of the block"),
-    Column("bending_range_MPa", "float", "MPa", "bending stress range of the cycle"),
-    Column("range_MPa", "float", "MPa", "structural stress range of the cycle at the face"),
-    Column("bending_ratio", "float", "-", "bending / (membrane + bending) range"),
-    Column("equivalent_range_dS", "float", "MPa mm^-0.222", "equivalent range (MPa on curves in structural stress)"),
-    Column("damage_per_cycle", "float", "-", "1 / cycles to failure at this range, without mean-stress factor"),
-)
-
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,
@@ -459,9 +425,4 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "levers": LEVERS,
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
-BENCHED: dict[str, tuple[Column, ...]] = {
-    "bench_blocks": BENCH_BLOCKS,
-    "bench_points": BENCH_POINTS,
-    "bench_damage": BENCH_DAMAGE,
-}
 TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

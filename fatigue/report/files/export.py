@@ -9,7 +9,7 @@ import pandas as pd
 import pyarrow as pa
 
 from fatigue.errors import DataError, Problem, given_path
-from fatigue.extras import install_command
+from fatigue.files.extras import install_command
 from fatigue.files.mishaps import cannot_write, refused_writing
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
