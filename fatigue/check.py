@@ -19,6 +19,7 @@ from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
+from fatigue.pipeline.mission.in_words import count_texts, sequence_texts
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
@@ -39,6 +40,7 @@ class CheckedCase:
     ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` the time
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
     takes, ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
+    ``counts`` say what every event of few samples counts as, ``sequences`` which orders of events are counted.
     ``warnings`` are summed up as in an assessment.
     """
 
@@ -58,6 +60,8 @@ class CheckedCase:
     estimated_scratch_MB: float  # noqa: N815
     estimated_result_MB: float  # noqa: N815
     estimate: JobTime
+    counts: tuple[str, ...]
+    sequences: tuple[str, ...]
     warnings: tuple[Problem, ...]
 
     @property
@@ -91,6 +95,8 @@ class CheckedCase:
                 *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
+                *(f"  {'' if i else 'counted':16} {text}" for i, text in enumerate(self.counts)),
+                *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
                 f"  stress samples   {2 * self.samples:.3g}",
                 f"  estimated time   {_time_text(self.estimate)}",
                 f"  estimated space  {self._space()}",
@@ -152,6 +158,8 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         estimated_scratch_MB=round(needs.scratch / 1e6, 1),
         estimated_result_MB=round(needs.result / 1e6, 1),
         estimate=estimate,
+        counts=tuple(count_texts(plan)),
+        sequences=tuple(sequence_texts(plan)),
         warnings=warnings.listed(),
     )
 

@@ -56,6 +56,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85")
             for words in _unique(chosen["residue"].values())
         ),
+        Rule("Cycles across events", _across_events(record), "case file: mission.sequence"),
         Rule(
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
@@ -93,10 +94,23 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("Below the knee", _extension(chosen)),
         ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
+        *([("Cycles across events", _across_events(record))] if mission.get("sequences") else []),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
+
+
+def _across_events(record: Mapping[str, Any]) -> str:
+    """Whether cycles across events are counted, and in which order."""
+    loops = record["mission"].get("sequences", [])
+    said = str(record["rules"].get("events", "every event follows on itself"))
+    if not loops:
+        return said
+    orders = "; ".join(
+        f"{' – '.join(loop['order'])} {number(1000.0 * loop['runs_per_km'])} in 1000 km" for loop in loops
+    )
+    return f"{said}: {orders}"
 
 
 def _curve_rule(name: str, curve: Mapping[str, Any]) -> Rule:
