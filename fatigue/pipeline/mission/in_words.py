@@ -1,20 +1,10 @@
-"""A mission in words, as ``check`` prints it: what load cases of two samples count as, and which events follow."""
+"""The order of events in words, as ``check`` prints it."""
 
 from collections import Counter
 from collections.abc import Iterator
 
 from fatigue.life.mission import Plan
 from fatigue.shown import shortened, visible
-
-STATIC = 2  # samples of a load case that is one step from one load to another
-
-
-def count_texts(plan: Plan) -> Iterator[str]:
-    """What every event of two samples counts as: half a cycle or a whole one, where many expect the other."""
-    for one in plan.passes:
-        if one.samples == STATIC:
-            count = "half a cycle a pass: the load, or the unload" if one.half else "one cycle a pass: load and unload"
-            yield f"{_name(one.event)}, {one.samples} samples: {count}"
 
 
 def sequence_texts(plan: Plan) -> Iterator[str]:
