@@ -23,6 +23,7 @@ from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
+from fatigue.pipeline.count.joined.matters import Transitions
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
 from fatigue.pipeline.count.worst import HistogramPoints, WorstPoint, histogram_points, worst_points
 from fatigue.pipeline.forecast.needs import job_needs
@@ -254,7 +255,8 @@ class Tally:
 
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
     ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
-    forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss.
+    forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss,
+    ``transitions`` those at which the order of the events may matter.
     """
 
     total: int
@@ -268,6 +270,7 @@ class Tally:
     samples_per_peak: dict[str, float] = field(default_factory=dict)
     extents: list[LoadExtent] = field(default_factory=list)
     stress: StressExtent = field(default_factory=StressExtent)
+    transitions: Transitions = field(default_factory=Transitions)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -282,6 +285,7 @@ class Tally:
         self.warnings.add(worst_at_corners(group.model, result.mission, worst))
         self.extents += group.model.extents
         self.stress.add(group.model, result)
+        self.transitions.add(group.model.stations, result)
         self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
@@ -336,8 +340,9 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     files = [event.history or body.case.path.name for event in body.case.mission.event]
     of_stress = done.stress.warnings(work.loads, body.coordinates, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
+    of_order = done.transitions.warnings(work.plan)
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
-    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra]
+    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order]
 
 
 def one_blas_thread() -> threadpool_limits:

@@ -42,6 +42,7 @@ from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
+from fatigue.why.across_events import attribute_loops
 from fatigue.why.attribute import Attribution, Bins, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.evidence import Evidence
 from fatigue.why.findings import Diagnosis, findings
@@ -121,8 +122,8 @@ def diagnose(
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))
             events.append(attribute_event(points, load, one_pass, body.modes, bins))
-        attribution = Attribution(points, tuple(events))
-        governing = attribution.event_share[worst].argmax(axis=1)
+        attribution = Attribution(points, (*events, *attribute_loops(points, loads, plan)))
+        governing = attribution.event_share[worst, : len(events)].argmax(axis=1)
         verdicts: list[EventVerdicts] = []
         for number, (load, event, said) in enumerate(zip(loads, events, assessed, strict=True)):
             verdicts.append(event_verdicts(body, load, points, event, said, worst[governing == number]))

@@ -57,8 +57,8 @@ def load_case(path: Path | str) -> Case:
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
-        problems += unit_load_problems(raw)
         problems += sequence_problems(raw)
+        problems += unit_load_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
         other = misplaced(path, path.name)

@@ -23,6 +23,7 @@ from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
@@ -107,6 +108,7 @@ def report_page(
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
+        **transitions(result, links),
         "pages": [
             weld_page(result, weld, details.get(weld), why, spectra, figs, links[weld]) for weld in result.detailed
         ],

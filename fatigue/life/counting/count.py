@@ -31,7 +31,7 @@ def count(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockC
 
 
 def count_and_residue(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> tuple[BlockCount, BlockResidue]:
-    """Count a block as ``count`` does, and keep the residue of every point.
+    """Count a block as ``count`` does, and keep the residue of every point; it has no constant of ``offset`` in it.
 
     Raises
     ------

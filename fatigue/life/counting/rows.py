@@ -54,9 +54,8 @@ class _Histories(NamedTuple):
 
 def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, *, ranges: bool = False) -> BlockCount:
     """Count a block as ``count`` does: the histories of a few points at a time; ``ranges``: see ``nothing_counted``."""
-    return _joined(
-        [_count_some(some, both, record.recurs, rule, ranges=ranges) for some, both in _histories(stress, record)]
-    )
+    histories = _histories(stress, record)
+    return _joined([_count_some(some, both, record.recurs, rule, ranges=ranges) for some, both in histories])
 
 
 def count_rows_and_residue(
