@@ -125,7 +125,7 @@ def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, n
     worst = np.sort(pd.Series(utilisation).groupby(weld).idxmax().to_numpy())
 
     upsample = case.counting.upsample
-    samples = sum(one.samples for one in plan.passes) * (upsample if isinstance(upsample, int) else 1)
+    samples = sum(one.samples * one.factor(upsample if isinstance(upsample, int) else 1) for one in plan.passes)
     if counted.all() and len(weld) * samples <= MOST_SAMPLES and len(weld) * numbers <= MOST_NUMBERS:
         rows = np.arange(len(weld))
         return Chosen(rows, np.full(len(rows), "all", dtype=object), worst, f"all {len(rows)} points")
