@@ -30,14 +30,17 @@ from fatigue.results.columns import (
     DAMAGE,
     DIAGNOSED,
     DIAGNOSIS,
+    HISTOGRAM,
     LEVERS,
     NODES,
+    OPTIONAL,
     STRUCTURAL_STRESS,
     TABLES,
     TRACK,
     WELDS,
-    Column,
 )
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
@@ -48,6 +51,7 @@ from fatigue.results.provenance import (
     is_same_result,
     read_provenance,
     software_versions,
+    upsampling_factors,
     write_provenance,
 )
 from fatigue.results.rows import (
@@ -71,10 +75,13 @@ __all__ = [
     "DIAGNOSED",
     "DIAGNOSIS",
     "DOCUMENTS",
+    "HISTOGRAM",
     "JOURNAL",
     "LEVERS",
     "LIST",
+    "LOAD_SPECTRA",
     "NODES",
+    "OPTIONAL",
     "PAGE",
     "PICTURE",
     "PRINT",
@@ -118,6 +125,7 @@ __all__ = [
     "software_versions",
     "strangers",
     "table_writer",
+    "upsampling_factors",
     "way_to_case",
     "worst_toes",
     "write_json",

@@ -1,28 +1,8 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
-from dataclasses import dataclass
-from typing import Literal
-
-ColumnType = Literal["text", "int", "flag", "float"]
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """One column of a result table: name, type, unit and meaning, written into the file beside the numbers."""
-
-    name: str
-    type: ColumnType
-    unit: str
-    meaning: str
-
-
-_POINT = (
-    Column("weld", "text", "-", "weld line"),
-    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
-    Column("node", "int", "-", "FE node id"),
-    Column("order", "int", "-", "position along the weld line, as given"),
-    Column("surface", "text", "-", "top (side of the plate normal) or bottom face of the assessed plate"),
-)
+from fatigue.results.dictionary.column import POINT as _POINT
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 
 NODES = (
     *_POINT,
@@ -233,6 +213,26 @@ WELDS = (
     Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
 )
 
+HISTOGRAM = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column("kind", "text", "-", "of which range: S, structural stress; dS, equivalent range, the one of the damage"),
+    Column(
+        "bin",
+        "int",
+        "-",
+        "class b of ranges from 10^(b/64 - 3) to 10^((b+1)/64 - 3) [MPa, or MPa mm^-0.222 for dS]; the first begins at "
+        "0, the last, 511, has no end; only classes with cycles",
+    ),
+    Column("count_per_pass", "float", "-", "sum n: cycles of one pass in this class"),
+    Column(
+        "power_sum_per_pass",
+        "float",
+        "MPa^k",
+        "sum n x^k of their ranges x, k the first slope of the curve; in double precision",
+    ),
+)
+
 _CHOSEN = Column(
     "chosen",
     "text",
@@ -358,6 +358,9 @@ LEVERS = (
 )
 
 
+NOT_IN_OLDER = ("unit_load",)
+"""Columns of texts that tables of older versions lack."""
+
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,
@@ -371,4 +374,5 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "diagnosis": DIAGNOSIS,
     "levers": LEVERS,
 }
-TABLES = ASSESSED | DIAGNOSED
+OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA

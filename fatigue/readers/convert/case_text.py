@@ -36,7 +36,7 @@ mean_stress = "none"
 
 [counting]
 residue = "repeat"
-upsample = 1
+upsample = "auto"              # 20 samples per peak; 1: the samples as they are
 
 [mission]
 target_km = {target!r}         # EDIT

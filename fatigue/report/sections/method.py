@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fatigue.report.wording import number
+from fatigue.shown import few
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +61,8 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
         Rule(
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
-        Rule("Upsampling before counting", str(chosen["upsample"]), "case file: counting.upsample"),
+        *_level_rule(chosen),
+        Rule("Upsampling before counting", _upsampling(chosen), "case file: counting.upsample"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(
             "Mission",
@@ -110,11 +112,24 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("Thickness in ΔS", _thickness(chosen["thickness_rule"])),
         ("Below the knee", _extension(chosen)),
         ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
+        *((rule.subject, rule.choice) for rule in _level_rule(chosen)),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
+        ("Upsampling", _upsampling(chosen)),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
+
+
+def _level_rule(chosen: Mapping[str, Any]) -> list[Rule]:
+    """Which events have the mean of their modal coordinates removed; nothing where none has."""
+    of_event: Mapping[str, str] = chosen.get("mean_of_q", {})
+    removed = [event for event, rule in of_event.items() if rule == "remove"]
+    if not removed:
+        return []
+    where = "in all events" if len(removed) == len(of_event) else f"in {', '.join(removed)}"
+    choice = f"removed {where}: means and stress ratios are those about the static loads that are given"
+    return [Rule("Mean of q", choice, "case file: mean_of_q")]
 
 
 def _curve_rule(name: str, curve: Mapping[str, Any]) -> Rule:
@@ -151,6 +166,16 @@ def _extension(chosen: Mapping[str, Any]) -> str:
         "cutoff": f"cut-off at {number(chosen['knee_cycles'])} cycles",
     }
     return words[chosen["extension"]]
+
+
+def _upsampling(chosen: Mapping[str, Any]) -> str:
+    """By how much the record of each event was upsampled, in words."""
+    events: dict[int, list[str]] = {}
+    for event, factor in chosen.get("upsampled", {}).items():
+        events.setdefault(factor, []).append(f'"{event}"')
+    done = [f"{'none' if factor == 1 else f'{factor} times'}: {few(events[factor])}" for factor in sorted(events)]
+    asked = "as much as gives 20 samples per peak" if chosen["upsample"] == "auto" else str(chosen["upsample"])
+    return "; ".join([asked, *done])
 
 
 def _screening(screening: Mapping[str, Any]) -> str:
