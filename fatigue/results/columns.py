@@ -302,8 +302,8 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its parts, "
-        "each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line force "
+        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its "
+        "parts, each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line force "
         "and moment; thickness_rule: the plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
@@ -410,6 +410,10 @@ LEVERS = (
     Column("life_km_counted", "float", "km", "the same with all cycles counted again"),
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )
+
+
+NOT_IN_OLDER = ("unit_load",)
+"""Columns of texts that tables of older versions lack."""
 
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
