@@ -6,6 +6,8 @@ import logging
 import numpy as np
 import pandas as pd
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from fatigue.assess import assess
 from fatigue.check import check_case
@@ -13,6 +15,8 @@ from fatigue.errors import CaseError, DataError
 from fatigue.life.curves import catalogue
 from tests.small_case import BENDING, MEMBRANE, THICKNESS, SmallCase, small_case
 from tests.unit_load_case import LOAD, as_unit_load, assert_same_tables, write_with_loads
+
+COUNTED = ("damage_per_pass", "cycles_per_pass", "max_range_MPa", "max_equivalent_range_dS", "bending_ratio")
 
 
 def plain(seconds: float = 4.0, pairs: int = 1, **counting) -> SmallCase:
@@ -57,6 +61,41 @@ def test_a_unit_load_equals_a_mode_in_single_precision(tmp_path, monkeypatch):
     assert_same_tables(
         modal, assessed(write_with_loads(case, tmp_path / "u", forces, "parquet"), tmp_path / "b"), 3e-7, ("nodes",)
     )
+
+
+@settings(deadline=None, max_examples=4)
+@given(
+    mode=st.sampled_from([1, 2]),
+    residue=st.sampled_from(["repeat", "half"]),
+    upsample=st.sampled_from([1, 2, "auto"]),
+    constant=st.none() | st.floats(-50.0, 50.0),
+    factor=st.floats(0.5, 2.0),
+    start_s=st.floats(0.0, 0.5),
+)
+def test_loads_equal_modes_whatever_the_case(tmp_path_factory, mode, residue, upsample, constant, factor, start_s):
+    """Two modes as unit loads, mode 7 a constant or not: ranges, counts and damage are the same."""
+    folder = tmp_path_factory.mktemp("case")
+
+    def drawn() -> SmallCase:
+        case = plain(2.0, residue=residue, upsample=upsample)
+        for event in case.events:
+            event.update({"stress_factor": factor} | ({"start_s": start_s} if event["history"] != "load" else {}))
+        if constant is not None:
+            for table in case.histories.values():
+                table["q_7"] = constant
+        return case
+
+    modal, case = drawn(), drawn()
+    forces = pd.concat([as_unit_load(case, one, f"load_{one}") for one in (mode, 7)])
+    if constant is not None:  # given once for the mission in the place of columns that do not change
+        case.histories = {k: table.drop(columns="u_load_7") for k, table in case.histories.items()}
+        case.extra += f'[[mission.unit_load]]\nname = "load_7"\nunit = "kN"\nconstant = {constant}\n'
+    a = assessed(modal.write(folder / "a"), folder / "out_a")
+    b = assessed(write_with_loads(case, folder / "b", forces), folder / "out_b")
+    one, other = (pd.read_parquet(out / "damage.parquet", columns=list(COUNTED)) for out in (a, b))
+    for name in COUNTED:
+        x, y = one[name].to_numpy(), other[name].to_numpy()
+        np.testing.assert_allclose(y, x, rtol=1e-9, atol=1e-12 * np.nanmax(np.abs(x), initial=1e-300), err_msg=name)
 
 
 def test_groups_of_welds(tmp_path):
