@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from fatigue.case.extremes import excess, extreme_values
+from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.sequence_problems import sequence_problems
 from fatigue.case.sequences import Sequence
@@ -57,6 +58,7 @@ def load_case(path: Path | str) -> Case:
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
         problems += sequence_problems(raw)
+        problems += unit_load_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
         other = misplaced(path, path.name)

@@ -194,7 +194,7 @@ def count_stints(
         for surface in range(2):
             at = (row, surface)
             side = 1.0 - 2.0 * surface
-            point = Surface(path.membrane, path.bending, side, size[row], 0.0, 1.0)
+            point = Surface(path.membrane, path.bending, side, size[row], 0.0, 1.0, 0.0)
             n = 0
             for j in range(order.size):
                 n = put_stint(residues, order[j], at, n, path)
@@ -311,7 +311,7 @@ def pair_sorted(
                         valley[valleys], of_valley[valleys] = s[i], stints[event]
                         valleys += 1
                 cycles = cycles_of(path, n, not residues.half[event])
-                point = Surface(path.membrane, path.bending, 1.0 - 2.0 * surface, size[row], 0.0, 1.0)
+                point = Surface(path.membrane, path.bending, 1.0 - 2.0 * surface, size[row], 0.0, 1.0, 0.0)
                 total[surface]["damage"] = 0.0
                 tally(point, total[surface], histogram[surface], rule, path.buffers, cycles)
                 already += stints[event] * total[surface]["damage"]

@@ -23,6 +23,8 @@ from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.transitions import transitions
+from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
@@ -106,6 +108,7 @@ def report_page(
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
+        **transitions(result, links),
         "pages": [
             weld_page(result, weld, details.get(weld), why, spectra, figs, links[weld]) for weld in result.detailed
         ],
@@ -117,7 +120,9 @@ def report_page(
         "register": tables.register_table(_listed(result), links),
         "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
+        "gravity": tables.gravity_table(record.get("gravity", [])),
         "modes": tables.mode_table(record["modes"]),
+        "unit_loads": load_table(record.get("unit_loads", ())),
         "rules": method.rules(record),
         "checks": recomputed(result),
         "verification": tables.verification_table(verification),

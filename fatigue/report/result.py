@@ -78,8 +78,15 @@ class ShownResult:
 
     @property
     def passes_per_km(self) -> dict[str, float]:
-        """Passes of every event in one km of the mission [1/km]."""
-        return {event["event"]: float(event["passes_per_km"]) for event in self.events}
+        """Passes of every event, and runs of every sequence, in one km of the mission [1/km]."""
+        return weights_of(self.record)
+
+    @property
+    def coordinates(self) -> dict[int, str]:
+        """Names of modes by their ids, and of unit loads by the numbers behind these, in the order of the tables."""
+        used = [int(mode) for mode in self.record["modes"]["used"]]
+        loads = [f"unit load {load['name']}" for load in self.record.get("unit_loads", ())]
+        return {mode: f"mode {mode}" for mode in used} | dict(enumerate(loads, start=max(used) + 1))
 
     def worst(self, weld: str) -> pd.Series:
         """Row of the worst point of a detailed weld in the table of nodes."""
@@ -96,9 +103,9 @@ class ShownResult:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
 
         Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the
-        order of the table, which lists all modes of a station one after the other.
+        order of the table, which lists all modes of a station one after the other, and its unit loads behind them.
         """
-        modes = len(self.record["modes"]["used"])
+        modes = len(self.coordinates)
         rows = rows_of(self.folder, "structural_stress", self.detailed, ["weld", "part", "order", *columns])
         found = {}
         for weld, of_weld in rows.groupby("weld", sort=False):
@@ -128,7 +135,7 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     """
     record = read_provenance(folder)
     refuse_mixed(folder, record)
-    domains = read_domains(folder, [event["event"] for event in record["mission"]["events"]])
+    domains = read_domains(folder, list(weights_of(record)))
     toes = int(np.count_nonzero(read_table(folder, "nodes", ["toe"])["toe"].to_numpy()))
     worst = read_rows(folder, "nodes", worst_toes(folder, worst_points)).to_pandas()
     welds = read_welds(folder)
@@ -154,9 +161,16 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     )
 
 
+def weights_of(record: Mapping[str, Any]) -> dict[str, float]:
+    """Passes of every event, and runs of every sequence behind them, in one km of the mission [1/km]."""
+    mission = record["mission"]
+    passes = {event["event"]: float(event["passes_per_km"]) for event in mission["events"]}
+    return passes | {loop["name"]: float(loop["runs_per_km"]) for loop in mission.get("sequences", [])}
+
+
 def _merged(folder: Path, record: Mapping[str, Any], welds: pd.DataFrame) -> dict[str, MergedCycles]:
     """Merged cycles of the worst points of some welds."""
-    passes = {event["event"]: float(event["passes_per_km"]) for event in record["mission"]["events"]}
+    passes = weights_of(record)
     points = {}
     for row in welds.to_dict("records"):
         law = law_of(assumptions_of(record, row["curve"]))

@@ -34,9 +34,9 @@ from fatigue.life.counting.tally import (
     block_count,
     compiled_rule,
     nothing_counted,
+    own_of,
     plain,
     refuse_not_finite,
-    shear_factors,
     tally,
 )
 from fatigue.life.rule import CycleRule
@@ -73,6 +73,7 @@ class _Block(NamedTuple):
     size: Floats
     same_ratio: Floats
     shear_factor: Floats
+    offset: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
@@ -105,16 +106,18 @@ class _Stage(NamedTuple):
     keeps: bool
 
 
-def count_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK) -> BlockCount:
-    """Count a block as ``count`` does, ``chunk`` samples at a time.
+def count_chunks(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK, *, ranges: bool = False
+) -> BlockCount:
+    """Count a block as ``count`` does, ``chunk`` samples at a time; ``ranges``: see ``nothing_counted``.
 
     Raises
     ------
     NumericalError : a stress is not finite
     """
-    counted = nothing_counted(len(stress), rule.law)
+    counted = nothing_counted(len(stress), rule.law, ranges=ranges)
     _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk)
-    return block_count(*counted, rule)
+    return block_count(*counted, rule, stress.level)
 
 
 def count_chunks_and_residue(
@@ -123,7 +126,7 @@ def count_chunks_and_residue(
     """Count a block as ``count_chunks`` does, and keep the residue of every point."""
     counted = nothing_counted(len(stress), rule.law)
     residues = _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk, keeps=True)
-    return block_count(*counted, rule), BlockResidue.joined(residues)
+    return block_count(*counted, rule, stress.level), BlockResidue.joined(residues)
 
 
 def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
@@ -142,10 +145,11 @@ def _count_points(
 ) -> list[BlockResidue]:
     """Count a block some points at a time; returns their residues where they are to be kept."""
     totals, histogram, trials = counted
+    shear_factor, offset = own_of(stress)
     residues = []
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
-        own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factors(stress)[some]
+        own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factor[some], offset[some]
         block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
         parts = plain(stress.membrane)[some], plain(stress.bending)[some]
         state = _count(*parts, record, block, compiled_rule(rule), chunk, keeps=keeps)
@@ -418,7 +422,7 @@ def count_chunk(
             waits = stage.recurs or stage.keeps
             cycles, left = close_open(room.s, state.waiting[row, surface], n, waits, room.buffers)
         own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
-        point = Surface(room.m, room.b, side, own[0], own[1], own[2])
+        point = Surface(room.m, room.b, side, own[0], own[1], own[2], block.offset[row, surface])
         if block.trials.damage.shape[2] > 0:
             at_first, step = block.trials.first[row, surface], block.trials.step[row, surface]
             tally_trials(point, at_first, step, block.trials.damage[row, surface], rule, room.buffers, cycles)

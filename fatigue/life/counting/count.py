@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.block import HISTOGRAM_BINS, BlockCount, BlockStress
 from fatigue.life.counting.chunks import count_chunks, count_chunks_and_residue, try_chunks
 from fatigue.life.counting.factors import trials
 from fatigue.life.counting.record import CountedRecord
@@ -31,7 +31,7 @@ def count(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockC
 
 
 def count_and_residue(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> tuple[BlockCount, BlockResidue]:
-    """Count a block as ``count`` does, and keep the residue of every point.
+    """Count a block as ``count`` does, and keep the residue of every point; it has no constant of ``offset`` in it.
 
     Raises
     ------
@@ -41,6 +41,19 @@ def count_and_residue(stress: BlockStress, record: CountedRecord, rule: CycleRul
         return count_single_and_residue(stress, record, rule)
     counted = count_chunks_and_residue if _is_long(record) else count_rows_and_residue
     return counted(stress, record, rule)
+
+
+def count_histograms(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> NDArray[np.float64]:
+    """Histograms (n, 2, 2, HISTOGRAM_BINS, 2) of the cycles of one pass at both surfaces: of S, then of dS.
+
+    Each bin has sum n and sum n x**k, k the first slope; see ``block.HISTOGRAM_EDGES``. In double precision.
+
+    Raises
+    ------
+    NumericalError : a stress is not finite
+    """
+    counted = (count_chunks if _is_long(record) else count_rows)(stress, record, rule, ranges=True)
+    return counted.histogram.reshape(len(stress), 2, 2, HISTOGRAM_BINS, 2)[:, :, ::-1]
 
 
 def count_at_factors(

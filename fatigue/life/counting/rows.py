@@ -25,9 +25,9 @@ from fatigue.life.counting.tally import (
     block_count,
     compiled_rule,
     nothing_counted,
+    own_of,
     plain,
     refuse_not_finite,
-    shear_factors,
     tally,
 )
 from fatigue.life.records.history import Residue, stress_history
@@ -46,15 +46,16 @@ class _Histories(NamedTuple):
     size: Floats
     same_ratio: Floats
     shear_factor: Floats
+    offset: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
 
 
-def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
-    """Count a block as ``count`` does: the histories of a few points at a time."""
-    counts = [_count_some(some, both, record.recurs, rule) for some, both in _histories(stress, record)]
-    return _joined(counts)
+def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, *, ranges: bool = False) -> BlockCount:
+    """Count a block as ``count`` does: the histories of a few points at a time; ``ranges``: see ``nothing_counted``."""
+    histories = _histories(stress, record)
+    return _joined([_count_some(some, both, record.recurs, rule, ranges=ranges) for some, both in histories])
 
 
 def count_rows_and_residue(
@@ -76,7 +77,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         begin += len(some)
         refuse_not_finite(membrane, bending)
         totals, histogram = nothing_counted(len(membrane), rule.law)
-        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
         trials = Trials(*(part[at] for part in tried))
         block = _Histories(*of_points, totals, histogram, trials)
         _count(block, record.recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
@@ -112,15 +113,17 @@ def count_histories(
     return _count_some(BlockStress(membrane, bending, size, same_ratio), (membrane, bending), residue == "repeat", rule)
 
 
-def _count_some(some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule) -> BlockCount:
+def _count_some(
+    some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule, *, ranges: bool = False
+) -> BlockCount:
     """Count some points, of which membrane and bending stress over time are given."""
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
-    totals, histogram = nothing_counted(len(membrane), rule.law)
-    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=ranges)
+    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
     _count(block, recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
-    return block_count(totals, histogram, rule)
+    return block_count(totals, histogram, rule, some.level)
 
 
 @compiled()
@@ -133,8 +136,9 @@ def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
-            own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
-            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2])
+            at = row, surface
+            own = block.size[row], block.same_ratio[at], block.shear_factor[at], block.offset[at]
+            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2], own[3])
             cycles = find_cycles(s, recurs, buffers)
             if block.trials.damage.shape[2] > 0:
                 first, step = block.trials.first[row, surface], block.trials.step[row, surface]

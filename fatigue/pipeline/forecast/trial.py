@@ -9,19 +9,20 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import LARGEST_UPSAMPLE, Event
+from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
-from fatigue.pipeline.count.worst import worst_points
+from fatigue.pipeline.count.worst import histogram_points, worst_points
+from fatigue.pipeline.forecast.needs import PER_STRESS_SAMPLE
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
-    SAMPLES_PER_PEAK,
     load_of,
     shortened_record,
 )
+from fatigue.pipeline.mission.upsampling import factor_for, peak_forms
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
@@ -49,7 +50,8 @@ class JobTime:
     """Processor time [s] of an assessment by what it is spent on; on n idle cores all but the first and last shrink.
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
-    ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
+    ``counting_exact`` with ``--exact``, and once more at the points of histograms; ``tables`` and ``report``: written.
+    ``screened`` says whether bounds settle
     points by default, ``upsample`` is the factor by which records are upsampled, found at the longest one.
     """
 
@@ -117,11 +119,12 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
     with threadpool_limits(limits=1, user_api="blas"):
         trial = _Trial(model, one, plan)
-        factor = _factor(body, event, record, trial)
-        upsampled = factor * sum(p.samples for p in plan.passes)
+        finer = _factor(body, event, record, trial, one.refined)
+        factor = finer * max(1, one.refined)
+        upsampled = sum(p.factor(factor) * p.samples for p in plan.passes)
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
-        prepare_s, load = _timed(lambda: load_of(body, event, record, factor, single=single))
-        _, short = _timed(lambda: load_of(body, event, less, factor, single=single))
+        prepare_s, load = _timed(lambda: load_of(body, event, record, finer, single=single))
+        _, short = _timed(lambda: load_of(body, event, less, finer, single=single))
         exact, result = _of_length(load, short, trial.counted)
         default = exact
         if single:
@@ -131,13 +134,17 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     of_groups = stations / len(model.stations)
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
-    cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
+    cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
     cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
+    worst = worst_points(model.stations, result)
+    binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
+    alone, each = PER_STRESS_SAMPLE[False]
+    binning_s = 2 * binned * upsampled * (alone + each * len(body.coordinates))
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
-        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled),
-        counting_exact=of_groups * exact.of(events, upsampled),
+        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled) + binning_s,
+        counting_exact=of_groups * exact.of(events, upsampled) + binning_s,
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,
@@ -145,15 +152,16 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     )
 
 
-def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> int:
-    """Factor by which records are upsampled; where that is automatic, what this record needs at these welds."""
+def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial, refined: int) -> int:
+    """Factor by which the record is upsampled; where that is automatic, what it needs at these welds.
+
+    It is ``refined`` already for a unit load of the event; 0: it is not upsampled.
+    """
     factor = body.case.counting.upsample
-    if factor != "auto":
-        return int(factor)
-    load = load_of(body, event, record, 1, single=False)
-    samples_per_peak = trial.counted(load).of_events("samples_per_peak")
-    fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))
-    return int(min(LARGEST_UPSAMPLE, 2 ** max(0, np.ceil(np.log2(SAMPLES_PER_PEAK / fewest)))))
+    if factor != "auto" or not refined:
+        return max(1, int(factor) // refined) if factor != "auto" and refined else 1
+    forms = peak_forms(load_of(body, event, record, 1, single=False))
+    return factor_for(forms.fastest(trial.model.stations.treated), record.step)
 
 
 def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:

@@ -12,6 +12,7 @@ from fatigue.life.counting.signal import middle
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.tables.cycle_rows import CycleParts, KeptPoint, cycle_rows
 from fatigue.pipeline.tables.sequence_cycles import sequence_rows
 from fatigue.results import TableWriter
@@ -99,7 +100,10 @@ def _rows_of(
     minimum: NDArray[np.float64],
 ) -> dict[str, Any]:
     """Rows of some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa]."""
+    modal = load.stress_factor * np.stack([point.membrane, point.bending])
+    of_faces = face_offset(modal[:1], modal[1:], load)
+    offset = 0.0 if of_faces is None else float(of_faces[0, point.face])
     step, start = load.counted.step, load.counted.start
     times = start + step * cycles.start, start + step * cycles.end
-    parts = CycleParts(cycles.range, cycles.mean, cycles.count, dm, db, minimum, *times)
+    parts = CycleParts(cycles.range, cycles.mean + offset, cycles.count, dm, db, minimum + offset, *times)
     return cycle_rows(point, load.counted.event, parts)
