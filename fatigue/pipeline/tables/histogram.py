@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fatigue.life.counting.block import BlockStress
 from fatigue.life.counting.count import count_histograms
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.tables.cycles import KeptPoint
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
@@ -81,11 +82,15 @@ def _filled(
     """Classes with cycles of one pass of an event at some points of one curve."""
     load, some = loads[event], [points[place] for place in places]
     rated = some[0].rated
+    membrane, bending = (
+        load.stress_factor * np.stack([getattr(point, part) for point in some]) for part in ("membrane", "bending")
+    )
     block = BlockStress(
-        membrane=load.stress_factor * np.stack([point.membrane for point in some]),
-        bending=load.stress_factor * np.stack([point.bending for point in some]),
+        membrane=membrane,
+        bending=bending,
         size=rated.size(np.array([point.thickness for point in some])),
         same_ratio=np.zeros((len(some), 2)),
+        offset=face_offset(membrane, bending, load),
     )
     histogram = count_histograms(block, load.record, rated.rule)
     of_face = histogram[np.arange(len(some)), [point.face for point in some]]
