@@ -23,6 +23,7 @@ from fatigue.pipeline.forecast.trial import JobTime, job_time
 from fatigue.pipeline.mission.counted import EventCount, event_counts, listed
 from fatigue.pipeline.mission.events import mean_levels
 from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
+from fatigue.pipeline.mission.in_words import sequence_texts
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
@@ -45,6 +46,7 @@ class CheckedCase:
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
     takes, ``gravity`` is what the mean of q of each event holds of the dead load, where the body has a gravity load;
     ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
+    ``sequences`` say which orders of events are counted.
     ``warnings`` are summed up as in an assessment.
     """
 
@@ -67,6 +69,7 @@ class CheckedCase:
     estimated_result_MB: float  # noqa: N815
     estimate: JobTime
     gravity: tuple[HeldGravity, ...]
+    sequences: tuple[str, ...]
     warnings: tuple[Problem, ...]
 
     @property
@@ -105,6 +108,7 @@ class CheckedCase:
                 *([f"  unit loads       {self.unit_loads}"] * (self.unit_loads > 0)),
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 *(f"    {line}" for line in listed(self.counts)),
+                *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
                 f"  stress samples   {2 * self.samples:.3g}",
                 *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
                 f"  estimated time   {_time_text(self.estimate)}",
@@ -174,6 +178,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         estimated_result_MB=round(needs.result / 1e6, 1),
         estimate=estimate,
         gravity=gravity,
+        sequences=tuple(sequence_texts(plan)),
         warnings=warnings.listed(),
     )
 

@@ -22,6 +22,7 @@ from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
@@ -106,6 +107,7 @@ def report_page(
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
+        **transitions(result, links),
         "pages": [weld_page(result, weld, details.get(weld), why, figs, links[weld]) for weld in result.detailed],
         **body_sections.domains(result, figs),
         "undetailed": len(result.assessed) - len(result.detailed),

@@ -15,7 +15,7 @@ from fatigue.life.counting.block import BlockStress
 from fatigue.life.counting.count import count_histograms
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
-from fatigue.pipeline.tables.cycles import KeptPoint
+from fatigue.pipeline.tables.cycle_rows import KeptPoint
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
 from fatigue.side_by_side import in_order

@@ -97,6 +97,8 @@ def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: in
     largest = cycles.groupby("event", sort=False)["range_MPa"].max().sort_values(ascending=False, kind="stable")
     data = [_stairs(ranges, count, "mission", INK, 2.2)]
     for name in (name for name in passes_per_km if name in set(largest.index[:most])):
+        if (count[event == name] < 0.0).any():  # a sequence: a difference, which is in the line of the mission
+            continue
         data.append(_stairs(ranges[event == name], count[event == name], in_figure(name), colours[name], 1.4))
     text = f"largest {number(ranges.max())} MPa<br>{number(count.sum())} cycles in 1e6 km"
     reached = [float(d["x"][0]) for d in data if len(d["x"]) and d["x"][0] > 0.0]
@@ -129,7 +131,7 @@ def cumulative(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """How often ranges are reached or exceeded, and these ranges, from the largest down; at most ``STAIRS`` steps."""
     by_range = np.argsort(-ranges, kind="stable")
-    y, x = ranges[by_range], np.cumsum(count[by_range])
+    y, x = ranges[by_range], np.maximum.accumulate(np.cumsum(count[by_range]))  # rounding of what replaces cycles
     if len(x) > STAIRS and x[0] > 0.0:
         keep = np.unique(np.minimum(np.searchsorted(x, np.geomspace(x[0], x[-1], STAIRS)), len(x) - 1))
         x, y = x[keep], y[keep]
