@@ -47,15 +47,14 @@ def histogram_rows(key: Key, event: RecountEvent, one: OnePass, k: float, found:
 def _expected(x: Floats, n: Floats, k: float, rho: float) -> tuple[list[Floats], list[Floats]]:
     """``sum n`` and ``sum n x^k`` of every class, and what rounding may do to them."""
     near = np.maximum(rho, ROUND_OFF * x)
-    low, high = _class(np.maximum(x - near, 0.0)), _class(x + near)
+    low, at, high = _class(np.maximum(x - near, 0.0)), _class(x), _class(x + near)
     power = n * x**k
     grown = n * ((x + rho) ** k - x**k) + TOLERANCE**2 * power
     unsure = low != high
 
     def either(values: Floats) -> Floats:
-        return _sums(low[unsure], values[unsure]) + _sums(high[unsure], values[unsure])
+        return np.asarray(sum(_sums(some[unsure], values[unsure]) for some in (low, at, high)))
 
-    at = _class(x)
     return [_sums(at, n), _sums(at, power)], [either(n), either(power + grown) + _sums(at, grown)]
 
 
