@@ -19,6 +19,7 @@ from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
+from fatigue.pipeline.forecast.upsampling_trial import foretold, upsampling_text
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
@@ -92,6 +93,7 @@ class CheckedCase:
                 f"  modes            {self.modes}",
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 f"  stress samples   {2 * self.samples:.3g}",
+                f"  upsampling       {upsampling_text(self.estimate.upsample)}",
                 f"  estimated time   {_time_text(self.estimate)}",
                 f"  estimated space  {self._space()}",
                 f"  warnings         {sum(warning.count for warning in self.warnings)}",
@@ -119,20 +121,22 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     parts = stations = 0
     stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
-        groups = weld_groups(body, Path(scratch))
+        groups, upsampled = weld_groups(body, Path(scratch)), foretold(body, plan, Path(scratch))
         for number in range(len(groups)):
             model = solve_group(groups, number)
             parts += len(model.lines)
             stations += len(model.stations)
             warnings.add(model.warnings)
             extents += model.extents
+            upsampled.add(model.stations.treated)
         warnings.add(load_warnings(body, extents))
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
-        estimate = job_time(plan, sample, stations, read_s, Path(scratch))
+        factors = upsampled.factors(case.counting.upsample, len(plan.passes))
+        estimate = job_time(plan, sample, stations, factors, read_s, Path(scratch))
         warnings.add(band_warnings(sample, plan, Path(scratch)))
-    needs = job_needs(job_size(body, plan, factors=(estimate.upsample,) * len(plan.passes)))
+    needs = job_needs(job_size(body, plan, factors=estimate.upsample))
     warnings.add(tuple(shortage_warnings(needs, case.path.parent)))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(

@@ -1,7 +1,7 @@
 """What a job will take: its own pipeline, timed on one group of its welds under the first chunk of one record."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -9,9 +9,7 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
-from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import worst_points
@@ -21,9 +19,7 @@ from fatigue.pipeline.mission.events import (
     load_of,
     shortened_record,
 )
-from fatigue.pipeline.mission.upsampling import factor_for, peak_forms
 from fatigue.pipeline.run.work import SHARE, screening_of
-from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import Stations
 
@@ -49,7 +45,7 @@ class JobTime:
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
     ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
-    points by default, ``upsample`` is the factor by which records are upsampled, found at the longest one.
+    points by default, ``upsample`` are the factors by which the records of the events are upsampled.
     """
 
     start: float
@@ -59,7 +55,7 @@ class JobTime:
     tables: float
     report: float
     screened: bool
-    upsample: int
+    upsample: tuple[int, ...]
 
     @property
     def total(self) -> float:
@@ -96,7 +92,7 @@ class _Trial:
         return replace(self.plan, passes=(alone,))
 
 
-def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
+def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], read_s: float, scratch: Path) -> JobTime:
     """Processor time of ``fatigue assess`` with its default options, as estimated; compiling is left out.
 
     Parameters
@@ -104,6 +100,7 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     plan : the mission of the job
     model : one group of the welds of its body, solved
     stations : of all welds
+    factors : by which the records of the events are upsampled
     read_s : processor time that reading and checking the case took [s]
     scratch : a folder for what memory cannot hold
     """
@@ -115,8 +112,8 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
     with threadpool_limits(limits=1, user_api="blas"):
         trial = _Trial(model, one, plan)
-        factor = _factor(body, event, record, trial)
-        upsampled = factor * sum(p.samples for p in plan.passes)
+        factor = factors[longest]
+        upsampled = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
         prepare_s, load = _timed(lambda: load_of(body, event, record, factor, single=single))
         _, short = _timed(lambda: load_of(body, event, less, factor, single=single))
@@ -130,7 +127,8 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
-    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
+    passes = factor * sum(p.samples for p in plan.passes) / n  # cycles are as many, however finely they are sampled
+    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * passes
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
@@ -139,17 +137,8 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,
-        upsample=factor,
+        upsample=tuple(factors),
     )
-
-
-def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> int:
-    """Factor by which records are upsampled; where that is automatic, what this record needs at these welds."""
-    factor = body.case.counting.upsample
-    if factor != "auto":
-        return int(factor)
-    forms = peak_forms(load_of(body, event, record, 1, single=False))
-    return factor_for(forms.fastest(trial.model.stations.treated), record.step)
 
 
 def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:
