@@ -19,7 +19,10 @@ GAUSS = CORNERS / np.sqrt(3)
 
 @dataclass
 class ShellModel:
-    """Nodes (n, 3) [mm], quads (e, 4) as node indices in a sense of rotation about their normal, thickness (e,)."""
+    """Nodes (n, 3) [mm], quads (e, 4) as node indices in a sense of rotation about their normal, thickness (e,).
+
+    A double skin bends, and gives way to transverse shear, with a ``bending_thickness`` (e,) of its own.
+    """
 
     xyz: np.ndarray
     quads: np.ndarray
@@ -27,12 +30,14 @@ class ShellModel:
     E: float = 210000.0
     nu: float = 0.3
     rho: float = 7.85e-9
+    bending_thickness: np.ndarray | None = None
     stiffness: np.ndarray = field(init=False)  # (e, 24, 24) of each element
 
     def __post_init__(self):
         """Compute the element stiffness."""
         self.thickness = np.broadcast_to(np.asarray(self.thickness, dtype=float), len(self.quads))
-        self.stiffness = element_stiffness(self.xyz[self.quads], self.thickness, self.E, self.nu)
+        corners, bending = self.xyz[self.quads], self.bending_thickness
+        self.stiffness = element_stiffness(corners, self.thickness, self.E, self.nu, bending)
 
     def dofs(self):
         """Degrees of freedom of each element, (e, 24)."""
@@ -102,17 +107,26 @@ def areas(corners):
     return np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1) / 2
 
 
-def element_stiffness(corners, thickness, E, nu):
+def surface_load(corners, pressure):
+    """Consistent nodal forces of each element, (e, 4), under its pressure, (e,) [MPa]: the integral of p N dA."""
+    axes = _element_axes(corners)
+    xy = np.einsum("eij,enj->eni", axes[:, :2], corners - corners.mean(axis=1, keepdims=True))
+    of_corners = [_shape(*at)[0] * np.linalg.det(_gradient(xy, *at)[1])[:, None] for at in GAUSS]
+    return np.asarray(pressure)[:, None] * sum(of_corners)
+
+
+def element_stiffness(corners, thickness, E, nu, bending_thickness=None):
     """Stiffness of each element, (e, 24, 24), in global axes, from its corners, (e, 4, 3)."""
     axes = _element_axes(corners)
     xy = np.einsum("eij,enj->eni", axes[:, :2], corners - corners.mean(axis=1, keepdims=True))
     t, G = thickness[:, None, None], E / (2 * (1 + nu))
+    t_b = t if bending_thickness is None else bending_thickness[:, None, None]
     plane_stress = E / (1 - nu**2) * np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]])
     K = np.zeros((len(xy), 24, 24))
     for dofs, matrix in (
         ([0, 1], t * _membrane(xy, plane_stress)),
-        ([2, 3, 4], t**3 / 12 * _integrate(_curvature, xy, plane_stress)),
-        ([2, 3, 4], 5 / 6 * G * t * _integrate(_transverse_shear, xy, np.eye(2))),
+        ([2, 3, 4], t_b**3 / 12 * _integrate(_curvature, xy, plane_stress)),
+        ([2, 3, 4], 5 / 6 * G * t_b * _integrate(_transverse_shear, xy, np.eye(2))),
         ([0, 1, 5], DRILLING * G * t * _integrate(_drilling, xy, np.eye(1))),
     ):
         at = (6 * np.arange(4)[:, None] + dofs).ravel()

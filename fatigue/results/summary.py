@@ -13,7 +13,7 @@ from fatigue.results.belonging import refuse_mixed
 from fatigue.results.provenance import read_provenance
 from fatigue.results.rows import read_rows, worst_toes
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
-from fatigue.shown import shortened, visible
+from fatigue.shown import few, shortened, visible
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
@@ -100,9 +100,8 @@ class Summary:
         names = self.welds.loc[self.welds["worst_summed_corner"].astype(bool), "weld"].tolist()
         if not names:
             return []
-        more = f" and {len(names) - MOST_LEFT_OUT} more" if len(names) > MOST_LEFT_OUT else ""
         what = "whose nodal forces are one sum of both legs, so the life there is not bounded"
-        return ["", f"Worst at a corner {what}: {', '.join(names[:MOST_LEFT_OUT])}{more}"]
+        return ["", f"Worst at a corner {what}: {few(names, MOST_LEFT_OUT)}"]
 
     def _outside_band(self) -> list[str]:
         """Say why Dirlik has no life for some points, or one that is too long."""

@@ -37,11 +37,11 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 
     with damage_told(folder):
         found = result_summary(folder, top=top, only=[composed(weld) for weld in welds])
-        text = "" if as_json else found.as_text()
-    if as_json:
-        print_json(found.as_record())
+        answer = found.as_record() if as_json else found.as_text()  # what is wrong with a table may be met only here
+    if isinstance(answer, str):
+        say(answer)
     else:
-        say(text)
+        print_json(answer)
 
 
 @cli.command()

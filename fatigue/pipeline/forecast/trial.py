@@ -22,6 +22,7 @@ from fatigue.pipeline.mission.events import (
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import Stations
+from fatigue.results.columns import TABLES
 
 Result = TypeVar("Result")
 
@@ -36,7 +37,7 @@ CELL, CYCLE = 0.12e-6, 0.5e-6  # written in a table; counted and written
 DETAIL, PAGE = 0.19, 0.6  # a weld shown in detail, the rest of the page
 MOST_DETAILED = 40
 STATION_ON_PAGE = 5e-5
-COLUMNS = {"nodes": 36, "damage": 24, "structural_stress": 16}
+COLUMNS = {table: len(TABLES[table]) for table in ("nodes", "damage", "structural_stress")}
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from fatigue.readers.convert.audit.row import AuditRow, Light
 from fatigue.readers.convert.displacement.causes import EXPLAINED, Cause
 from fatigue.readers.convert.displacement.comparison import Comparison, best_fit
 from fatigue.readers.convert.displacement.side_by_side import EventComparison
+from fatigue.shown import few
 
 CHECK = "displacement"
 GREEN, RED = 0.03, 0.10  # rms error over rms of the displacement
@@ -106,5 +107,4 @@ def _proof(c: Comparison) -> str:
 
 def _short(modes: NDArray[np.int64]) -> str:
     """Mode numbers as text, at most ten of them."""
-    some = ", ".join(map(str, modes[:10].tolist()))
-    return some + (f" and {modes.size - 10} more" if modes.size > 10 else "")
+    return few(modes.tolist(), 10)

@@ -16,6 +16,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.body.welds import Surface, Weld
 from fatigue.readers.neutral.register.conversion import ConvertRecord
 from fatigue.readers.neutral.register.weld_register import Register, RegisterRow, contradictions, description_of
+from fatigue.shown import few
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,8 +168,7 @@ def _why(row: RegisterRow) -> str:
 
 
 def _some(welds: Sequence[Weld], most: int = 5) -> str:
-    names = [weld.name for weld in welds]
-    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+    return few([weld.name for weld in welds], most)
 
 
 def _unknown_curves(register: Register, curves: Collection[str]) -> Iterator[Problem]:
