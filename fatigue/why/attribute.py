@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.attribution import Credit, credit
 from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.vertex import vertex_history
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import Residue
 from fatigue.life.rule import CycleRule
@@ -192,7 +193,7 @@ def _blocks(
         modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         sigma_m, sigma_b = modal_m @ q, modal_b @ q
         counted = [
-            count_credit(m, b, side, size, rule, residue)
+            count_credit(m, b, side, size, rule, residue, vertex=load.vertex)
             for m, b, side, size, rule in zip(sigma_m, sigma_b, some.side, some.size, some.rule, strict=True)
         ]
         share = coefficients(np.stack([c.share for c in counted]), residue)
@@ -218,9 +219,16 @@ def _blocks(
 
 
 def count_credit(
-    sigma_m: Floats, sigma_b: Floats, side: float, size: float, rule: CycleRule, residue: Residue
+    sigma_m: Floats, sigma_b: Floats, side: float, size: float, rule: CycleRule, residue: Residue, *, vertex: bool
 ) -> Credit:
-    """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles."""
+    """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles.
+
+    With ``vertex`` each reversal is read at its vertex.
+    """
+    if vertex:
+        moved = vertex_history(sigma_m, sigma_b, side, recurs=residue == "repeat")
+        cycles = rainflow(moved.membrane + side * moved.bending, residue)
+        return credit(cycles, moved.membrane, moved.bending, side, size, rule, moved.shift)
     cycles = rainflow(sigma_m + side * sigma_b, residue)
     return credit(cycles, sigma_m, sigma_b, side, size, rule)
 

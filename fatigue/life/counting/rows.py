@@ -28,6 +28,7 @@ from fatigue.life.counting.tally import (
     shear_factors,
     tally,
 )
+from fatigue.life.counting.vertex import move, shifts
 from fatigue.life.records.history import Residue, stress_history
 from fatigue.life.rule import CycleRule
 
@@ -56,7 +57,7 @@ def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> B
     for first in range(0, len(stress), rows):
         some = stress.at(slice(first, first + rows))
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
-        counts.append(_count_some(some, (membrane, bending), record.recurs, rule))
+        counts.append(_count_some(some, (membrane, bending), record.recurs, rule, vertex=record.vertex))
     return BlockCount(*(np.concatenate([getattr(count, f.name) for count in counts]) for f in fields(BlockCount)))
 
 
@@ -72,7 +73,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
         trials = Trials(*(part[at] for part in tried))
         block = _Histories(*of_points, totals, histogram, trials)
-        _count(block, record.recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
+        _count(block, record.recurs, record.vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
 
 
 def _rows_at_once(record: CountedRecord) -> int:
@@ -92,21 +93,24 @@ def count_histories(
     return _count_some(BlockStress(membrane, bending, size, same_ratio), (membrane, bending), residue == "repeat", rule)
 
 
-def _count_some(some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule) -> BlockCount:
+def _count_some(
+    some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule, *, vertex: bool = False
+) -> BlockCount:
     """Count some points, of which membrane and bending stress over time are given."""
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
     totals, histogram = nothing_counted(len(membrane), rule.law)
     of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
-    _count(block, recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
+    _count(block, recurs, vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
     return block_count(totals, histogram, rule)
 
 
 @compiled()
-def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers) -> None:
+def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, buffers: Buffers) -> None:
     """Count both surfaces of every row of the block."""
     s = np.empty(block.membrane.shape[1])
+    room = np.empty((3, s.size if vertex else 0))  # membrane, bending and shifts of a history of vertices
     for row in range(block.membrane.shape[0]):
         for surface in range(2):
             side = 1.0 - 2.0 * surface
@@ -114,12 +118,22 @@ def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
             own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
-            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2])
+            tries = block.trials.damage.shape[2] > 0
+            if not tries:
+                total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
+            membrane, bending = block.membrane[row], block.bending[row]
+            if vertex:
+                shifts(s, recurs, room[2])
+                move(membrane, room[2], room[0])
+                move(bending, room[2], room[1])
+                membrane, bending = room[0], room[1]
+                for i in range(s.size):
+                    s[i] = membrane[i] + side * bending[i]
+            point = Surface(membrane, bending, side, own[0], own[1], own[2])
             cycles = find_cycles(s, recurs, buffers)
-            if block.trials.damage.shape[2] > 0:
+            if tries:
                 first, step = block.trials.first[row, surface], block.trials.step[row, surface]
                 tally_trials(point, first, step, block.trials.damage[row, surface], rule, buffers, cycles)
                 continue
-            total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
             total["r_largest"] = math.nan
             tally(point, total, histogram, rule, buffers, cycles)

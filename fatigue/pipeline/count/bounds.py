@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.bounds.screening import ModalExtent, PowerSums, damage_bound, may_need_mean_stress
+from fatigue.life.bounds.vertex_bound import vertex_bound
 from fatigue.life.counting.block import BlockCount
 from fatigue.life.counting.record import SingleRecord
 from fatigue.life.mission import Plan, mission_sum
@@ -139,8 +140,10 @@ def event_bound(
     """Bound of one pass at some ``rows`` of a block, from bounds of range and sum n S^q, (n, 2) each, of its record.
 
     ``found`` does not contain the stress factor of the event. ``mean`` (n, 2) is the time mean of the stress [MPa].
-    Where the damage contains the mean-stress factor, stations that may need the factor have no bound.
+    Where the damage contains the mean-stress factor, stations that may need the factor have no bound. Bounds of the
+    samples become bounds of the vertices here where reversals are read there.
     """
+    found = vertex_bound(*found) if load.vertex else found
     stress_range = load.stress_factor * found[0]
     power_sums = {q: load.stress_factor**q * power_sum for q, power_sum in found[1].items()}
     damage, largest = damage_bound(stress_range, power_sums, stress.size[rows, None], stress.rule)

@@ -61,7 +61,7 @@ def provenance_record(
             "upsample": case.counting.upsample,
             "upsampled": {load.counted.event: load.upsample for load in work.loads},
             "reversals": case.counting.reversals,
-            "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
+            "precision": _precision(work),
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,
             "spectrum": {
@@ -83,6 +83,12 @@ def provenance_record(
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
     }
+
+
+def _precision(work: Work) -> str:
+    """Precision of the counter."""
+    first = work.loads[0]
+    return "double" if first.single is None or first.vertex else "single, doubtful points in double"
 
 
 def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]:
