@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.forecast.band_trial import beginnings
-from fatigue.pipeline.mission.upsampling import PeakForms, factor_for, peak_forms
+from fatigue.pipeline.mission.upsampling import PeakForms, peak_forms
 from fatigue.pipeline.solve.body import Body
 from fatigue.weld.structural_stress import StructuralStress
 
@@ -27,7 +27,7 @@ class Foretold:
     def add(self, stress: StructuralStress) -> None:
         """Take some stations in."""
         for number, forms in self.forms.items():
-            self.needed[number] = max(self.needed[number], factor_for(forms.fastest(stress), forms.step))
+            self.needed[number] = max(self.needed[number], forms.factor(forms.fastest(stress)))
 
     def factors(self, asked: int | str, events: int) -> tuple[int, ...]:
         """Factor of each event, as the case asks for it or as it needs."""

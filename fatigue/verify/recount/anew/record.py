@@ -13,7 +13,8 @@ from fatigue.verify.recount.inputs.tables import read_pieces
 
 Floats = NDArray[np.float64]
 
-SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+SAMPLES_PER_PEAK = {"samples": 20.0, "vertex": 8.0}  # what upsample = "auto" reaches for
+LARGEST_UPSAMPLE = 64  # where it ends
 FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
 
@@ -88,7 +89,8 @@ def read_record(
     upsample = inputs.case.get("counting", {}).get("upsample", "auto")
     if upsample == "auto":
         has_spectrum = 4 <= round(spectrum_rules(inputs.case, modes, step).segment_s / step) <= q.shape[1]
-        upsample = _upsample(step, fastest, q.shape[1]) if has_spectrum else recorded
+        enough = SAMPLES_PER_PEAK[inputs.case.get("counting", {}).get("reversals", "samples")]
+        upsample = _upsample(step, enough * fastest, q.shape[1]) if has_spectrum else recorded
     length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * q.shape[1] * step / 3600)
     return RecountRecord(
         name=event["name"],
@@ -116,10 +118,10 @@ def _coordinates(path: Path, modes: list[int], samples: int) -> Floats:
     return q
 
 
-def _upsample(step: float, fastest: float, samples: int) -> int:
+def _upsample(step: float, samples_per_s: float, samples: int) -> int:
     """Power of 2 that gives the fastest point its samples per peak; 1 for load cases, which no signal is made of."""
     factor = 1
-    while samples >= FEWEST_SAMPLES and factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+    while samples >= FEWEST_SAMPLES and factor / step < samples_per_s and factor < LARGEST_UPSAMPLE:
         factor *= 2
     return factor
 
