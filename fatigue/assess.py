@@ -7,14 +7,14 @@ it is put in place in one step, so that a folder never holds half a result.
 """
 
 import logging
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass, field
 from functools import partial
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, get_args
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -24,10 +24,13 @@ from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
-from fatigue.pipeline.count.worst import WorstPoint, worst_points
+from fatigue.pipeline.count.worst import HistogramPoints, WorstPoint, histogram_points, worst_points
 from fatigue.pipeline.forecast.needs import job_needs
 from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
+from fatigue.pipeline.mission.counted import event_counts, listed
+from fatigue.pipeline.mission.gravity import gravity_audit
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
@@ -39,6 +42,7 @@ from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
 from fatigue.pipeline.tables.governing import worst_at_corners
+from fatigue.pipeline.tables.histogram import HistogramWriter
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
@@ -48,7 +52,16 @@ from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
-from fatigue.results import PAGE, PICTURE, TableWriter, recorded, result_tables, write_list, write_provenance
+from fatigue.results import (
+    ASSESSED,
+    PAGE,
+    PICTURE,
+    TableWriter,
+    recorded,
+    result_tables,
+    write_list,
+    write_provenance,
+)
 from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
 from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
@@ -87,6 +100,7 @@ def assess(
     executor: Executor | None = None,
     share: float | None = None,
     proves_worst: bool = True,
+    histogram: HistogramPoints = "worst",
     strict: bool = False,
     force: bool = False,
     report: bool = True,
@@ -106,6 +120,8 @@ def assess(
         for jobs of more than 5e9 stress samples, and 0 for smaller ones
     proves_worst : whether the worst point of welds that stay below the share everywhere is proven as well, not only the
         point with the largest estimate counted
+    histogram : of which counted points ``histogram.parquet`` has the ranges: ``worst``, those that are the worst of
+        their weld or use up a tenth of the damage limit; ``all``; ``none``, and there is no such table
     strict : take unknown columns in the tables for errors
     force : replace the result of another case, and files of these names that fatigue did not write
     report : write the report and the ParaView file as well
@@ -119,14 +135,14 @@ def assess(
     CaseError, DataError : the case or its files are wrong, or an argument makes no sense; nothing has been written then
     NumericalError : a computation lost its footing
     """
-    refuse(CaseError, _senseless(threads, share, executor))
+    refuse(CaseError, _senseless(threads, share, executor, histogram))
     case, folder = given_case(case), given_path(folder, "folder")
     settle_folder(folder, no_lock=no_lock)
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
     (body, plan, record_warnings), inputs = with_inputs(case, partial(read_case, case, threads, strict=strict))
-    options = ScreeningOptions(share, proves_worst)
+    options = ScreeningOptions(share, proves_worst, histogram)
     key = key_of(inputs.register, options)
 
     # another run may have been there meanwhile
@@ -137,36 +153,29 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
-            stage(
-                "preparing the records of the events (%d); %s expected",
-                len(plan.passes),
-                foretold(job_size(body, plan, share=share, threads=threads, report=report), folder),
-            )
+            for line in listed(event_counts(case, plan)):
+                log.info("event %s", line)
+            size = job_size(body, plan, share=share, threads=threads, report=report, histogram=histogram)
+            expected = foretold(size, folder)
+            stage("preparing the records of the events (%d); %s expected", len(plan.passes), expected)
             work = open_work(groups, plan, options, state.folder, threads)
+            gravity, of_gravity = gravity_audit(groups, levels_of(body, work), threads)
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
                 assessed = by_orders(work, state, executor, order_of(case, work, options, key, strict=strict))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
-            done.warnings.add((*body.warnings, *record_warnings))
+            done.warnings.add((*body.warnings, *record_warnings, *of_gravity))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
-            with result_tables(unpublished, key) as tables, closing(assessed):
-                cycles = CycleWriter(tables["cycles"], work.loads)
-                for group in assessed:
-                    worst = write_group(tables, group, work)
-                    cycles.add(points_kept_of(worst, group, work))
-                    done.add(group, work, worst)
-                    del group  # not to be held until the next one is there
-                    give_back()
-                cycles.flush()
-                tables["welds"].write(excluded_rows(body.excluded))
+            write_tables(unpublished, key, assessed, work, done, threads)
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
-            record = {"program": "fatigue", "result": key}
-            record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings)
+            record = {"program": "fatigue", "result": key} | provenance_record(
+                body, work, done.stations, folder, inputs.register, warnings, gravity
+            )
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
             stage("putting the result in place")
@@ -186,7 +195,12 @@ def foretold(size: JobSize, folder: Path) -> str:
     return needs.as_text()
 
 
-def _senseless(threads: object, share: object, executor: object) -> Iterator[Problem]:
+def levels_of(body: Body, work: Work) -> list[MeanLevel]:
+    """Means of every event, of its coordinates and constants."""
+    return [mean_level(body, event, load.mean) for event, load in zip(body.case.mission.event, work.loads, strict=True)]
+
+
+def _senseless(threads: object, share: object, executor: object, histogram: object) -> Iterator[Problem]:
     """Arguments that make no sense."""
     if threads is not None and not (isinstance(threads, Integral) and int(threads) >= 1):
         yield Problem("argument", "threads", f"{threads!r} is no number of threads", "Give a whole number from 1 on")
@@ -195,6 +209,10 @@ def _senseless(threads: object, share: object, executor: object) -> Iterator[Pro
     if executor is not None and not callable(getattr(executor, "submit", None)):
         what = f"{type(executor).__name__} is no executor"
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
+    known = get_args(HistogramPoints)
+    if not (isinstance(histogram, str) and histogram in known):
+        what, remedy = f"{histogram!r} are no points to keep", f"Give one of {', '.join(map(repr, known))}"
+        yield Problem("argument", "histogram", what, remedy)
 
 
 def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
@@ -270,6 +288,29 @@ class Tally:
         self.progress("assessing", min(sum(self.stations.values()), self.total), self.total)
 
 
+def write_tables(
+    folder: Path, key: str, assessed: Generator[Group], work: Work, done: Tally, threads: int | None
+) -> None:
+    """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
+    wants_histograms = work.histogram != "none"
+    with result_tables(folder, key, [*ASSESSED, *["histogram"] * wants_histograms]) as tables, closing(assessed):
+        cycles = CycleWriter(tables["cycles"], work.loads)
+        histograms = HistogramWriter(tables["histogram"], work.loads, threads) if wants_histograms else None
+        for group in assessed:
+            worst = write_group(tables, group, work)
+            cycles.add(points_kept_of(worst, group, work))
+            if histograms:
+                binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
+                histograms.add([kept_point(group.model, point) for point in binned])
+            done.add(group, work, worst)
+            del group  # not to be held until the next one is there
+            give_back()
+        cycles.flush()
+        if histograms:
+            histograms.flush()
+        tables["welds"].write(excluded_rows(work.groups.body.excluded))
+
+
 def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
     """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld."""
     model, result, plan = group.model, group.result, work.plan
@@ -278,7 +319,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))
-        tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
+        tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     tables["welds"].write(weld_rows(model, plan, result, worst))
     return worst
 
@@ -291,8 +332,8 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     """Warnings that only all welds together give: about loads that are not there, stress, sampling and spectra."""
-    files = [event.history for event in body.case.mission.event]
-    of_stress = done.stress.warnings(work.loads, body.modes.mode, files)
+    files = [event.history or body.case.path.name for event in body.case.mission.event]
+    of_stress = done.stress.warnings(work.loads, body.coordinates, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
     return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra]

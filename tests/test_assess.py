@@ -24,7 +24,7 @@ from fatigue.life.curves import catalogue
 from tests.small_case import BENDING, MEMBRANE, THICKNESS, sine_only, small_case
 
 assess = partial(assess_and_report, report=False)
-TABLES = ("nodes", "damage", "cycles", "structural_stress", "welds")
+TABLES = ("nodes", "damage", "cycles", "histogram", "structural_stress", "welds")
 
 
 def run(case, folder, **options):

@@ -296,7 +296,7 @@ def test_schema_describes_every_key_with_its_unit():
 
 def test_tables_carry_units_and_survive_pandas(small_result):
     """Field metadata hold unit and meaning of every column; pandas reads the tables as they are."""
-    for name in ("nodes", "damage", "cycles", "structural_stress", "welds"):
+    for name in ("nodes", "damage", "cycles", "histogram", "structural_stress", "welds"):
         schema = pq.read_schema(small_result / f"{name}.parquet")
         assert all(f.metadata[b"unit"] and f.metadata[b"description"] for f in schema)
         assert len(pd.read_parquet(small_result / f"{name}.parquet"))

@@ -23,7 +23,7 @@ case = load_case(synthesize(folder / "case", Size(nodes=240, modes=12, events=2,
 for kernel, samples in (("single", 0.0), ("double", 1e12)):
     fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES = samples
     assess(case, folder / kernel, share=0.1, threads=1, report=False)
-    for table in ("nodes", "damage", "cycles", "structural_stress", "welds"):
+    for table in ("nodes", "damage", "cycles", "histogram", "structural_stress", "welds"):
         print(kernel, table, hashlib.sha256((folder / kernel / f"{table}.parquet").read_bytes()).hexdigest())
 """
 

@@ -30,14 +30,17 @@ from fatigue.results.columns import (
     DAMAGE,
     DIAGNOSED,
     DIAGNOSIS,
+    HISTOGRAM,
     LEVERS,
     NODES,
+    OPTIONAL,
     STRUCTURAL_STRESS,
     TABLES,
     TRACK,
     WELDS,
-    Column,
 )
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
@@ -72,10 +75,13 @@ __all__ = [
     "DIAGNOSED",
     "DIAGNOSIS",
     "DOCUMENTS",
+    "HISTOGRAM",
     "JOURNAL",
     "LEVERS",
     "LIST",
+    "LOAD_SPECTRA",
     "NODES",
+    "OPTIONAL",
     "PAGE",
     "PICTURE",
     "PRINT",

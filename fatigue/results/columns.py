@@ -1,28 +1,8 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
-from dataclasses import dataclass
-from typing import Literal
-
-ColumnType = Literal["text", "int", "flag", "float"]
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """One column of a result table: name, type, unit and meaning, written into the file beside the numbers."""
-
-    name: str
-    type: ColumnType
-    unit: str
-    meaning: str
-
-
-_POINT = (
-    Column("weld", "text", "-", "weld line"),
-    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
-    Column("node", "int", "-", "FE node id"),
-    Column("order", "int", "-", "position along the weld line, as given"),
-    Column("surface", "text", "-", "top (side of the plate normal) or bottom face of the assessed plate"),
-)
+from fatigue.results.dictionary.column import POINT as _POINT
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 
 NODES = (
     *_POINT,
@@ -179,13 +159,14 @@ STRUCTURAL_STRESS = (
     Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
     Column("order", "int", "-", "position along the weld line, as given"),
     Column("node", "int", "-", "FE node id"),
-    Column("mode", "int", "-", "mode id"),
+    Column("mode", "int", "-", "mode id, empty of a unit load"),
+    Column("unit_load", "text", "-", "name of the unit load, empty of a mode"),
     *(
-        Column(name, "float", "MPa", f"{meaning}, per unit modal coordinate, ends treated")
+        Column(name, "float", "MPa", f"{meaning}, per unit of the coordinate, ends treated")
         for name, meaning in _COMPONENTS
     ),
     *(
-        Column(name.replace("_MPa", "_raw_MPa"), "float", "MPa", f"{meaning}, per unit modal coordinate, as solved")
+        Column(name.replace("_MPa", "_raw_MPa"), "float", "MPa", f"{meaning}, per unit of the coordinate, as solved")
         for name, meaning in _COMPONENTS
     ),
 )
@@ -232,6 +213,26 @@ WELDS = (
     Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
 )
 
+HISTOGRAM = (
+    *_POINT,
+    Column("event", "text", "-", "event of the mission"),
+    Column("kind", "text", "-", "of which range: S, structural stress; dS, equivalent range, the one of the damage"),
+    Column(
+        "bin",
+        "int",
+        "-",
+        "class b of ranges from 10^(b/64 - 3) to 10^((b+1)/64 - 3) [MPa, or MPa mm^-0.222 for dS]; the first begins at "
+        "0, the last, 511, has no end; only classes with cycles",
+    ),
+    Column("count_per_pass", "float", "-", "sum n: cycles of one pass in this class"),
+    Column(
+        "power_sum_per_pass",
+        "float",
+        "MPa^k",
+        "sum n x^k of their ranges x, k the first slope of the curve; in double precision",
+    ),
+)
+
 _CHOSEN = Column(
     "chosen",
     "text",
@@ -247,10 +248,12 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses; thickness: "
-        "the plate through its stress, at constant line force and moment; thickness_rule: the plate through the rule",
+        "event: the whole event; mode with unit_load, and band: its parts, each set adds up to the event; load: all "
+        "stresses; thickness: the plate through its stress, at constant line force and moment; thickness_rule: the "
+        "plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
+    Column("unit_load", "text", "-", "name of the unit load, for kind unit_load"),
     Column("low_hz", "float", "Hz", "lower edge, for kind band"),
     Column("high_hz", "float", "Hz", "upper edge, for kind band; empty: no upper edge"),
     Column(
@@ -342,13 +345,14 @@ LEVERS = (
     *_POINT,
     _CHOSEN,
     Column("rank", "int", "-", "1: buys most"),
-    Column("mode", "int", "-", "mode id"),
-    Column("frequency_hz", "float", "Hz", "natural frequency of the mode"),
-    Column("kind", "text", "-", "normal, interface or rigid"),
-    Column("share", "float", "-", "share of the damage owed to the mode"),
-    Column("life_exponent", "float", "-", "d ln(life) / d ln(amplitude of the mode in all events)"),
+    Column("mode", "int", "-", "mode id, empty of a unit load"),
+    Column("unit_load", "text", "-", "name of the unit load, empty of a mode"),
+    Column("frequency_hz", "float", "Hz", "natural frequency of the mode, empty of a unit load"),
+    Column("kind", "text", "-", "normal, interface, rigid or unit_load"),
+    Column("share", "float", "-", "share of the damage owed to it"),
+    Column("life_exponent", "float", "-", "d ln(life) / d ln(its amplitude in all events)"),
     Column("life_km", "float", "km", "life as it is"),
-    Column("life_km_estimated", "float", "km", "life with the mode 10 % smaller, by the exponent"),
+    Column("life_km_estimated", "float", "km", "life with it 10 % smaller, by the exponent"),
     Column("life_km_counted", "float", "km", "the same with all cycles counted again"),
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )
@@ -367,4 +371,5 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "diagnosis": DIAGNOSIS,
     "levers": LEVERS,
 }
-TABLES = ASSESSED | DIAGNOSED
+OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA

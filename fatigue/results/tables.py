@@ -2,7 +2,7 @@
 
 import base64
 import difflib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, given_names, given_path, refuse
 from fatigue.files.mishaps import is_of_the_system, refusal, refused_writing
-from fatigue.results.columns import ASSESSED, TABLES, ColumnType
+from fatigue.results.columns import ASSESSED, TABLES
+from fatigue.results.dictionary.column import ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
     "text": pa.string(),
@@ -153,12 +154,14 @@ def table_writer(folder: Path, table: str, result: str = "") -> Iterator[TableWr
 
 
 @contextmanager
-def result_tables(folder: Path, result: str = "") -> Iterator[dict[str, TableWriter]]:
-    """Open all tables of an assessment in a folder for writing, by name; ``result``: hash of the result."""
+def result_tables(
+    folder: Path, result: str = "", names: Iterable[str] = tuple(ASSESSED)
+) -> Iterator[dict[str, TableWriter]]:
+    """Open tables of an assessment in a folder for writing, by name; ``result``: hash of the result."""
     with refused_writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
-        yield {table: stack.enter_context(table_writer(folder, table, result)) for table in ASSESSED}
+        yield {table: stack.enter_context(table_writer(folder, table, result)) for table in names}
 
 
 def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = None) -> pa.Table:

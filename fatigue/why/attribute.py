@@ -55,8 +55,10 @@ class EventAttribution:
     load_slope : (p,) by ln(load), all stresses of the event scaled
     thickness_slope : (p,) by ln(t) through the stress: membrane ~ 1/t, bending ~ 1/t^2 at constant line load
     rule_slope : (p,) by ln(t) through the thickness rule of the curve
-    mode, mode_slope : (p, m) damage owed to each mode, below 0 where it relieves; slope by ln(amplitude) of the mode
-    resonant : (p, m) part of ``mode`` in resonance, within f (1 +- 2 zeta) of the mode; NaN without damping
+    mode, mode_slope : (p, c) damage owed to each mode and, behind them, to each unit load, below 0 where it relieves;
+        slope by ln(amplitude) of it
+    resonant : (p, c) part of ``mode`` in resonance, within f (1 +- 2 zeta) of the mode; NaN without damping, and of
+        unit loads
     band, band_slope : (p, b) the same for the frequency bands
     edges_hz : (b + 1,) edges of the bands; one band from 0 to infinity for a record too short to have a spectrum
     place : (p, x) damage credited half and half to the two instants of each cycle, per bin of the track
@@ -125,17 +127,17 @@ class Attribution:
 
     @property
     def mode_share(self) -> Floats:
-        """Share of every mode over all events, (p, m); below 0 where a mode relieves."""
+        """Share of every mode and unit load over all events, (p, c); below 0 where it relieves."""
         return self.share(np.asarray(sum(event.mode for event in self.events)))
 
     @property
     def resonant_share(self) -> Floats:
-        """Part of ``mode_share`` that each mode makes in its own resonance, (p, m); NaN without damping."""
+        """Part of ``mode_share`` that each mode makes in its own resonance, (p, c); NaN without damping."""
         return self.share(np.asarray(sum(event.resonant for event in self.events)))
 
     @property
     def mode_exponent(self) -> Floats:
-        """Exponents d ln(life) / d ln(amplitude) of every mode in all events, (p, m)."""
+        """Exponents d ln(life) / d ln(amplitude) of every mode and unit load in all events, (p, c)."""
         return -self.share(np.asarray(sum(event.mode_slope for event in self.events)))
 
     @property
@@ -146,14 +148,14 @@ class Attribution:
         return self.share(np.column_stack([np.asarray(sum(resolved)), short] if resolved else [short]))
 
 
-def numbers_of_point(plan: Plan, modes: Modes, bins: Bins) -> int:
+def numbers_of_point(plan: Plan, coordinates: int, bins: Bins) -> int:
     """How many numbers are held of one point for all events."""
     places = sum(TIME_BINS if one.length is None else int(one.length / bins.length_km) + 1 for one in plan.passes)
-    return places + len(plan.passes) * (3 * len(modes.mode) + 2 * len(bins.edges_hz) + _OTHER_NUMBERS)
+    return places + len(plan.passes) * (3 * coordinates + 2 * len(bins.edges_hz) + _OTHER_NUMBERS)
 
 
 def attribute_event(points: Points, load: EventLoad, one_pass: Pass, modes: Modes, bins: Bins) -> EventAttribution:
-    """Damage of one event at some points, shared out."""
+    """Damage of one event at some points, shared out; the first coordinates of its record are ``modes``."""
     q = load.counted.q
     inner = bins.edges_hz if load.moments is not None else np.zeros(0)
     place_s, place_km = _place_edges(load, one_pass, bins.length_km)
@@ -192,22 +194,26 @@ def _blocks(
         some = points.of(slice(first, first + rows))
         modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         sigma_m, sigma_b = modal_m @ q, modal_b @ q
+        modal_s = modal_m + some.side[:, None] * modal_b
+        of_points = zip(sigma_m, sigma_b, some.side, some.size, some.rule, modal_s @ load.offset, strict=True)
         counted = [
-            count_credit(m, b, side, size, rule, residue, vertex=load.vertex)
-            for m, b, side, size, rule in zip(sigma_m, sigma_b, some.side, some.size, some.rule, strict=True)
+            count_credit(m, b, side, size, rule, residue, offset, vertex=load.vertex)
+            for m, b, side, size, rule, offset in of_points
         ]
         share = coefficients(np.stack([c.share for c in counted]), residue)
         by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
-        modal_s = modal_m + some.side[:, None] * modal_b
         owed = modal_s[:, :, None] * band_products(share, Q, bands)
         slope = modal_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
         slope += modal_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
+        by_offset = np.array([c.by_offset for c in counted])[:, None] * load.offset
+        slope[:, :, 0] += modal_s * by_offset  # what is constant has the frequency 0
+        constant = by_offset * (modal_m + 2.0 * some.side[:, None] * modal_b)
         load_slope = np.array([c.slope for c in counted])
         yield {
             "damage": np.array([c.damage for c in counted]),
             "top_cycle": np.array([c.top_cycle for c in counted]),
             "load_slope": load_slope,
-            "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
+            "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b) - constant.sum(axis=1),
             "rule_slope": load_slope * some.size_exponent,
             "mode": owed.sum(axis=2),
             "mode_slope": slope.sum(axis=2),
@@ -219,22 +225,31 @@ def _blocks(
 
 
 def count_credit(
-    sigma_m: Floats, sigma_b: Floats, side: float, size: float, rule: CycleRule, residue: Residue, *, vertex: bool
+    sigma_m: Floats,
+    sigma_b: Floats,
+    side: float,
+    size: float,
+    rule: CycleRule,
+    residue: Residue,
+    offset: float = 0.0,
+    *,
+    vertex: bool,
 ) -> Credit:
     """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles.
 
-    With ``vertex`` each reversal is read at its vertex.
+    ``offset`` is the constant stress of the face beside the samples [MPa]. With ``vertex`` each reversal is read at its
+    vertex.
     """
     if vertex:
         moved = vertex_history(sigma_m, sigma_b, side, recurs=residue == "repeat")
         cycles = rainflow(moved.membrane + side * moved.bending, residue)
-        return credit(cycles, moved.membrane, moved.bending, side, size, rule, moved.shift)
+        return credit(cycles, moved.membrane, moved.bending, side, size, rule, offset, moved.shift)
     cycles = rainflow(sigma_m + side * sigma_b, residue)
-    return credit(cycles, sigma_m, sigma_b, side, size, rule)
+    return credit(cycles, sigma_m, sigma_b, side, size, rule, offset)
 
 
 def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:
-    """Products of the share vectors (p, t) with each mode's coordinate in its own resonance: (p, m)."""
+    """Products of the share vectors (p, t) with each mode's coordinate in its own resonance: (p, c)."""
     half_width = 2.0 * modes.damping_ratio * modes.frequency
     products = np.full((len(share), len(Q)), np.nan)
     for k in np.flatnonzero(np.isfinite(half_width)):

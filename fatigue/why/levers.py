@@ -1,4 +1,4 @@
-"""Which mode, if 10 % smaller, buys most kilometres: estimated for all modes, counted again for the best."""
+"""Which mode or unit load, if 10 % smaller, buys most kilometres: estimated for all, counted again for the best."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan, life_km
-from fatigue.life.records.history import Residue, stress_record
+from fatigue.life.records.history import stress_record
 from fatigue.life.records.spool import Samples
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.why.attribute import Attribution, count_credit
@@ -27,7 +27,7 @@ class Levers:
     Attributes
     ----------
     point : (w,) index into the points of the attribution
-    mode : index into the modes of the model
+    mode : index into the coordinates of the body, its modes and unit loads
     exponent : d ln(life) / d ln(amplitude)
     life_estimated : life by that exponent, ``life * 0.9**exponent`` [km]
     life_counted : life when the mode is scaled in every event and all cycles are counted again [km]
@@ -41,7 +41,7 @@ class Levers:
 
 
 def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan, point: NDArray[np.int64]) -> Levers:
-    """Modes of some points, which must have damage, ranked by what 10 % less buys; the best are counted again."""
+    """Modes and unit loads ranked by what 10 % less buys at some points that have damage; the best counted again."""
     points, exponents = attribution.points.of(point), attribution.mode_exponent[point]
     mode = np.argsort(exponents, axis=1, kind="stable")[:, :CANDIDATES]
     exponent = np.take_along_axis(exponents, mode, axis=1)
@@ -50,19 +50,23 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
         scale = load.stress_factor * np.where(mode[:, :, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
         q = load.counted.q if is_long(load.counted.q) else np.asarray(load.counted.q)
         for w in range(len(point)):
-            counted = _damages(points.of(slice(w, w + 1)), scale[w], q, load.residue, vertex=load.vertex)
+            counted = _damages(points.of(slice(w, w + 1)), scale[w], q, load)
             damage[w] += one_pass.passes_per_km * np.array(counted)
     life = life_km(attribution.damage[point], plan.damage_limit)
     return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, life_km(damage, plan.damage_limit))
 
 
-def _damages(point: Points, scale: Floats, q: Samples, residue: Residue, *, vertex: bool) -> list[float]:
-    """Miner sums of a point in one pass, its modal coordinates scaled in some ways (c, m)."""
+def _damages(point: Points, scale: Floats, q: Samples, load: EventLoad) -> list[float]:
+    """Miner sums of a point in one pass, its coordinates scaled in some ways (w, c)."""
     membrane, bending = scale * point.membrane, scale * point.bending
-    side, size, rule = float(point.side[0]), float(point.size[0]), point.rule[0]
+    side, size, rule, residue = float(point.side[0]), float(point.size[0]), point.rule[0], load.residue
+    offset = (membrane + side * bending) @ load.offset
     if is_long(q):
         stress = stress_record(np.stack([membrane, bending], axis=1).reshape(-1, q.shape[0]), q)
-        return [long_damage(stress, Row(2 * i, side, size, rule), residue, vertex=vertex) for i in range(len(scale))]
+        rows = [Row(2 * i, side, size, rule, offset[i]) for i in range(len(scale))]
+        return [long_damage(stress, row, residue, vertex=load.vertex) for row in rows]
     sigma_m, sigma_b = membrane @ np.asarray(q), bending @ np.asarray(q)
-    both = zip(sigma_m, sigma_b, strict=True)
-    return [count_credit(m, b, side, size, rule, residue, vertex=vertex).damage for m, b in both]
+    return [
+        count_credit(m, b, side, size, rule, residue, constant, vertex=load.vertex).damage
+        for m, b, constant in zip(sigma_m, sigma_b, offset, strict=True)
+    ]

@@ -68,6 +68,7 @@ def write_result(root: Path, recipe: Recipe = Recipe()) -> Path:
     _write(folder, "nodes", _node_rows(recipe, cycles, per_km, passes, toes))
     _write(folder, "damage", _damage_rows(recipe, cycles))
     _write(folder, "cycles", [_cycle_rows(recipe, cycles, w, *at) for w, at in enumerate(worst)])
+    _write(folder, "histogram", [_bin_rows(recipe, cycles, w, *at) for w, at in enumerate(worst)])
     _write(folder, "structural_stress", _stress_rows(recipe))
     _write(folder, "welds", _weld_rows(recipe, per_km, passes, cycles, worst))
     write_json(folder / "provenance.json", _provenance(recipe, passes, files))
@@ -217,6 +218,20 @@ def _cycle_rows(recipe, cycles, w, s, f):
     return rows
 
 
+def _bin_rows(recipe, cycles, w, s, f):
+    """Classes of structural stress of the worst point of a weld."""
+    rows = {}
+    for e, event in enumerate(recipe.events):
+        found = cycles[w, s, f, e]
+        for S, n in zip(found["range_MPa"], found["count"], strict=True):
+            at = int(64 * (np.log10(max(S, 1e-3)) + 3))
+            empty = {"count_per_pass": 0.0, "power_sum_per_pass": 0.0}
+            row = rows.setdefault((e, at), {**_key(recipe, w, s, f), "event": event, "kind": "S", "bin": at, **empty})
+            row["count_per_pass"] += n
+            row["power_sum_per_pass"] += n * S ** law().slopes[0]
+    return [*rows.values()]
+
+
 def _stress_rows(recipe):
     rows = []
     components = ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear")
@@ -229,6 +244,7 @@ def _stress_rows(recipe):
                     {
                         **{name: key[name] for name in ("weld", "part", "order", "node")},
                         "mode": mode,
+                        "unit_load": None,
                         **{f"{c}_MPa": value for c, value in values.items()},
                         **{f"{c}_raw_MPa": value for c, value in values.items()},
                     }

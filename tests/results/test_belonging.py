@@ -36,7 +36,8 @@ def test_everything_written_of_a_result_belongs_to_it(folder):
         assert carried(folder / name) == record["result"], name
     assert carried(folder / "nodes.csv") is None
     assert set(listed(folder)) == {
-        "report.html", "weld_lines.vtp", "nodes.xlsx", "nodes.csv", "damage.csv", "cycles.csv", "welds.csv"
+        "report.html", "weld_lines.vtp", "nodes.xlsx", "nodes.csv", "damage.csv", "cycles.csv", "welds.csv",
+        "histogram.csv",
     }  # fmt: skip
     assert not strangers(folder, record)
     assert all(is_derived(folder, name, record) for name in listed(folder))

@@ -2,6 +2,7 @@
 
 from contextlib import nullcontext
 from pathlib import Path
+from typing import Literal
 
 import click
 
@@ -62,6 +63,14 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     help="In welds proven to stay below SHARE everywhere, count the point with the largest estimate and do not prove "
     "that no other is worse: about half the time.",
 )
+@click.option(
+    "--histogram",
+    type=click.Choice(("worst", "all", "none")),
+    default="worst",
+    show_default=True,
+    help="Points whose ranges go into histogram.parquet: the worst of each weld and those above a tenth of the limit, "
+    "all that are counted, or none.",
+)
 @click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask cluster (package `distributed`).")
 @click.option(
     "--force", is_flag=True, help="Replace the result of another case, and files in DIR that fatigue did not write."
@@ -80,6 +89,7 @@ def assess(
     exact: bool,
     screen: float | None,
     likely_worst: bool,
+    histogram: Literal["worst", "all", "none"],
     scheduler: str | None,
     force: bool,
     no_report: bool,
@@ -122,6 +132,7 @@ def assess(
             executor=executor,
             share=0.0 if exact else screen,
             proves_worst=not likely_worst,
+            histogram=histogram,
             strict=strict,
             force=force,
             report=not no_report,

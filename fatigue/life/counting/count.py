@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.counting.block import BlockCount, BlockStress
+from fatigue.life.counting.block import HISTOGRAM_BINS, BlockCount, BlockStress
 from fatigue.life.counting.chunks import count_chunks, try_chunks
 from fatigue.life.counting.factors import trials
 from fatigue.life.counting.record import CountedRecord
@@ -27,6 +27,19 @@ def count(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockC
     if is_single(record, rule):
         return count_single(stress, record, rule)
     return count_chunks(stress, record, rule) if _is_long(record) else count_rows(stress, record, rule)
+
+
+def count_histograms(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> NDArray[np.float64]:
+    """Histograms (n, 2, 2, HISTOGRAM_BINS, 2) of the cycles of one pass at both surfaces: of S, then of dS.
+
+    Each bin has sum n and sum n x**k, k the first slope; see ``block.HISTOGRAM_EDGES``. In double precision.
+
+    Raises
+    ------
+    NumericalError : a stress is not finite
+    """
+    counted = (count_chunks if _is_long(record) else count_rows)(stress, record, rule, ranges=True)
+    return counted.histogram.reshape(len(stress), 2, 2, HISTOGRAM_BINS, 2)[:, :, ::-1]
 
 
 def count_at_factors(

@@ -23,9 +23,9 @@ from fatigue.life.counting.tally import (
     block_count,
     compiled_rule,
     nothing_counted,
+    own_of,
     plain,
     refuse_not_finite,
-    shear_factors,
     tally,
 )
 from fatigue.life.counting.vertex import move, shifts
@@ -45,19 +45,20 @@ class _Histories(NamedTuple):
     size: Floats
     same_ratio: Floats
     shear_factor: Floats
+    offset: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
 
 
-def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:
-    """Count a block as ``count`` does: the histories of a few points at a time."""
+def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, *, ranges: bool = False) -> BlockCount:
+    """Count a block as ``count`` does: the histories of a few points at a time; ``ranges``: see ``nothing_counted``."""
     rows = _rows_at_once(record)
     counts = []
     for first in range(0, len(stress), rows):
         some = stress.at(slice(first, first + rows))
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
-        counts.append(_count_some(some, (membrane, bending), record.recurs, rule, vertex=record.vertex))
+        counts.append(_count_some(some, (membrane, bending), (record.recurs, record.vertex), rule, ranges=ranges))
     return BlockCount(*(np.concatenate([getattr(count, f.name) for count in counts]) for f in fields(BlockCount)))
 
 
@@ -70,7 +71,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
         refuse_not_finite(membrane, bending)
         totals, histogram = nothing_counted(len(membrane), rule.law)
-        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
         trials = Trials(*(part[at] for part in tried))
         block = _Histories(*of_points, totals, histogram, trials)
         _count(block, record.recurs, record.vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
@@ -90,20 +91,30 @@ def count_histories(
     ------
     NumericalError : a sample is not finite
     """
-    return _count_some(BlockStress(membrane, bending, size, same_ratio), (membrane, bending), residue == "repeat", rule)
+    return _count_some(
+        BlockStress(membrane, bending, size, same_ratio), (membrane, bending), (residue == "repeat", False), rule
+    )
 
 
 def _count_some(
-    some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule, *, vertex: bool = False
+    some: BlockStress,
+    histories: tuple[Floats, Floats],
+    how: tuple[bool, bool],
+    rule: CycleRule,
+    *,
+    ranges: bool = False,
 ) -> BlockCount:
-    """Count some points, of which membrane and bending stress over time are given."""
+    """Count some points, of which membrane and bending stress over time are given.
+
+    ``how``: whether the record recurs, and whether reversals are read at their vertices.
+    """
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
-    totals, histogram = nothing_counted(len(membrane), rule.law)
-    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=ranges)
+    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
-    _count(block, recurs, vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
-    return block_count(totals, histogram, rule)
+    _count(block, *how, compiled_rule(rule), buffers_for(membrane.shape[1]))
+    return block_count(totals, histogram, rule, some.level)
 
 
 @compiled()
@@ -117,7 +128,6 @@ def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, bu
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
-            own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
             tries = block.trials.damage.shape[2] > 0
             if not tries:
                 total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
@@ -129,7 +139,9 @@ def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, bu
                 membrane, bending = room[0], room[1]
                 for i in range(s.size):
                     s[i] = membrane[i] + side * bending[i]
-            point = Surface(membrane, bending, side, own[0], own[1], own[2])
+            at = row, surface
+            own = block.size[row], block.same_ratio[at], block.shear_factor[at], block.offset[at]
+            point = Surface(membrane, bending, side, own[0], own[1], own[2], own[3])
             cycles = find_cycles(s, recurs, buffers)
             if tries:
                 first, step = block.trials.first[row, surface], block.trials.step[row, surface]

@@ -41,6 +41,7 @@ class Surface(NamedTuple):
     size: float
     same_ratio: float
     shear_factor: float
+    offset: float
 
 
 def compiled_rule(rule: CycleRule) -> CompiledRule:
@@ -50,19 +51,22 @@ def compiled_rule(rule: CycleRule) -> CompiledRule:
     return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress)
 
 
-def nothing_counted(points: int, law: DamageLaw) -> tuple[NDArray[np.void], Floats]:
-    """Totals and histogram of a block before its first cycle."""
+def nothing_counted(points: int, law: DamageLaw, *, ranges: bool = False) -> tuple[NDArray[np.void], Floats]:
+    """Totals and histogram of a block before its first cycle; with ``ranges`` any law has bins of dS, and of S too."""
     totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
-    return totals, np.zeros((points, 2, 0 if law.is_straight else HISTOGRAM_BINS, 2))
+    bins = 2 * HISTOGRAM_BINS if ranges else 0 if law.is_straight else HISTOGRAM_BINS
+    return totals, np.zeros((points, 2, bins, 2))
 
 
-def shear_factors(stress: BlockStress) -> Floats:
-    """Shear factor of each point and surface; 1 where none is wanted."""
-    return plain(np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor)
+def own_of(stress: BlockStress) -> tuple[Floats, Floats]:
+    """Shear factor, 1 where none is wanted, and offset [MPa] of each point and surface, (n, 2) each."""
+    factor = np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor
+    return plain(factor), plain(stress.level)
 
 
-def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule) -> BlockCount:
-    """Give the totals of a block their names."""
+def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule, offset: Floats) -> BlockCount:
+    """Give the totals of a block their names; the mean of its samples gets the ``offset`` (n, 2)."""
+    totals["mean"] += offset
     if rule.yield_MPa is None:
         totals["damage_mean_stress"] = np.nan
     return BlockCount(**{name: totals[name].copy() for name in _SCALARS}, histogram=histogram)
@@ -108,13 +112,23 @@ def cycle_damage(x: float, rule: CompiledRule) -> float:
 
 
 @compiled()
+def add_to_bin(n: float, x: float, k: float, histogram: Floats) -> None:
+    """Add n cycles of the range x to sum n and sum n x^k of its bin."""
+    decades = math.log10(max(x, 1e-3)) + 3.0
+    bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
+    histogram[bin_, 0] += n
+    histogram[bin_, 1] += n * math.exp(k * math.log(x))
+
+
+@compiled()
 def tally(
     point: Surface, total: NDArray[np.void], histogram: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
 ) -> None:
     """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
 
     A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` (Eq. 7) and
-    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8); the damage is their Miner sum (Eq. 12).
+    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8); the damage is their Miner sum (Eq. 12). The range is that of the samples
+    to the last bit, whatever the offset.
     """
     membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rule.slopes[0]
@@ -123,8 +137,8 @@ def tally(
     for c in range(cycles):
         i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
         s_i, s_j = membrane[i] + side * bending[i], membrane[j] + side * bending[j]
-        minimum, maximum = min(s_i, s_j), max(s_i, s_j)
-        S = maximum - minimum
+        S = max(s_i, s_j) - min(s_i, s_j)
+        minimum, maximum = min(s_i, s_j) + point.offset, max(s_i, s_j) + point.offset
         dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
         I = ratio_factor(db / (dm + db)) if rule.uses_bending_ratio else 1.0  # noqa: E741 - the symbol of the standard
         x = equivalent_range(S, size, I, 1.0)
@@ -142,9 +156,8 @@ def tally(
         if histogram.shape[0] > 0:
             total["damage_same_ratio"] += n * cycle_damage(S * same_scale, rule)
             total["damage_with_shear"] += n * cycle_damage(dS * point.shear_factor, rule)
-            decades = math.log10(max(dS, 1e-3)) + 3.0
-            bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
-            histogram[bin_, 0] += n
-            histogram[bin_, 1] += n * math.exp(k * math.log(dS))
+            add_to_bin(n, dS, k, histogram[:HISTOGRAM_BINS])
+            if histogram.shape[0] > HISTOGRAM_BINS:
+                add_to_bin(n, S, k, histogram[HISTOGRAM_BINS:])
     if histogram.shape[0] == 0:  # d(a S) = d(a) S**k of a straight law
         total["damage_same_ratio"] = cycle_damage(same_scale, rule) * total["power_sum"]

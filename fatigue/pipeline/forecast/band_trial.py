@@ -55,7 +55,7 @@ def beginnings(body: Body, plan: Plan, scratch: Path) -> Iterator[tuple[int, Eve
 
 def _looked_at(body: Body, plan: Plan) -> list[int]:
     """Numbers of the events that are looked at: the longest, and the shortest of the others."""
-    numbers = len(body.modes.mode) * np.array([one.samples for one in plan.passes])
+    numbers = len(body.coordinates) * np.array([one.samples for one in plan.passes])
     *others, longest = np.argsort(numbers, kind="stable").tolist()
     cheap = np.cumsum(numbers[others]) <= READ_AT_MOST
     return sorted([longest, *np.array(others, dtype=int)[cheap].tolist()])

@@ -11,7 +11,7 @@ import numpy as np
 
 from fatigue.life.records.history import LONG_NUMBERS, LONGEST_TRANSFORM
 from fatigue.pipeline.count.result import OF_EVENT
-from fatigue.pipeline.forecast.size import JobSize
+from fatigue.pipeline.forecast.size import SCREENED, JobSize
 from fatigue.pipeline.mission.event_load import held_copies
 from fatigue.pipeline.mission.events import HELD_BYTES
 from fatigue.pipeline.solve.weld_groups import BLOCK
@@ -34,15 +34,22 @@ WAITING_ROWS = 200.0  # bytes
 MOST_WAITING = 70.0 * MB
 CYCLES_LISTED = 100.0  # bytes for each sample of a record whose cycles are listed in memory
 LONGEST_LISTED = 1_000_000  # samples of such a record
-ROW = {"nodes": 250.0, "damage": 180.0, "structural_stress": 90.0, "cycle": 60.0}  # bytes of a row of a result
+ROW = {  # bytes of a row of a result
+    "nodes": 250.0,
+    "damage": 180.0,
+    "structural_stress": 90.0,
+    "cycle": 60.0,
+    "histogram": 9.0,
+}
 DIAGNOSED, DIAGNOSED_MODE = 130.0, 12.0  # bytes for each sample of a record in memory: alone, for each mode
 DIAGNOSED_LONG = 200.0 * MB  # of any record on disk
+BINS = 250  # of a histogram with cycles, of both kinds, for each event
+BINNED = 30.0 * MB  # by each thread, with the rows of its points
 CYCLES_PER_SAMPLE = 1 / 6  # of a record that is sampled twelve times a cycle
 
 # Processor time [s] on a core of 2 to 3 GHz
 FIRST = 2.5
 PER_STRESS_SAMPLE = {False: (9e-9, 0.4e-9), True: (1.3e-9, 0.03e-9)}  # single precision or not: alone, for each mode
-SCREENED = 0.3  # of the points are counted, or as much time goes into their bounds
 PREPARED = 150e-9  # each sample and mode of a record
 PREPARED_LONG = 0.8e-6  # the same, where it is transformed in scratch files
 LISTED = 0.5e-6  # each sample of a record whose cycles are listed, at each weld
@@ -131,7 +138,8 @@ def counting(size: JobSize) -> float:
     rows = size.stations * (2 + 2 * len(size.samples) + size.modes)
     listed = min(ROWS_OF_STRESS, 256.0 * longest) + CYCLES_LISTED * min(longest, LONGEST_LISTED)
     busy = min(size.threads, -(-size.stations // size.group))
-    return busy * of_thread + min(MOST_WAITING, WAITING_ROWS * rows) + listed
+    binned = size.threads * BINNED if size.histograms else 0.0
+    return busy * of_thread + min(MOST_WAITING, WAITING_ROWS * rows) + max(listed, binned)
 
 
 def page(size: JobSize) -> float:
@@ -159,6 +167,7 @@ def result_tables(size: JobSize) -> float:
     events = len(size.samples)
     rows = 2 * size.stations * (ROW["nodes"] + events * ROW["damage"])
     rows += size.stations * size.modes * ROW["structural_stress"]
+    rows += size.histograms * events * BINS * ROW["histogram"]
     listed = size.welds * (0.05 if size.is_single else 1.0)
     return rows + ROW["cycle"] * CYCLES_PER_SAMPLE * sum(size.samples) * listed
 
@@ -170,8 +179,10 @@ def _seconds(size: JobSize) -> float:
     counted = 2.0 * size.stations * sum(size.counted) * per_sample
     prepared = sum(size.modes * n * (PREPARED_LONG if n > LONGEST_TRANSFORM else PREPARED) for n in size.counted)
     listed = LISTED * sum(size.counted) * size.welds * (0.05 if size.is_single else 1.0)
+    exact, each = PER_STRESS_SAMPLE[False]
+    binned = 2.0 * size.histograms * sum(size.counted) * (exact + each * size.modes)
     shown = SECOND_ON_PAGE * min(size.welds, MOST_DETAILED) if size.report else 0.0
-    return FIRST + counted + prepared + listed + shown
+    return FIRST + counted + prepared + listed + binned + shown
 
 
 def size_text(size: float) -> str:

@@ -5,11 +5,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fatigue.life.mission import Plan
+from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.events import DOUBLE_PRECISION_SAMPLES
 from fatigue.pipeline.run.work import SHARE
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.weld_groups import GROUPS, LARGEST_GROUP, SMALLEST_GROUP
 
+SCREENED = 0.3  # of the points are counted where bounds settle points, or as much time goes into their bounds
+HIGHLY_USED = 0.02  # of the points: they use up a tenth of the damage limit
 AUTOMATIC = 4  # upsampling assumed where the program finds it: a record of 5 samples per peak needs it
 
 
@@ -19,13 +22,14 @@ class JobSize:
 
     Attributes
     ----------
-    modes, stations, welds : how many there are
+    modes, stations, welds : how many there are; unit loads are counted with the modes
     samples : of the kept record of each event
     factors : by which each is upsampled
     share : of the damage limit below which points need no counting; 0: every point is counted
     has_knees : whether any curve has knees, so that ranges are kept in histograms
     threads : that work side by side
     report : whether a page is written
+    histogram : of which points histograms are kept
     """
 
     modes: int
@@ -37,6 +41,7 @@ class JobSize:
     has_knees: bool
     threads: int
     report: bool
+    histogram: HistogramPoints = "worst"
 
     @property
     def counted(self) -> tuple[int, ...]:
@@ -54,6 +59,14 @@ class JobSize:
         return self.share > 0.0
 
     @property
+    def histograms(self) -> float:
+        """Points whose histograms are kept, as far as can be told before anything is counted."""
+        points = 2.0 * self.stations
+        if self.histogram == "worst":
+            return min(points, self.welds + HIGHLY_USED * points)
+        return points * (SCREENED if self.is_screened else 1.0) if self.histogram == "all" else 0.0
+
+    @property
     def group(self) -> int:
         """Stations of a group of welds."""
         return min(self.stations, LARGEST_GROUP, max(SMALLEST_GROUP, self.stations // GROUPS))
@@ -67,15 +80,17 @@ def job_size(
     share: float | None = None,
     threads: int | None = None,
     report: bool = True,
+    histogram: HistogramPoints = "worst",
 ) -> JobSize:
     """Size of a job; ``factors`` where they are known, ``share`` and ``threads`` None as in an assessment."""
     asked = body.case.counting.upsample
-    assumed = tuple(factors) or (AUTOMATIC if asked == "auto" else asked,) * len(plan.passes)
+    wanted = tuple(factors) or (AUTOMATIC if asked == "auto" else asked,) * len(plan.passes)
+    assumed = tuple(p.factor(factor) for p, factor in zip(plan.passes, wanted, strict=True))
     stations, samples = int(body.lines.begin[-1]), tuple(one.samples for one in plan.passes)
     counted = sum(n * factor for n, factor in zip(samples, assumed, strict=True))
     by_default = SHARE if 2 * stations * counted > DOUBLE_PRECISION_SAMPLES else 0.0
     return JobSize(
-        modes=len(body.modes.mode),
+        modes=len(body.coordinates),
         stations=stations,
         welds=len(body.welds),
         samples=samples,
@@ -84,4 +99,5 @@ def job_size(
         has_knees=not all(rated.rule.law.is_straight for rated in body.curves.values()),
         threads=threads or os.cpu_count() or 1,
         report=report,
+        histogram=histogram,
     )

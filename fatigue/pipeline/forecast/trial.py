@@ -12,7 +12,8 @@ from threadpoolctl import threadpool_limits
 from fatigue.life.mission import Pass, Plan
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
-from fatigue.pipeline.count.worst import worst_points
+from fatigue.pipeline.count.worst import histogram_points, worst_points
+from fatigue.pipeline.forecast.needs import PER_STRESS_SAMPLE
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
@@ -45,8 +46,9 @@ class JobTime:
     """Processor time [s] of an assessment by what it is spent on; on n idle cores all but the first and last shrink.
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
-    ``counting_exact`` with ``--exact``; ``tables`` and ``report``: written. ``screened`` says whether bounds settle
-    points by default, ``upsample`` are the factors by which the records of the events are upsampled.
+    ``counting_exact`` with ``--exact``, and once more at the points of histograms; ``tables`` and ``report``: written.
+    ``screened`` says whether bounds settle points by default, ``upsample`` are the factors by which the records of the
+    events are upsampled.
     """
 
     start: float
@@ -114,10 +116,11 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     with threadpool_limits(limits=1, user_api="blas"):
         trial = _Trial(model, one, plan)
         factor = factors[longest]
+        finer = factor // max(1, one.refined)
         upsampled = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
-        prepare_s, load = _timed(lambda: load_of(body, event, record, factor, single=single))
-        _, short = _timed(lambda: load_of(body, event, less, factor, single=single))
+        prepare_s, load = _timed(lambda: load_of(body, event, record, finer, single=single))
+        _, short = _timed(lambda: load_of(body, event, less, finer, single=single))
         exact, result = _of_length(load, short, trial.counted)
         default = exact
         if single:
@@ -127,14 +130,18 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     of_groups = stations / len(model.stations)
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
-    cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
+    cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
     passes = factor * sum(p.samples for p in plan.passes) / n  # cycles are as many, however finely they are sampled
     cycles = _kept_cycles(model.stations, result, single=single) * of_groups * passes
+    worst = worst_points(model.stations, result)
+    binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
+    alone, each = PER_STRESS_SAMPLE[False]
+    binning_s = 2 * binned * upsampled * (alone + each * len(body.coordinates))
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
-        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled),
-        counting_exact=of_groups * exact.of(events, upsampled),
+        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled) + binning_s,
+        counting_exact=of_groups * exact.of(events, upsampled) + binning_s,
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,

@@ -29,11 +29,12 @@ class Foretold:
         for number, forms in self.forms.items():
             self.needed[number] = max(self.needed[number], forms.factor(forms.fastest(stress)))
 
-    def factors(self, asked: int | str, events: int) -> tuple[int, ...]:
+    def factors(self, asked: int | str, plan: Plan) -> tuple[int, ...]:
         """Factor of each event, as the case asks for it or as it needs."""
         if isinstance(asked, int):
-            return (asked,) * events
-        return tuple(self.needed.get(number, self.needed[self.longest]) for number in range(events))
+            return tuple(one.factor(asked) for one in plan.passes)
+        needed = (self.needed.get(number, self.needed[self.longest]) for number in range(len(plan.passes)))
+        return tuple(p.factor(factor * max(1, p.refined)) for factor, p in zip(needed, plan.passes, strict=True))
 
 
 def foretold(body: Body, plan: Plan, scratch: Path) -> Foretold:

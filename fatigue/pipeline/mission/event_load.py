@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from fatigue.life.bounds.forms import FormPair, form_pair
 from fatigue.life.counting.record import CountedRecord, SingleRecord
 from fatigue.life.counting.single.prepare import single_record
-from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
+from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance
 from fatigue.life.records.spool import Samples, Spool, create_spool
+from fatigue.readers.neutral.event.event_record import EventRecord
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, spectra_above
 from fatigue.spectrum.trust import TrustMatrices, trust_matrices
 
@@ -24,14 +25,14 @@ class EventLoad:
 
     Attributes
     ----------
-    counted : the kept record, upsampled as asked, on which cycles are counted
+    counted : the kept record, upsampled as asked, on which cycles are counted; c coordinates, modes and unit loads
     single : the same prepared for the kernel in single precision; None: count in double precision
     residue : how the rest of the count is closed
     stress_factor : partial or allowance factor on all stresses of the event
     duration : duration of one pass [s]
-    mean : (m,) time mean of q over the kept samples
-    offset : (m,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
-    covariance : (m, m) covariance of q over the kept samples
+    mean : (c,) time mean of q over the kept samples
+    offset : (c,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
+    covariance : (c, c) covariance of q over the kept samples
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
     vertex : whether reversals are read at the vertices of parabolas through their samples
     upsample : how many samples one has become; mean and covariance are of the samples as they were
@@ -57,6 +58,11 @@ class EventLoad:
     top_mode_hz: float | None
 
     @property
+    def level(self) -> NDArray[np.float64]:
+        """Time mean of every coordinate over the kept samples, its constant included, (m,): what mean stress is of."""
+        return self.mean + self.offset
+
+    @property
     def record(self) -> CountedRecord:
         """The record as it is counted."""
         return CountedRecord(self.counted.q, self.residue, self.single, self.vertex)
@@ -77,7 +83,7 @@ class HowCounted:
     """How the record of an event is to be counted.
 
     ``residue``, ``stress_factor`` and ``vertex`` are the same as of ``EventLoad``; ``upsample`` is how many samples one
-    becomes; ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
+    of the file becomes; ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
     """
 
     residue: Residue
@@ -89,21 +95,16 @@ class HowCounted:
 
 
 def prepare_event(
-    history: ModalHistory,
-    how: HowCounted,
-    spectra: Spectra | None,
-    top_mode_hz: float | None,
-    scratch: Path | None = None,
+    history: ModalHistory, how: HowCounted, spectra: Spectra | None, top_mode_hz: float | None
 ) -> EventLoad:
-    """What all stations share of an event, from its kept record.
-
-    ``scratch``: folder for whatever is as large as the record, None: in memory.
-    """
-    return as_counted(of_samples(history, how, spectra, top_mode_hz), how, scratch)
+    """What all stations share of an event, from its kept record in memory."""
+    record = EventRecord(history, history.duration)
+    return as_counted(of_samples(record, how, spectra, top_mode_hz), record, how)
 
 
-def of_samples(history: ModalHistory, how: HowCounted, spectra: Spectra | None, top_mode_hz: float | None) -> EventLoad:
+def of_samples(record: EventRecord, how: HowCounted, spectra: Spectra | None, top_mode_hz: float | None) -> EventLoad:
     """Statistics of the kept record of an event, beside its samples as they are; ``as_counted`` comes next."""
+    history = record.history
     trust = None if spectra is None else trust_matrices(history, spectra)
     if trust is None:
         moments, (mean, covariance) = None, mean_and_covariance(history.q)
@@ -115,7 +116,7 @@ def of_samples(history: ModalHistory, how: HowCounted, spectra: Spectra | None, 
         single=None,
         residue=how.residue,
         stress_factor=how.stress_factor,
-        duration=history.duration,
+        duration=record.duration,
         mean=mean,
         offset=np.zeros(len(mean)),
         covariance=covariance,
@@ -129,10 +130,14 @@ def of_samples(history: ModalHistory, how: HowCounted, spectra: Spectra | None, 
     )
 
 
-def as_counted(load: EventLoad, how: HowCounted, scratch: Path | None = None) -> EventLoad:
-    """The same event with its record upsampled, and prepared for the kernel in single precision, as asked."""
-    counted = upsampled(load.counted, how.upsample, how.residue, scratch and scratch / "upsampled")
-    load = replace(load, counted=counted, upsample=how.upsample)
+def as_counted(load: EventLoad, record: EventRecord, how: HowCounted, scratch: Path | None = None) -> EventLoad:
+    """The same event with its ``record`` upsampled, and prepared for the kernel in single precision, as asked.
+
+    ``scratch``: folder for whatever is as large as the record, None: in memory.
+    """
+    counted = record.upsampled(how.upsample, how.residue, scratch and scratch / "upsampled")
+    factor = 1 if record.is_static else max(how.upsample, record.refined)
+    load = replace(load, counted=counted, upsample=factor)
     single = kept_single_record(counted.q, scratch, load.known, held=how.held) if how.single else None
     return replace(load, single=single)
 

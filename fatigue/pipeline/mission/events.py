@@ -3,7 +3,6 @@
 import logging
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +11,14 @@ from numpy.typing import NDArray
 from fatigue.case import Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
-from fatigue.life.records.history import ModalHistory, kept
+from fatigue.life.records.history import ModalHistory, mean_and_covariance
 from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, as_counted, held_copies, of_samples
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level, with_offset
+from fatigue.pipeline.mission.unit_loads import event_files
 from fatigue.pipeline.mission.upsampling import automatic_factors
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.weld_groups import WeldGroups
-from fatigue.readers.neutral.history import read_history
+from fatigue.readers.neutral.event.event_record import FINER, EventRecord, read_event
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import Spectra, default_upper_hz, has_spectrum, segment_spectra
 
@@ -43,16 +44,16 @@ def event_loads(
     case asks for.
     """
     body, events = groups.body, groups.body.case.mission.event
-    sizes = np.array([len(body.modes.mode) * p.samples for p in plan.passes])
+    sizes = np.array([len(body.coordinates) * p.samples for p in plan.passes])
     folders = _folders(4 * sizes, scratch)
 
-    def given(job: tuple[Event, Path | None]) -> EventLoad:
-        return _of_samples(body, _record(body, *job), how_counted(body, job[0]))
+    def given(job: tuple[Event, Path | None]) -> tuple[EventLoad, EventRecord]:
+        record = _record(body, *job)
+        return _of_samples(body, job[0], record, how_counted(body, job[0])), record
 
-    loads = in_order(given, zip(events, folders, strict=True), threads)
-    asked = body.case.counting.upsample
+    loads = list(in_order(given, zip(events, folders, strict=True), threads))
     if factors is None:
-        factors = automatic_factors(groups, loads, threads) if asked == "auto" else [asked] * len(events)
+        factors = _factors(groups, plan, [load for load, _ in loads], threads)
     samples = [f * p.samples for f, p in zip(factors, plan.passes, strict=True)]
     single = 2 * int(body.lines.begin[-1]) * sum(samples) > DOUBLE_PRECISION_SAMPLES
     is_fast = single and body.case.counting.reversals == "samples"
@@ -61,18 +62,24 @@ def event_loads(
         if upsample > 1:
             log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
-    held = held_copies(len(body.modes.mode), [p.samples for p in plan.passes], samples)
+    held = held_copies(len(body.coordinates), [p.samples for p in plan.passes], samples)
+    finer = _folders(bytes_held, scratch)
 
     def prepared(number: int) -> EventLoad:
         how = how_counted(body, events[number], factors[number], single=single, held=held[number])
         before = folders[number]
-        load = _as_counted(body, loads[number], how, finer[number] or before)
-        if load.is_upsampled and before is not None:
-            (before / RECORD).unlink()
-        return load
+        return _as_counted(body, *loads[number], how, finer[number] or before, before)
 
-    finer = _folders(bytes_held, scratch)
     return tuple(in_order(prepared, range(len(events)), threads))
+
+
+def _factors(groups: WeldGroups, plan: Plan, loads: Sequence[EventLoad], threads: int | None) -> list[int]:
+    """By how much the record of each event is upsampled in all, of which ``loads`` has the samples."""
+    asked = groups.body.case.counting.upsample
+    if asked != "auto":
+        return [p.factor(asked) for p in plan.passes]
+    found = automatic_factors(groups, loads, threads)  # of records that may have been refined for a load
+    return [p.factor(factor * max(1, p.refined)) for p, factor in zip(plan.passes, found, strict=True)]
 
 
 def event_load(
@@ -86,24 +93,22 @@ def event_load(
 ) -> EventLoad:
     """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
     how = how_counted(body, event, upsample, single=single, held=holds_single)
-    load = _as_counted(body, _of_samples(body, _record(body, event, scratch), how), how, scratch)
-    if upsample > 1 and scratch is not None:
-        (scratch / RECORD).unlink()
-    return load
+    record = _record(body, event, scratch)
+    return _as_counted(body, _of_samples(body, event, record, how), record, how, scratch, scratch)
 
 
 def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> ModalHistory:
     """The first samples of the record of an event behind its start-up."""
-    history = _record(body, event, scratch)
-    shortened = replace(history, q=np.ascontiguousarray(history.q[:, 0:samples]))
-    (scratch / RECORD).unlink(missing_ok=True)
+    shortened = _record(body, event, scratch).shortened(samples).history
+    _forget(scratch)
     return shortened
 
 
 def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool) -> EventLoad:
     """What all stations share of a record in memory."""
     how = how_counted(body, event, upsample, single=single)
-    return _as_counted(body, _of_samples(body, history, how), how)
+    record = EventRecord(history, history.duration, is_static=event.history is None)
+    return _as_counted(body, _of_samples(body, event, record, how), record, how)
 
 
 def how_counted(body: Body, event: Event, upsample: int = 1, *, single: bool = False, held: bool = True) -> HowCounted:
@@ -112,16 +117,32 @@ def how_counted(body: Body, event: Event, upsample: int = 1, *, single: bool = F
     return HowCounted(body.case.residue(event), event.stress_factor, upsample, single, held, vertex)
 
 
-def _of_samples(body: Body, history: ModalHistory, how: HowCounted) -> EventLoad:
-    """Statistics of a record beside its samples."""
-    with _no_overflow(body, history):
-        return of_samples(history, how, event_spectra(body, history), top_mode_hz(body))
+def _of_samples(body: Body, event: Event, record: EventRecord, how: HowCounted) -> EventLoad:
+    """Statistics of a record, and its constants, beside its samples."""
+    with _no_overflow(body, record.history):
+        spectra = None if record.is_static else event_spectra(body, record.history)
+        load = of_samples(record, how, spectra, top_mode_hz(body))
+    return with_offset(body, event, load, record)
 
 
-def _as_counted(body: Body, load: EventLoad, how: HowCounted, scratch: Path | None = None) -> EventLoad:
-    """A record as it is counted; ``scratch``: folder for what is computed of each sample."""
-    with _no_overflow(body, load.counted):
-        return as_counted(load, how, scratch)
+def _as_counted(
+    body: Body,
+    load: EventLoad,
+    record: EventRecord,
+    how: HowCounted,
+    scratch: Path | None = None,
+    before: Path | None = None,
+) -> EventLoad:
+    """A record as it is counted.
+
+    ``scratch``: folder for what is computed of each sample; ``before``: folder of the samples as they were read, which
+    are removed where others are counted.
+    """
+    with _no_overflow(body, record.history):
+        counted = as_counted(load, record, how, scratch)
+    if counted.counted is not record.history and before is not None:
+        _forget(before)
+    return counted
 
 
 @contextmanager
@@ -137,14 +158,15 @@ def _no_overflow(body: Body, history: ModalHistory) -> Iterator[None]:
 def _too_large(body: Body, history: ModalHistory) -> Problem:
     """Refusal of a record whose squares exceed double precision, with the largest value in it."""
     file = next(event.history for event in body.case.mission.event if event.name == history.event)
+    where = file or f"{body.case.path.name}: mission.event '{history.event}'"
     largest, mode, at = 0.0, 0, 0
     for i in range(len(history.mode)):
         size = np.abs(history.q[i : i + 1, :])[0]
         if size.max() >= largest:
             largest, mode, at = float(size.max()), i, int(size.argmax())
     what = f"modal coordinates of event '{history.event}' are so large that their squares exceed double precision: "
-    what += f"q_{history.mode[mode]} is {largest:g} at {history.start + at * history.step:g} s"
-    return Problem("overflow", file, what, "Look for a value that is far too large")
+    what += f"{body.coordinates.column[mode]} is {largest:g} at {history.start + at * history.step:g} s"
+    return Problem("overflow", where, what, "Look for a value that is far too large")
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
@@ -168,18 +190,15 @@ def upper_hz(body: Body, history: ModalHistory) -> float:
     return default_upper_hz(history.step, top_mode_hz(body))
 
 
-def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
+def _record(body: Body, event: Event, scratch: Path | None) -> EventRecord:
     """The record of an event without its start-up."""
-    case = body.case
-    whole, _ = read_history(
-        case.resolve(event.history),
-        event.name,
-        body.modes.mode,
-        case.body.ignore_modes,
-        strict=body.strict,
-        scratch=scratch and scratch / RECORD,
-    )
-    return kept(whole, event.start_s)
+    return read_event(event_files(body, event), scratch and scratch / RECORD)
+
+
+def _forget(scratch: Path) -> None:
+    """Remove the samples as they were read."""
+    for name in (RECORD, RECORD + FINER):
+        (scratch / name).unlink(missing_ok=True)
 
 
 def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | None]:
@@ -188,3 +207,13 @@ def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | No
     held = np.empty(len(sizes), dtype=np.bool_)
     held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
     return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
+
+
+def mean_levels(body: Body, scratch: Path) -> list[MeanLevel]:
+    """Means of every event, whose records are read for it, one after the other; ``scratch``: folder for a long one."""
+    levels = []
+    for event in body.case.mission.event:
+        mean, _ = mean_and_covariance(_record(body, event, scratch).history.q)
+        levels.append(mean_level(body, event, mean))
+        _forget(scratch)
+    return levels

@@ -11,6 +11,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.bounds import Screening
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
+from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.event_load import EventLoad, held_copies, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.run.checkpoint import state_key
@@ -27,14 +28,16 @@ SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten ti
 
 @dataclass(frozen=True, slots=True)
 class ScreeningOptions:
-    """Which points may go without counting, as the user asks for it.
+    """Which points may go without counting, and of which the histograms are kept, as the user asks for it.
 
     A proven bound below ``share`` of the damage limit is enough. 0: every point is counted. None: ``SHARE`` for a job
     that is large enough for the kernel in single precision, else 0. ``proves_worst``: see ``bounds.Screening``.
+    ``histogram``: see ``worst.histogram_points``.
     """
 
     share: float | None = None
     proves_worst: bool = True
+    histogram: HistogramPoints = "worst"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +45,8 @@ class Work:
     """What every group of welds needs to be assessed; threads may share it.
 
     ``screening`` is None where every point is to be counted. ``kept_from`` is the utilisation from which the cycles of
-    the worst point of a weld are kept: the cycles of all welds of a train would fill the disk.
+    the worst point of a weld are kept: the cycles of all welds of a train would fill the disk. ``histogram`` says of
+    which points histograms are kept.
     """
 
     groups: WeldGroups
@@ -50,6 +54,7 @@ class Work:
     plan: Plan
     screening: Screening | None
     kept_from: float
+    histogram: HistogramPoints
 
     @property
     def factors(self) -> tuple[int, ...]:
@@ -80,7 +85,7 @@ def open_work(
     share = large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
-    return Work(groups, loads, plan, screening, kept_from=large)
+    return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram)
 
 
 def screening_of(

@@ -6,14 +6,23 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
+from fatigue.pipeline.count.worst import ABOVE
+from fatigue.pipeline.mission.gravity import HeldGravity
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.tables.unit_loads import load_records
 from fatigue.results import software_versions, way_to_case
 
 RESIDUE_RULES = {
     "repeat": "the record recurs: every cycle closes (ASTM E1049-85 5.4.5, ISO 12110-2)",
     "half": "a single pass: what does not close counts as half cycles (ASTM E1049-85 5.4.4)",
+}
+_HISTOGRAM_RULES = {
+    "worst": f"the worst point of each weld, and counted toe points from a utilisation of {ABOVE:g} on; counted once "
+    "more in double precision",
+    "all": "every counted point; counted once more in double precision",
+    "none": "none",
 }
 
 
@@ -24,10 +33,12 @@ def provenance_record(
     folder: Path,
     inputs: Sequence[dict[str, Any]],
     warnings: Sequence[Problem],
+    gravity: Sequence[HeldGravity] = (),
 ) -> dict[str, Any]:
     """Everything an assessor needs to trace or repeat a result; the same inputs give the same record.
 
-    ``stations`` are numbers of stations by the tier of screening that settled them. ``case_path`` leads from the result
+    ``stations`` are numbers of stations by the tier of screening that settled them, ``gravity`` is what the mean of q
+    of each event holds of the dead load. ``case_path`` leads from the result
     folder to the case file, so that both can be moved together.
     """
     case, plan = body.case, work.plan
@@ -45,6 +56,7 @@ def provenance_record(
             "frequency_hz": body.modes.frequency.tolist(),
             "kind": list(body.modes.kind),
         },
+        "unit_loads": load_records(body),
         "force_convention": case.body.force_convention,
         "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
         "rules": {
@@ -58,12 +70,14 @@ def provenance_record(
             "bending_ratio": "of each cycle, from its own two instants; one rms ratio per event for the comparison",
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
+            "mean_of_q": {event.name: case.mean_of_q(event) for event in case.mission.event},
             "upsample": case.counting.upsample,
             "upsampled": {load.counted.event: load.upsample for load in work.loads},
             "reversals": case.counting.reversals,
             "precision": _precision(work),
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,
+            "histogram": _HISTOGRAM_RULES[work.histogram],
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,
@@ -80,6 +94,7 @@ def provenance_record(
                 for p, event in zip(plan.passes, case.mission.event, strict=True)
             ],
         },
+        "gravity": [one.as_record() for one in gravity],
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
     }

@@ -14,6 +14,8 @@ from fatigue.files.mishaps import cannot_write, refused_writing
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
     CSV_TABLES,
+    LOAD_SPECTRA,
+    OPTIONAL,
     TABLES,
     WORKBOOK,
     Column,
@@ -23,6 +25,7 @@ from fatigue.results import (
     row_groups,
 )
 from fatigue.results.belonging import MARK
+from fatigue.results.tables import table_path
 
 _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
 _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
@@ -181,7 +184,7 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
 
 
 def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
-    """Write the tables of points, events, cycles and welds as CSV files beside the Parquet files.
+    """Write the tables of points, events, cycles and welds, and ranges and load spectra where there are any, as CSV.
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
     that a spreadsheet would take for a formula gets an apostrophe before it. ``into`` is another folder to write to,
@@ -195,6 +198,8 @@ def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:
+        if name in OPTIONAL | LOAD_SPECTRA and not table_path(folder, name).exists():
+            continue
         texts = [column.name for column in TABLES[name] if column.type == "text"]
         paths.append((into or folder) / f"{name}.csv")
         with refused_writing(paths[-1]), paths[-1].open("w", encoding="utf-8", newline="") as file:

@@ -26,6 +26,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             f"force convention {record['force_convention']}, global axes, {len(record['modes']['used'])} modes",
             "case file: body.force_convention",
         ),
+        *(_load_rule(load) for load in record.get("unit_loads", ())),
         Rule(
             "Line forces",
             "consistent with the edge shape functions along each weld line, solved once for all modes",
@@ -60,6 +61,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
         Rule(
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
+        *_level_rule(chosen),
         Rule("Upsampling before counting", _upsampling(chosen), "case file: counting.upsample"),
         Rule("Reversals", _reversals(chosen), "case file: counting.reversals"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
@@ -83,6 +85,23 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
     ]
 
 
+def _load_rule(load: Mapping[str, Any]) -> Rule:
+    """What one unit load is, and what events that do not give it have of it; its values stand under Loads."""
+    what = f"forces per {load['unit']}, one more coordinate beside the modes, role {load['role']}; an event that does "
+    what += "not give it " + ("is refused" if load["when_missing"] == "error" else "has none of it")
+    ways = ", ".join(dict.fromkeys(_WAYS[given["way"]] for given in load["given"].values()))
+    return Rule(f"Unit load {load['name']}", f"{what}; here: {ways}", "case file: body.unit_load")
+
+
+_WAYS = {
+    "constant": "constant",
+    "values": "static values",
+    "column": "column of the event's record",
+    "file": "a history of its own",
+    "missing": "not given, zero",
+}
+
+
 def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
     """What the life on the first page assumes, in a few lines."""
     chosen, mission = record["rules"], record["mission"]
@@ -94,12 +113,24 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("Thickness in ΔS", _thickness(chosen["thickness_rule"])),
         ("Below the knee", _extension(chosen)),
         ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
+        *((rule.subject, rule.choice) for rule in _level_rule(chosen)),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
         ("Upsampling", _upsampling(chosen)),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
+
+
+def _level_rule(chosen: Mapping[str, Any]) -> list[Rule]:
+    """Which events have the mean of their modal coordinates removed; nothing where none has."""
+    of_event: Mapping[str, str] = chosen.get("mean_of_q", {})
+    removed = [event for event, rule in of_event.items() if rule == "remove"]
+    if not removed:
+        return []
+    where = "in all events" if len(removed) == len(of_event) else f"in {', '.join(removed)}"
+    choice = f"removed {where}: means and stress ratios are those about the static loads that are given"
+    return [Rule("Mean of q", choice, "case file: mean_of_q")]
 
 
 def _curve_rule(name: str, curve: Mapping[str, Any]) -> Rule:

@@ -125,17 +125,19 @@ def _record_figures(
     if event is None or detail.envelope is None or detail.variance_share is None:
         return []
     colours = figures.event_colours([e["event"] for e in result.events])
-    names, natural = _mode_names(result.record["modes"])
+    names, natural = _mode_names(result)
     history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
     close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
     caption = f"Stress in event {wording.short(event)}{close_by}"
     shown = [figs.add("history", history, caption, wide=True)]
     leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
-    parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}
+    numbers = list(result.coordinates)
+    parts = {numbers[k]: float(detail.variance_share[k]) for k in leading}
     if modes_too:
         title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
         bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
-        shown.append(figs.add("modes", bars, "Modes in the stress of the worst point"))
+        what = "Modes and unit loads" if result.record.get("unit_loads") else "Modes"
+        shown.append(figs.add("modes", bars, f"{what} in the stress of the worst point"))
     if detail.spectra:
         drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
         marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
@@ -147,15 +149,19 @@ def _record_figures(
 
 def _why_figures(result: ShownResult, why: Why, event: str, figs: Figures) -> list[Shown]:
     """Figures of the modes, frequency bands and places that make the damage of a weld's worst point."""
-    names, natural = _mode_names(result.record["modes"])
+    names, natural = _mode_names(result)
     shown = []
     modes = mode_shares(why).head(MODES_DRAWN)
     title = "share of the damage, all events [%]"
-    bars = figures.shares([names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), title)
-    shown.append(figs.add("damage-modes", bars, "Damage by mode; a negative share relieves"))
+    pairs = zip(modes["mode"], modes["unit_load"], strict=True)
+    called = [f"unit load {load}" if pd.isna(mode) else names[mode] for mode, load in pairs]
+    bars = figures.shares(called, modes["share"].to_numpy(), title)
+    what = "mode and unit load" if result.record.get("unit_loads") else "mode"
+    shown.append(figs.add("damage-modes", bars, f"Damage by {what}; a negative share relieves"))
     bands = band_shares(why)
     if len(bands) > 1:
-        marked = [natural[mode] for mode in modes["mode"][:MODES_MARKED] if mode in natural]
+        leading = modes["mode"].dropna()[:MODES_MARKED]
+        marked = [natural[mode] for mode in leading if mode in natural]
         caption = "Damage by frequency band; dotted: the leading normal modes"
         shown.append(figs.add("damage-bands", figures.damage_by_band(bands, marked), caption))
     track = why.track[why.track["event"] == event]
@@ -165,9 +171,9 @@ def _why_figures(result: ShownResult, why: Why, event: str, figs: Figures) -> li
     return shown
 
 
-def _mode_names(modes: Mapping[str, Any]) -> tuple[dict[int, str], dict[int, float]]:
-    """Name of every mode, and the natural frequencies [Hz] of the normal ones."""
-    names, natural = {}, {}
+def _mode_names(result: ShownResult) -> tuple[dict[int, str], dict[int, float]]:
+    """Name of every mode and unit load, and the natural frequencies [Hz] of the normal modes."""
+    modes, names, natural = result.record["modes"], dict(result.coordinates), {}
     for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True):
         names[mode] = f"mode {mode}, {frequency:.4g} Hz" + ("" if kind == "normal" else f", {kind}")
         if kind == "normal" and frequency > 0.0:

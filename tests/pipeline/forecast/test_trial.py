@@ -24,7 +24,7 @@ def needed(case, folder, stations=None):
         model = solve_group(weld_groups(body, Path(scratch)), 0)
         upsampled = foretold(body, plan, Path(scratch))
         upsampled.add(model.stations.treated)
-        factors = upsampled.factors(body.case.counting.upsample, len(plan.passes))
+        factors = upsampled.factors(body.case.counting.upsample, plan)
         return job_time(plan, model, stations or len(model.stations), factors, 0.5, Path(scratch))
 
 

@@ -15,7 +15,7 @@ from fatigue.errors import DataError
 from fatigue.pipeline.run.cluster import cluster_executor, is_open
 from tests.small_case import small_case
 
-TABLES = ("nodes", "damage", "cycles", "structural_stress", "welds")
+TABLES = ("nodes", "damage", "cycles", "histogram", "structural_stress", "welds")
 ROOT = Path(__file__).parents[3]
 
 

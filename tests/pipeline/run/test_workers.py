@@ -11,7 +11,7 @@ from fatigue.case import load_case
 from fatigue.errors import DataError
 from tests.small_case import small_case
 
-TABLES = ("nodes", "damage", "cycles", "structural_stress", "welds")
+TABLES = ("nodes", "damage", "cycles", "histogram", "structural_stress", "welds")
 
 
 def digests(folder):

@@ -1,0 +1,115 @@
+"""The spectrum of ranges of the points that decide: how many cycles of which range one pass has, in narrow classes.
+
+A point that was counted is counted again in double precision, and its cycles are sorted into 64 classes per decade,
+once by the range S and once by the equivalent range dS, so that other curves and other loads need no records any more.
+Points wait until there are enough of them to read a record for. Only classes with cycles make rows.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.counting.block import BlockStress
+from fatigue.life.counting.count import count_histograms
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.tables.cycles import KeptPoint
+from fatigue.pipeline.tables.rows import FACES
+from fatigue.results import TableWriter, coded
+from fatigue.side_by_side import in_order
+
+KINDS = ("S", "dS")
+POINTS_AT_ONCE = 512  # that wait for each other
+_POINTS = 128  # counted at a time by one thread,
+_SAMPLES = 1_000_000  # or fewer, with so many samples of stress in all: 16 MB
+
+_ROW = np.dtype(
+    [*((name, np.int32) for name in ("point", "event", "kind", "bin")), ("count", float), ("power_sum", float)]
+)
+
+
+class HistogramWriter:
+    """Writes the histograms of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
+
+    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], threads: int | None) -> None:
+        self._table, self._loads, self._threads = table, loads, threads
+        self._waiting: list[KeptPoint] = []
+
+    def add(self, points: Sequence[KeptPoint]) -> None:
+        """Have the histograms of some more points written, sooner or later."""
+        self._waiting += points
+        while len(self._waiting) >= POINTS_AT_ONCE:
+            self._write(self._waiting[:POINTS_AT_ONCE])
+            self._waiting = self._waiting[POINTS_AT_ONCE:]
+
+    def flush(self) -> None:
+        """Write what is waiting."""
+        if self._waiting:
+            self._write(self._waiting)
+        self._waiting = []
+
+    def _write(self, points: Sequence[KeptPoint]) -> None:
+        jobs = [
+            (event, of_curve[first : first + _at_once(load)])
+            for event, load in enumerate(self._loads)
+            for of_curve in _by_curve(points)
+            for first in range(0, len(of_curve), _at_once(load))
+        ]
+        found = in_order(lambda job: _filled(points, self._loads, *job), jobs, self._threads)
+        rows = np.concatenate(found)
+        rows = rows[np.lexsort([rows[name] for name in ("bin", "kind", "event", "point")])]
+        self._table.write(_columns(rows, points, [load.counted.event for load in self._loads]))
+
+
+def _by_curve(points: Sequence[KeptPoint]) -> list[list[int]]:
+    """Places of points that share a curve."""
+    curves: dict[str, list[int]] = {}
+    for place, point in enumerate(points):
+        curves.setdefault(point.rated.curve.name, []).append(place)
+    return list(curves.values())
+
+
+def _at_once(load: EventLoad) -> int:
+    """How many points are counted at a time: of the record only, so that the bytes do not depend on the machine."""
+    return max(1, min(_POINTS, _SAMPLES // max(1, int(load.counted.q.shape[1]))))
+
+
+def _filled(
+    points: Sequence[KeptPoint], loads: Sequence[EventLoad], event: int, places: Sequence[int]
+) -> NDArray[np.void]:
+    """Classes with cycles of one pass of an event at some points of one curve."""
+    load, some = loads[event], [points[place] for place in places]
+    rated = some[0].rated
+    block = BlockStress(
+        membrane=load.stress_factor * np.stack([point.membrane for point in some]),
+        bending=load.stress_factor * np.stack([point.bending for point in some]),
+        size=rated.size(np.array([point.thickness for point in some])),
+        same_ratio=np.zeros((len(some), 2)),
+    )
+    histogram = count_histograms(block, load.record, rated.rule)
+    of_face = histogram[np.arange(len(some)), [point.face for point in some]]
+    at, kind, bin_ = np.nonzero(of_face[..., 0])
+    rows = np.empty(len(at), _ROW)
+    rows["point"], rows["event"], rows["kind"], rows["bin"] = np.asarray(places)[at], event, kind, bin_
+    rows["count"], rows["power_sum"] = of_face[at, kind, bin_].T
+    return rows
+
+
+def _columns(rows: NDArray[np.void], points: Sequence[KeptPoint], events: Sequence[str]) -> dict[str, Any]:
+    """Rows of ``histogram.parquet``."""
+    welds = list(dict.fromkeys(point.weld for point in points))
+    of_point = np.array([(welds.index(p.weld), p.part, p.node, p.order, p.face) for p in points]).reshape(-1, 5)
+    weld, part, node, order, face = of_point[rows["point"]].T
+    return {
+        "weld": coded(weld, welds),
+        "part": part,
+        "node": node,
+        "order": order,
+        "surface": coded(face, FACES),
+        "event": coded(rows["event"], events),
+        "kind": coded(rows["kind"], KINDS),
+        "bin": rows["bin"].astype(np.int64),
+        "count_per_pass": rows["count"].copy(),
+        "power_sum_per_pass": rows["power_sum"].copy(),
+    }
