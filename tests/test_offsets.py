@@ -294,3 +294,35 @@ def test_verdicts_are_recorded_and_shown(tmp_path: Path) -> None:
     assert "removed in all events" in page
     plain = check_case(small_case().write(tmp_path / "plain"))
     assert (plain.gravity, "dead load" in plain.as_text()) == ((), False)
+
+
+@pytest.mark.parametrize("extension", ["none", "haibach"])
+def test_bounds_and_load_factors_know_the_constant(tmp_path: Path, extension: str) -> None:
+    """In tension by gravity alone: no bound is below the count, and load factors put back give utilisation 1."""
+
+    def case(folder: str) -> SmallCase:
+        made = with_gravity(in_tension(), tmp_path / folder / "case", "constant = 1.1")
+        made.counting = {"mean_of_q": "remove"}
+        made.curve |= {"mean_stress": "asme", "yield_MPa": 140.0, "extension": extension}
+        made.mission["damage_limit"] = 5e3
+        return made
+
+    counted = run(case("counted"), tmp_path / "counted", share=0.0)["nodes"]
+    without = case("plain")
+    without.curve |= {"mean_stress": "none"}
+    assert (counted.utilisation > 1.1 * run(without, tmp_path / "plain", share=0.0)["nodes"].utilisation).any()
+    screened = run(case("screened"), tmp_path / "screened", share=1.0, proves_worst=False)["nodes"]
+    bounded = screened.screened != ""
+    assert bounded.any()
+    assert (screened.utilisation >= counted.utilisation * (1.0 - 1e-9)).all()
+    assert (screened.load_factor[bounded] <= counted.load_factor[bounded] * (1.0 + 1e-9)).all()
+    at = counted.utilisation.idxmax()
+    again = case("again")
+    for event in again.events:
+        event["stress_factor"] = float(counted.load_factor[at])
+    found = run(again, tmp_path / "again", share=0.0)["nodes"].utilisation[at]
+    assert found <= 1.0 + 1e-6
+    for event in again.events:
+        event["stress_factor"] = float(counted.load_factor[at]) * (1.0 + 2e-4)
+    (tmp_path / "again" / "result").rename(tmp_path / "at the factor")
+    assert run(again, tmp_path / "again", share=0.0)["nodes"].utilisation[at] > 1.0
