@@ -28,6 +28,9 @@ from fatigue.pipeline.count.worst import HistogramPoints, WorstPoint, histogram_
 from fatigue.pipeline.forecast.needs import job_needs
 from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
+from fatigue.pipeline.mission.counted import event_counts, listed
+from fatigue.pipeline.mission.gravity import gravity_audit
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
@@ -150,25 +153,29 @@ def assess(
         check_forces(groups, threads)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
+            for line in listed(event_counts(case, plan)):
+                log.info("event %s", line)
             size = job_size(body, plan, share=share, threads=threads, report=report, histogram=histogram)
             expected = foretold(size, folder)
             stage("preparing the records of the events (%d); %s expected", len(plan.passes), expected)
             work = open_work(groups, plan, options, state.folder, threads)
+            gravity, of_gravity = gravity_audit(groups, levels_of(body, work), threads)
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
                 assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, options, key, 0))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
-            done.warnings.add((*body.warnings, *record_warnings))
+            done.warnings.add((*body.warnings, *record_warnings, *of_gravity))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
             write_tables(unpublished, key, assessed, work, done, threads)
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
-            record = {"program": "fatigue", "result": key}
-            record |= provenance_record(body, work, done.stations, folder, inputs.register, warnings)
+            record = {"program": "fatigue", "result": key} | provenance_record(
+                body, work, done.stations, folder, inputs.register, warnings, gravity
+            )
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
             stage("putting the result in place")
@@ -186,6 +193,11 @@ def foretold(size: JobSize, folder: Path) -> str:
         log.warning("%s", problem)
     log.info("about %s is expected, and %.0f s of processor time", needs.as_text(), needs.seconds)
     return needs.as_text()
+
+
+def levels_of(body: Body, work: Work) -> list[MeanLevel]:
+    """Means of every event, of its coordinates and constants."""
+    return [mean_level(body, event, load.mean) for event, load in zip(body.case.mission.event, work.loads, strict=True)]
 
 
 def _senseless(threads: object, share: object, executor: object, histogram: object) -> Iterator[Problem]:
@@ -302,7 +314,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))
-        tables["structural_stress"].write(stress_rows(stations, model.modes.mode, some))
+        tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     tables["welds"].write(weld_rows(model, plan, result, worst))
     return worst
 
@@ -315,8 +327,8 @@ def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> lis
 
 def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     """Warnings that only all welds together give: about loads that are not there, stress, sampling and spectra."""
-    files = [event.history for event in body.case.mission.event]
-    of_stress = done.stress.warnings(work.loads, body.modes.mode, files)
+    files = [event.history or body.case.path.name for event in body.case.mission.event]
+    of_stress = done.stress.warnings(work.loads, body.coordinates, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     return [*load_warnings(body, done.extents), *of_stress, *sampling_warnings(body, done), *of_spectra]
 

@@ -7,6 +7,7 @@ counted under a chunk of one record, and from its time follows the time of the w
 
 import os
 import time
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,13 +20,16 @@ from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
+from fatigue.pipeline.mission.counted import EventCount, event_counts, listed
+from fatigue.pipeline.mission.events import mean_levels
+from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings import WarningSummary
-from fatigue.shown import visible
+from fatigue.shown import few, visible
 from fatigue.stages import stage
 from fatigue.weld.load_extent import LoadExtent
 
@@ -35,10 +39,12 @@ class CheckedCase:
     """Sizes of a case that passed every check, and the warnings about it.
 
     Of the lines that the weld register lists and that are not assessed, ``excluded`` are excluded and ``candidates``
-    are candidates. ``samples`` are stress samples of one face: stations times kept samples, over all events.
+    are candidates. ``samples`` are stress samples of one face: stations times kept samples, over all events. ``counts``
+    says what each event counts.
     ``estimated_s`` is the processor time of an assessment with its default options [s], ``estimated_exact_s`` the time
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
-    takes, ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
+    takes, ``gravity`` is what the mean of q of each event holds of the dead load, where the body has a gravity load;
+    ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
     ``warnings`` are summed up as in an assessment.
     """
 
@@ -49,15 +55,18 @@ class CheckedCase:
     parts: int
     stations: int
     modes: int
+    unit_loads: int
     events: int
     samples: int
     distance_km: float
+    counts: tuple[EventCount, ...]
     estimated_s: float
     estimated_exact_s: float
     estimated_memory_MB: float  # noqa: N815 - the unit keeps its spelling
     estimated_scratch_MB: float  # noqa: N815
     estimated_result_MB: float  # noqa: N815
     estimate: JobTime
+    gravity: tuple[HeldGravity, ...]
     warnings: tuple[Problem, ...]
 
     @property
@@ -67,9 +76,12 @@ class CheckedCase:
 
     def as_record(self) -> dict[str, Any]:
         """The sizes for machines."""
-        plain = {name: getattr(self, name) for name in self.__slots__ if name not in ("warnings", "estimate")}
+        nested = ("warnings", "estimate", "counts", "gravity")
+        plain = {name: getattr(self, name) for name in self.__slots__ if name not in nested}
         return plain | {
+            "counts": [asdict(one) | {"counts": one.counts} for one in self.counts],
             "estimate": asdict(self.estimate),
+            "gravity": [one.as_record() for one in self.gravity],
             "warnings": [str(problem) for problem in self.warnings],
         }
 
@@ -90,8 +102,11 @@ class CheckedCase:
                 f"  welds            {self.welds} in {self.parts} straight parts, {self.stations} stations, both faces",
                 *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",
+                *([f"  unit loads       {self.unit_loads}"] * (self.unit_loads > 0)),
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
+                *(f"    {line}" for line in listed(self.counts)),
                 f"  stress samples   {2 * self.samples:.3g}",
+                *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
                 f"  estimated time   {_time_text(self.estimate)}",
                 f"  estimated space  {self._space()}",
                 f"  warnings         {sum(warning.count for warning in self.warnings)}",
@@ -127,6 +142,10 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
             warnings.add(model.warnings)
             extents += model.extents
         warnings.add(load_warnings(body, extents))
+        gravity: tuple[HeldGravity, ...] = ()
+        if has_gravity(body):
+            gravity, of_gravity = gravity_audit(groups, mean_levels(body, Path(scratch)))
+            warnings.add(of_gravity)
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
@@ -143,17 +162,28 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         parts=parts,
         stations=stations,
         modes=len(body.modes.mode),
+        unit_loads=len(body.coordinates.unit_loads),
         events=len(plan.passes),
         samples=samples,
         distance_km=sum(p.length or 0.0 for p in plan.passes),
+        counts=event_counts(case, plan),
         estimated_s=estimate.total,
         estimated_exact_s=estimate.total_exact,
         estimated_memory_MB=round(needs.memory / 1e6, 1),
         estimated_scratch_MB=round(needs.scratch / 1e6, 1),
         estimated_result_MB=round(needs.result / 1e6, 1),
         estimate=estimate,
+        gravity=gravity,
         warnings=warnings.listed(),
     )
+
+
+def _gravity_lines(gravity: Sequence[HeldGravity]) -> Iterator[tuple[str, str]]:
+    """What the mean of q of the events holds of the dead load, verdict by verdict, in words."""
+    verdicts = dict.fromkeys(one.in_words for one in gravity)
+    for number, words in enumerate(verdicts):
+        events = few([f"'{one.event}'" for one in gravity if one.in_words == words])
+        yield "" if number else "dead load", f"{words}: {events}"
 
 
 def _time_text(needed: JobTime) -> str:

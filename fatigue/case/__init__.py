@@ -7,7 +7,18 @@ what is wrong with it in the words of the file, ``plausibility`` what is allowed
 
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
-from fatigue.case.tables import LARGEST_UPSAMPLE, Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
+from fatigue.case.tables import (
+    LARGEST_UPSAMPLE,
+    Body,
+    Case,
+    Counting,
+    Curve,
+    CustomCurve,
+    Event,
+    MeanOfQ,
+    Mission,
+    Spectrum,
+)
 
 __all__ = [
     "LARGEST_UPSAMPLE",
@@ -17,6 +28,7 @@ __all__ = [
     "Curve",
     "CustomCurve",
     "Event",
+    "MeanOfQ",
     "Mission",
     "Spectrum",
     "case_schema",

@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from fatigue.case.extremes import excess, extreme_values
+from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.sequences import Sequence
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
@@ -55,6 +56,7 @@ def load_case(path: Path | str) -> Case:
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
+        problems += unit_load_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
         other = misplaced(path, path.name)

@@ -72,6 +72,8 @@ def case_warnings(case: Case) -> list[Problem]:
         what = f"target_km = {mission.target_km:g} at km_per_year = {mission.km_per_year:g} takes {years:.4g} years"
         remedy = f"Check both: few vehicles last {YEARS:g} years"
         warnings.append(Problem("unusual_mileage", f"{file}: mission.target_km", what, remedy))
+    loads = (load.name for load in case.body.unit_load)
+    warnings += name_warnings(f"{file}: body.unit_load.name", loads, "unit loads")
     return warnings + name_warnings(f"{file}: mission.event.name", (event.name for event in mission.event), "events")
 
 

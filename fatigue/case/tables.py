@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, field_validator
 
+from fatigue.case.load_problems import forms_of_forces, loads_of_event
 from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.sequences import Sequence
 from fatigue.case.table import NotNegative, Positive, Table, Text
@@ -78,6 +79,7 @@ class Body(Table):
         if self.elements and not self.nodes:
             what = f"the key is missing although elements = {self.elements!r} is given"
             yield absent("nodes", what, "Give the file of the nodes the elements refer to")
+        yield from forms_of_forces(self.unit_load, by_elements=self.element_forces is not None)
 
 
 class Curve(Table):
@@ -194,7 +196,11 @@ class Event(Table):
     """One operating condition: a history that recurs over a share of the mileage, or so many times per 1000 km."""
 
     name: Text = Field(description="a name of the event, unique in the mission")
-    history: Text = Field(description="the file of the modal coordinates over time (.parquet or .csv)")
+    history: Text | None = Field(
+        default=None,
+        description="the file of the modal coordinates over time (.parquet or .csv); left out: a static load case, "
+        "with values of unit loads",
+    )
     share: Annotated[float, Field(ge=0, le=1)] | None = Field(
         default=None, description="the share of the mileage [-], 0 to 1; all shares sum to 1"
     )
@@ -228,8 +234,16 @@ class Event(Table):
         default=(), description="one [[mission.event.unit_load]] table per unit load that the event gives"
     )
 
+    @property
+    def static_values(self) -> int:
+        """How many values a static load case has; 0 of an event with a history."""
+        return 0 if self.history else max((len(load.values or ()) for load in self.unit_load), default=0)
+
     def _contradictions(self) -> Iterator[Problem]:
         yield from path_problems({"history": self.history})
+        yield from loads_of_event(self.unit_load, has_history=self.history is not None)
+        if self.history is None:
+            yield from self._of_a_static_load_case()
         by_share, by_number = self.share is not None, self.per_1000_km is not None
         if by_share and by_number:
             what = f"share = {self.share:g} and per_1000_km = {self.per_1000_km:g} are both given"
@@ -244,6 +258,21 @@ class Event(Table):
             if by_number and not by_share and value is not None:
                 what = f"{value:g} is given for an event counted by number, per_1000_km = {self.per_1000_km:g}"
                 yield clash(key, what, "Remove it, or give a share instead of per_1000_km")
+
+    def _of_a_static_load_case(self) -> Iterator[Problem]:
+        """Refusals of what an event without history cannot have."""
+        if not any(load.values for load in self.unit_load):
+            remedy = (
+                "Give the file of the modal coordinates over time, or the values of unit loads of a static load case"
+            )
+            yield absent("history", "the key is missing", remedy)
+            return
+        if self.share is not None:
+            what = f"share = {self.share:g} is given for a static load case, which lasts no time and covers no distance"
+            yield clash("share", what, "Give per_1000_km, how often it happens in 1000 km")
+        if self.start_s > 0.0:
+            what = f"{self.start_s:g} is given for a static load case, which has no start-up"
+            yield clash("start_s", what, "Remove it")
 
 
 class Mission(Table):
@@ -299,7 +328,13 @@ class Case(Table):
         """Path of every file the case names, by its key: ``body.modes``, ``mission.event[1].history``."""
         body = {f"body.{key}": getattr(self.body, key) for key in BODY_FILES}
         body["body.register"] = self.body.weld_register
-        histories = {f"mission.event[{i}].history": event.history for i, event in enumerate(self.mission.event, 1)}
+        for i, load in enumerate(self.body.unit_load, 1):
+            body |= {f"body.unit_load[{i}].{key}": getattr(load, key) for key in ("nodal_forces", "element_forces")}
+        histories: dict[str, str | None] = {}
+        for i, event in enumerate(self.mission.event, 1):
+            histories[f"mission.event[{i}].history"] = event.history
+            for j, given in enumerate(event.unit_load, 1):
+                histories[f"mission.event[{i}].unit_load[{j}].history"] = given.history
         return {key: self.resolve(name) for key, name in (body | histories).items() if name is not None}
 
     def residue(self, event: Event) -> Residue:

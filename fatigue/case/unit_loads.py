@@ -1,11 +1,16 @@
 """Loads beside the modes: a field of nodal forces per unit, and what each event gives of it."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
+from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.table import Table, Text
+from fatigue.errors import Problem
 
+WAYS = ("history", "constant", "values")  # in which an event gives a load, one of them
+FEWEST_VALUES = 2  # of a static load case
 _Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
@@ -30,6 +35,22 @@ class UnitLoad(Table):
         default=False, description="whether elements of the assessed side carry the load, so that they do not balance"
     )
 
+    @property
+    def forces(self) -> str:
+        """The file of its forces."""
+        return self.nodal_forces or self.element_forces or ""
+
+    def _contradictions(self) -> Iterator[Problem]:
+        yield from path_problems({"nodal_forces": self.nodal_forces, "element_forces": self.element_forces})
+        if self.nodal_forces and self.element_forces:
+            yield clash("nodal_forces", "nodal_forces and element_forces are both given", "Keep one of them")
+        if not self.nodal_forces and not self.element_forces:
+            remedy = "Give the file of its forces, of the same form as those of the modes"
+            yield absent("nodal_forces", "neither nodal_forces nor element_forces is given", remedy)
+        if self.elements_carry_load and self.nodal_forces:
+            what = "true is given with nodal_forces, of which no balance of elements is checked"
+            yield clash("elements_carry_load", what, "Remove it, or give element_forces")
+
 
 class GivenLoad(Table):
     """What one event gives of a unit load."""
@@ -47,6 +68,29 @@ class GivenLoad(Table):
     interpolation: Literal["fourier", "linear"] = Field(
         default="fourier", description="how the load is read between its samples: 'fourier' or 'linear'"
     )
+
+    @property
+    def own_column(self) -> str:
+        """The column of its history."""
+        return self.column or f"u_{self.name}"
+
+    def _contradictions(self) -> Iterator[Problem]:
+        yield from path_problems({"history": self.history})
+        given = [key for key in WAYS if getattr(self, key) is not None]
+        if not given:
+            remedy = "Give one of them; without this table the column u_<name> of the event's history is read"
+            yield absent("history", f"none of {', '.join(WAYS)} is given", remedy)
+        if len(given) > 1:
+            yield clash(given[1], f"{' and '.join(given)} are given together", "Keep one of them")
+        if self.values is not None and len(self.values) < FEWEST_VALUES:
+            what = f"{list(self.values)} has fewer than {FEWEST_VALUES} values"
+            yield clash("values", what, "Give the load before and after, or a constant")
+        if self.scale == 0.0:
+            yield clash("scale", "0 takes the load out", "Give constant = 0.0 instead")
+        if self.history is None:
+            for key in ("column", "shift_s", "interpolation"):
+                if key in self.model_fields_set:
+                    yield clash(key, f"{key} is given without a history", "Remove it, or give the history of the load")
 
 
 class MissionLoad(Table):

@@ -55,6 +55,11 @@ class Credit:
     by_membrane: Floats
     by_bending: Floats
 
+    @property
+    def by_offset(self) -> float:
+        """Derivative of the damage by a constant added to the stress [1/MPa]: that of all samples together."""
+        return float(self.by_membrane.sum())
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CycleCredit:
@@ -81,7 +86,13 @@ class CycleCredit:
 
 
 def cycle_credit(
-    membrane: Floats, bending: Floats, count: Floats, side: float, size: float, rule: CycleRule
+    membrane: Floats,
+    bending: Floats,
+    count: Floats,
+    side: float,
+    size: float,
+    rule: CycleRule,
+    offset: float = 0.0,
 ) -> CycleCredit:
     """Damage and derivatives of cycles, from the stresses (2, c) at start and end of each.
 
@@ -92,12 +103,13 @@ def cycle_credit(
     side : +1 top face, -1 bottom face
     size : factor of the thickness on the range
     rule : from the range to its damage
+    offset : constant stress of the face beside the samples [MPa], of which f_M depends
     """
     dm, db = membrane[1] - membrane[0], bending[1] - bending[0]
     start, end = membrane + side * bending
     ds = end - start
     S = np.abs(ds)
-    maximum = np.where(ds > 0.0, end, start)
+    maximum = np.where(ds > 0.0, end, start) + offset
     r = bending_ratio(dm, db)
     f_M = rule.mean_stress_factor(maximum - S, maximum)
     x = equivalent_range(S, size, rule.ratio_factor(r), f_M)
@@ -113,18 +125,26 @@ def cycle_credit(
     return CycleCredit(damage, slope, damage / ds, slope * by_range / ds, slope * by_peak, ds > 0.0, by_ratio)
 
 
-def credit(cycles: Cycles, membrane: Floats, bending: Floats, side: float, size: float, rule: CycleRule) -> Credit:
+def credit(
+    cycles: Cycles,
+    membrane: Floats,
+    bending: Floats,
+    side: float,
+    size: float,
+    rule: CycleRule,
+    offset: float = 0.0,
+) -> Credit:
     """Lay the damage of every cycle on its two instants (Eq. 23).
 
     Parameters
     ----------
     cycles : of ``membrane + side * bending``, ranges above 0; one across the end of the record has two instants, too
     membrane, bending : (t,) membrane stress, and bending stress of the top face [MPa]
-    side, size, rule : as of ``cycle_credit``
+    side, size, rule, offset : as of ``cycle_credit``
     """
     start, end, samples = cycles.start, cycles.end, len(membrane)
     both = np.stack([start, end])
-    of = cycle_credit(membrane[both], bending[both], cycles.count, side, size, rule)
+    of = cycle_credit(membrane[both], bending[both], cycles.count, side, size, rule, offset)
     by_stress = _on_instants(start, end, of.by_range, samples)
     by_stress += np.bincount(np.where(of.peak_at_end, end, start), of.by_peak, samples)
     by_membrane, by_bending = by_stress, side * by_stress

@@ -17,7 +17,8 @@ class Pass:
     """How often one simulated pass of an event occurs.
 
     ``samples`` is how many of its record are kept; ``length`` is the distance of the pass [km], None for an event
-    counted by number; ``share`` its part of the mileage; ``per_1000_km`` its number in 1000 km.
+    counted by number; ``share`` its part of the mileage; ``per_1000_km`` its number in 1000 km. ``refined``: by how
+    much the record is upsampled so that no unit load of the event is sampled more finely; 0: it never is upsampled.
     """
 
     event: str
@@ -25,6 +26,11 @@ class Pass:
     length: float | None
     share: float | None
     per_1000_km: float | None
+    refined: int = 1
+
+    def factor(self, asked: int) -> int:
+        """By how much the record is upsampled in all, where ``asked`` is by how much all events are."""
+        return max(asked, self.refined) if self.refined else 1
 
     @property
     def passes_per_km(self) -> float:

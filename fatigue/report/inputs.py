@@ -2,18 +2,20 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from fatigue.case import Case, Event
+from fatigue.case.given_loads import given_loads
 from fatigue.errors import DataError, FatigueError, Problem
 from fatigue.files.hashes import sha256
-from fatigue.life.records.history import ModalHistory, kept
+from fatigue.life.records.history import ModalHistory
+from fatigue.life.records.unit_load import LoadSource
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
-from fatigue.readers.neutral.history import read_history
+from fatigue.readers.neutral.event.event_record import EventFiles, column_names, read_event
 from fatigue.readers.neutral.long_history import is_long
 from fatigue.readers.neutral.register.weld_register import REGISTER
 from fatigue.results import case_of
@@ -37,19 +39,29 @@ class FoundInputs:
     def history(self, event: Event, scratch: Path | None = None) -> ModalHistory:
         """Read the kept record of an event as it was assessed, stress factor not applied.
 
-        A long one goes to the file ``scratch``, if one is given.
+        Unit loads are rows behind the modes. A long one goes to the file ``scratch``, if one is given.
 
         Raises
         ------
         DataError : the file is not there any more or is not the one that was assessed
         """
-        path = self._unchanged(event.history)
-        ignored = self.case.body.ignore_modes
-        modes = np.array(self.modes, dtype=np.int64)
-        whole, _ = read_history(
-            path, event.name, modes, ignored, strict=False, scratch=scratch if is_long(path) else None
+        path = self._unchanged(event.history) if event.history else None
+        sources = given_loads(self.case, event, column_names(path)) if self.case.body.unit_load else ()
+        files = EventFiles(
+            event=event.name,
+            path=path,
+            modes=np.array(self.modes, dtype=np.int64),
+            ignore_modes=self.case.body.ignore_modes,
+            start_s=event.start_s,
+            residue=self.case.residue(event),
+            loads=tuple(self._found(source) for source in sources),
+            strict=False,
         )
-        return kept(whole, event.start_s)
+        return read_event(files, scratch if path and is_long(path) else None).history
+
+    def _found(self, source: LoadSource) -> LoadSource:
+        """The source of a unit load, its file found and unchanged."""
+        return source if source.path is None else replace(source, path=self._unchanged(source.path.as_posix()))
 
     def mesh(self) -> Mesh | None:
         """Read the mesh for pictures; None where the case names none.

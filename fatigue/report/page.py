@@ -113,6 +113,7 @@ def report_page(
         "register": tables.register_table(_listed(result), links),
         "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
+        "gravity": tables.gravity_table(record.get("gravity", [])),
         "modes": tables.mode_table(record["modes"]),
         "rules": method.rules(record),
         "checks": recomputed(result),

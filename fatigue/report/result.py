@@ -81,6 +81,13 @@ class ShownResult:
         """Passes of every event in one km of the mission [1/km]."""
         return {event["event"]: float(event["passes_per_km"]) for event in self.events}
 
+    @property
+    def coordinates(self) -> dict[int, str]:
+        """Names of modes by their ids, and of unit loads by the numbers behind these, in the order of the tables."""
+        used = [int(mode) for mode in self.record["modes"]["used"]]
+        loads = [f"unit load {load['name']}" for load in self.record.get("unit_loads", ())]
+        return {mode: f"mode {mode}" for mode in used} | dict(enumerate(loads, start=max(used) + 1))
+
     def worst(self, weld: str) -> pd.Series:
         """Row of the worst point of a detailed weld in the table of nodes."""
         return self._worst_of(weld, self.nodes[self.nodes["weld"] == weld]).iloc[0]
@@ -96,9 +103,9 @@ class ShownResult:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
 
         Returns for each weld its stations (``part`` and ``order``) and an array (column, station, mode), both in the
-        order of the table, which lists all modes of a station one after the other.
+        order of the table, which lists all modes of a station one after the other, and its unit loads behind them.
         """
-        modes = len(self.record["modes"]["used"])
+        modes = len(self.coordinates)
         rows = rows_of(self.folder, "structural_stress", self.detailed, ["weld", "part", "order", *columns])
         found = {}
         for weld, of_weld in rows.groupby("weld", sort=False):

@@ -16,15 +16,17 @@ DOMINANT_MODES = 4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EventRecord:
-    """One event as every point needs it: modal coordinates, and their mean and covariance.
+    """One event as every point needs it: modal coordinates, their mean and covariance, and constants beside them.
 
-    The stress factor is applied to the modal stress of a point, and to ``covariance`` already.
+    The stress factor is applied to the modal stress of a point, and to ``covariance`` already. ``offset`` (m,) is what
+    is constant beside the samples of each coordinate.
     """
 
     history: ModalHistory
     stress_factor: float
     mean: NDArray[np.float64]
     covariance: NDArray[np.float64]
+    offset: NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,10 +58,22 @@ class Envelope:
     high: NDArray[np.float64]
 
 
-def event_record(history: ModalHistory, stress_factor: float) -> EventRecord:
-    """Record of an event with its stress factor, and the mean and covariance of its modal coordinates."""
+def event_record(
+    history: ModalHistory,
+    stress_factor: float,
+    constants: NDArray[np.float64] | None = None,
+    removed: NDArray[np.bool_] | None = None,
+) -> EventRecord:
+    """Record of an event with its stress factor, and the mean and covariance of its modal coordinates.
+
+    ``constants`` (m,) stand beside the samples, by default 0; of the coordinates ``removed`` (m,) the mean is taken
+    off.
+    """
     mean, covariance = mean_and_covariance(history.q)
-    return EventRecord(history, stress_factor, mean, stress_factor**2 * covariance)
+    offset = np.zeros(len(mean)) if constants is None else constants
+    if removed is not None:
+        offset = offset - np.where(removed, mean, 0.0)
+    return EventRecord(history, stress_factor, mean, stress_factor**2 * covariance, offset)
 
 
 def spectrum(
@@ -103,7 +117,7 @@ def excerpts(
             Excerpt(
                 instants=tuple(history.start + history.step * i for i in group),
                 time=history.start + history.step * (first + np.arange(q.shape[1])),
-                stress=factors @ q,
+                stress=factors @ q + factors @ record.offset,
                 parts={int(history.mode[k]): factors[k] * (q[k] - record.mean[k]) for k in modes},
             )
         )
@@ -124,11 +138,12 @@ def envelope(record: EventRecord, modal_stress: NDArray[np.float64]) -> Envelope
         low[first:last] = np.minimum(low[first:last], np.minimum.reduceat(stress, at))
         high[first:last] = np.maximum(high[first:last], np.maximum.reduceat(stress, at))
         begin += len(stress)
+    constant = float(record.stress_factor * modal_stress @ record.offset)
     return Envelope(
         event=history.event,
         time=np.asarray(history.start + history.step * starts, dtype=np.float64),
-        low=low,
-        high=high,
+        low=low + constant,
+        high=high + constant,
     )
 
 

@@ -179,13 +179,14 @@ STRUCTURAL_STRESS = (
     Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
     Column("order", "int", "-", "position along the weld line, as given"),
     Column("node", "int", "-", "FE node id"),
-    Column("mode", "int", "-", "mode id"),
+    Column("mode", "int", "-", "mode id, empty of a unit load"),
+    Column("unit_load", "text", "-", "name of the unit load, empty of a mode"),
     *(
-        Column(name, "float", "MPa", f"{meaning}, per unit modal coordinate, ends treated")
+        Column(name, "float", "MPa", f"{meaning}, per unit of the coordinate, ends treated")
         for name, meaning in _COMPONENTS
     ),
     *(
-        Column(name.replace("_MPa", "_raw_MPa"), "float", "MPa", f"{meaning}, per unit modal coordinate, as solved")
+        Column(name.replace("_MPa", "_raw_MPa"), "float", "MPa", f"{meaning}, per unit of the coordinate, as solved")
         for name, meaning in _COMPONENTS
     ),
 )

@@ -5,7 +5,7 @@ them: without these the resultant is wrong. Where a line is split at a kink, its
 each element there has to be given to one of them.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,6 +79,14 @@ class ElementBalance:
         return int(np.argmax(residual if self.moment_residual is None else np.maximum(residual, self.moment_residual)))
 
 
+def together(parts: Sequence[ElementForces]) -> ElementForces:
+    """All rows of several element forces."""
+    mode, node, element = (
+        np.concatenate([getattr(one, name) for one in parts]) for name in ("mode", "node", "element")
+    )
+    return ElementForces(mode, node, element, np.concatenate([one.force for one in parts]))
+
+
 def balance(forces: ElementForces, xyz: Mapping[int, NDArray[np.float64]] | None = None) -> ElementBalance:
     """Resultants of every element and mode, relative to its own largest term or 1e-3 of the mode's largest.
 
@@ -109,12 +117,13 @@ def side_forces(
     forces: ElementForces,
     modes: NDArray[np.int64],
     where: str,
+    name: Callable[[int], str] = "mode {}".format,
 ) -> list[NDArray[np.float64]]:
     """Forces of the assessed side's elements summed at the nodes of each part of a line, (n, m, 6) each [N, N mm].
 
     At a corner an element belongs to the part from which the fewest element edges have to be crossed to reach it,
     beginning in the element along the part's last edge; one as near to both parts is shared half and half. So the
-    parts always add up to the whole, and no coordinates are needed.
+    parts always add up to the whole, and no coordinates are needed. ``name`` tells a mode in messages.
 
     Raises
     ------
@@ -124,7 +133,7 @@ def side_forces(
     side = forces.of(elements)
     line_nodes = np.concatenate([part.node for part in parts])
     refuse(DataError, _gaps(np.setdiff1d(elements, side.element), np.setdiff1d(line_nodes, side.node), where))
-    element, node, force = _table(side.rows(np.isin(side.node, line_nodes)), modes, where)
+    element, node, force = _table(side.rows(np.isin(side.node, line_nodes)), modes, where, name)
     summed = (_shares(parts, element, node, side) @ force.reshape(node.size, -1)).reshape(-1, modes.size, 6)
     return np.split(summed, np.cumsum([part.node.size for part in parts])[:-1])
 
@@ -180,7 +189,7 @@ def _gaps(absent: NDArray[np.int64], bare: NDArray[np.int64], where: str) -> Ite
 
 
 def _table(
-    rows: ElementForces, modes: NDArray[np.int64], where: str
+    rows: ElementForces, modes: NDArray[np.int64], where: str, name: Callable[[int], str]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Arrange rows by element corner, (k,) elements and (k,) nodes, and mode, (k, m, 6); refuse gaps and repeats."""
     element, node, corner = _pairs(rows.element, rows.node)
@@ -195,7 +204,7 @@ def _table(
     ):
         if wrong.any():
             k, m = np.argwhere(wrong)[0]
-            place = f"{where}, element {element[k]}, node {node[k]}, mode {modes[m]}"
+            place = f"{where}, element {element[k]}, node {node[k]}, {name(int(modes[m]))}"
             others = _more(int(np.count_nonzero(wrong)))
             refuse(DataError, [Problem(code, place, f"{what} of element forces{others}", remedy)])
     force = np.empty((node.size, modes.size, 6))

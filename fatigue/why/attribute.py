@@ -191,22 +191,25 @@ def _blocks(
         some = points.of(slice(first, first + rows))
         modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         sigma_m, sigma_b = modal_m @ q, modal_b @ q
+        modal_s = modal_m + some.side[:, None] * modal_b
+        of_points = zip(sigma_m, sigma_b, some.side, some.size, some.rule, modal_s @ load.offset, strict=True)
         counted = [
-            count_credit(m, b, side, size, rule, residue)
-            for m, b, side, size, rule in zip(sigma_m, sigma_b, some.side, some.size, some.rule, strict=True)
+            count_credit(m, b, side, size, rule, residue, offset) for m, b, side, size, rule, offset in of_points
         ]
         share = coefficients(np.stack([c.share for c in counted]), residue)
         by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
-        modal_s = modal_m + some.side[:, None] * modal_b
         owed = modal_s[:, :, None] * band_products(share, Q, bands)
         slope = modal_m[:, :, None] * band_products(coefficients(by_m, residue), Q, bands)
         slope += modal_b[:, :, None] * band_products(coefficients(by_b, residue), Q, bands)
+        by_offset = np.array([c.by_offset for c in counted])[:, None] * load.offset
+        slope[:, :, 0] += modal_s * by_offset  # what is constant has the frequency 0
+        constant = by_offset * (modal_m + 2.0 * some.side[:, None] * modal_b)
         load_slope = np.array([c.slope for c in counted])
         yield {
             "damage": np.array([c.damage for c in counted]),
             "top_cycle": np.array([c.top_cycle for c in counted]),
             "load_slope": load_slope,
-            "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b),
+            "thickness_slope": -np.vecdot(by_m, sigma_m) - 2.0 * np.vecdot(by_b, sigma_b) - constant.sum(axis=1),
             "rule_slope": load_slope * some.size_exponent,
             "mode": owed.sum(axis=2),
             "mode_slope": slope.sum(axis=2),
@@ -218,11 +221,20 @@ def _blocks(
 
 
 def count_credit(
-    sigma_m: Floats, sigma_b: Floats, side: float, size: float, rule: CycleRule, residue: Residue
+    sigma_m: Floats,
+    sigma_b: Floats,
+    side: float,
+    size: float,
+    rule: CycleRule,
+    residue: Residue,
+    offset: float = 0.0,
 ) -> Credit:
-    """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles."""
+    """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles.
+
+    ``offset`` is the constant stress of the face beside the samples [MPa].
+    """
     cycles = rainflow(sigma_m + side * sigma_b, residue)
-    return credit(cycles, sigma_m, sigma_b, side, size, rule)
+    return credit(cycles, sigma_m, sigma_b, side, size, rule, offset)
 
 
 def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan, life_km
-from fatigue.life.records.history import Residue, stress_record
+from fatigue.life.records.history import stress_record
 from fatigue.life.records.spool import Samples
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.why.attribute import Attribution, count_credit
@@ -50,18 +50,22 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
         scale = load.stress_factor * np.where(mode[:, :, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
         q = load.counted.q if is_long(load.counted.q) else np.asarray(load.counted.q)
         for w in range(len(point)):
-            counted = _damages(points.of(slice(w, w + 1)), scale[w], q, load.residue)
+            counted = _damages(points.of(slice(w, w + 1)), scale[w], q, load)
             damage[w] += one_pass.passes_per_km * np.array(counted)
     life = life_km(attribution.damage[point], plan.damage_limit)
     return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, life_km(damage, plan.damage_limit))
 
 
-def _damages(point: Points, scale: Floats, q: Samples, residue: Residue) -> list[float]:
+def _damages(point: Points, scale: Floats, q: Samples, load: EventLoad) -> list[float]:
     """Miner sums of a point in one pass, its modal coordinates scaled in some ways (c, m)."""
     membrane, bending = scale * point.membrane, scale * point.bending
-    side, size, rule = float(point.side[0]), float(point.size[0]), point.rule[0]
+    side, size, rule, residue = float(point.side[0]), float(point.size[0]), point.rule[0], load.residue
+    offset = (membrane + side * bending) @ load.offset
     if is_long(q):
         stress = stress_record(np.stack([membrane, bending], axis=1).reshape(-1, q.shape[0]), q)
-        return [long_damage(stress, Row(2 * i, side, size, rule), residue) for i in range(len(scale))]
+        return [long_damage(stress, Row(2 * i, side, size, rule, offset[i]), residue) for i in range(len(scale))]
     sigma_m, sigma_b = membrane @ np.asarray(q), bending @ np.asarray(q)
-    return [count_credit(m, b, side, size, rule, residue).damage for m, b in zip(sigma_m, sigma_b, strict=True)]
+    return [
+        count_credit(m, b, side, size, rule, residue, constant).damage
+        for m, b, constant in zip(sigma_m, sigma_b, offset, strict=True)
+    ]

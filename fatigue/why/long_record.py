@@ -31,12 +31,13 @@ _SIGNS = np.array([-1.0, 1.0])  # at the start and at the end of a cycle
 
 
 class Row(NamedTuple):
-    """Row of a point in a record of stresses: membrane above bending; side, factor of the thickness, rule."""
+    """Row of a point in a record of stresses: membrane above bending; side, factor of the thickness, rule, offset."""
 
     first: int
     side: float
     size: float
     rule: CycleRule
+    offset: float
 
 
 class _Sums(NamedTuple):
@@ -46,6 +47,7 @@ class _Sums(NamedTuple):
     top_cycle: float
     load_slope: float
     thickness_slope: float
+    by_offset: float
     place: Floats
 
 
@@ -81,19 +83,23 @@ def long_blocks(
         modal_m, modal_b = load.stress_factor * some.membrane, load.stress_factor * some.bending
         stress = stress_record(np.stack([modal_m, modal_b], axis=1).reshape(2 * p, m), q)
         laid = create_spool(q.path.with_name("laid"), (3 * p, samples), double)
-        rows = [Row(2 * i, *of) for i, of in enumerate(zip(some.side, some.size, some.rule, strict=True))]
+        modal_s = modal_m + some.side[:, None] * modal_b
+        of_points = zip(some.side, some.size, some.rule, modal_s @ load.offset, strict=True)
+        rows = [Row(2 * i, *of) for i, of in enumerate(of_points)]
         sums = [_lay(stress, row, load, laid, 3 * i, place_s) for i, row in enumerate(rows)]
         _transform(laid, laid, residue)
         products, resonant = _products(laid, Q, bands, resonance)
-        modal_s = modal_m + some.side[:, None] * modal_b
         owed = modal_s[:, :, None] * products[0::3]
         slope = modal_m[:, :, None] * products[1::3] + modal_b[:, :, None] * products[2::3]
+        by_offset = np.array([of.by_offset for of in sums])[:, None] * load.offset
+        slope[:, :, 0] += modal_s * by_offset  # what is constant has the frequency 0
+        constant = by_offset * (modal_m + 2.0 * some.side[:, None] * modal_b)
         load_slope = np.array([of.load_slope for of in sums])
         yield {
             "damage": np.array([of.damage for of in sums]),
             "top_cycle": np.array([of.top_cycle for of in sums]),
             "load_slope": load_slope,
-            "thickness_slope": np.array([of.thickness_slope for of in sums]),
+            "thickness_slope": np.array([of.thickness_slope for of in sums]) - constant.sum(axis=1),
             "rule_slope": load_slope * some.size_exponent,
             "mode": owed.sum(axis=2),
             "mode_slope": slope.sum(axis=2),
@@ -120,12 +126,13 @@ def _credits(stress: Samples, row: Row, residue: Residue) -> Iterator[tuple[Piec
             yield membrane, bending
 
     for piece in long_cycles(chunks, row.side, residue):
-        yield piece, cycle_credit(piece.membrane.T, piece.bending.T, piece.weight, row.side, row.size, row.rule)
+        own = row.side, row.size, row.rule, row.offset
+        yield piece, cycle_credit(piece.membrane.T, piece.bending.T, piece.weight, *own)
 
 
 def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, place_s: Floats) -> _Sums:
     """Lay the damage of a point on three rows of samples: share, derivatives by membrane and by bending stress."""
-    damage = top_cycle = load_slope = thickness_slope = 0.0
+    damage = top_cycle = load_slope = thickness_slope = by_offset = 0.0
     place = np.zeros(len(place_s) - 1)
     for piece, of in _credits(stress, row, load.residue):
         by_stress = of.by_range[:, None] * _SIGNS
@@ -142,8 +149,9 @@ def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, pl
         damage += float(of.damage.sum())
         top_cycle = max(top_cycle, float(of.damage.max(initial=0.0)))
         load_slope += float(of.slope.sum())
+        by_offset += float(of.by_peak.sum())
         thickness_slope -= float(np.sum(by_membrane * piece.membrane) + 2.0 * np.sum(by_bending * piece.bending))
-    return _Sums(damage, top_cycle, load_slope, thickness_slope, place)
+    return _Sums(damage, top_cycle, load_slope, thickness_slope, by_offset, place)
 
 
 def _add(laid: Spool, rows: slice, at: NDArray[np.int64], values: Floats) -> None:

@@ -187,3 +187,20 @@ def test_a_mean_stress_that_grows_has_its_own_slope(side):
         scale = damage(membrane, bending, side, rule, "repeat")
         assert found == pytest.approx((above - below) / 2e-4, rel=1e-5, abs=1e-9 * scale)
         assert (found > 1e-5 * scale) == (name == "mean stress")
+
+
+@SIDES
+@RESIDUES
+def test_a_constant_beside_the_samples_is_one_in_them(residue, side):
+    """Damage, shares and slopes under f_M are those of samples that hold the constant; and the slope by it is right."""
+    rule = LAWS["mean stress"]
+    q, S_m, S_b = record()
+    membrane, bending, constant = S_m @ q, S_b @ q, 75.0
+    cycles = rainflow(membrane + side * bending, residue)
+    found = credit(cycles, membrane, bending, side, SIZE, rule, constant)
+    held = count(membrane + constant, bending, side, rule, residue)
+    for name in ("damage", "top_cycle", "slope", "share", "place", "by_membrane", "by_bending"):
+        np.testing.assert_allclose(getattr(found, name), getattr(held, name), rtol=1e-9, atol=1e-15, err_msg=name)
+    assert found.damage > credit(cycles, membrane, bending, side, SIZE, rule).damage
+    near = [credit(cycles, membrane, bending, side, SIZE, rule, constant + d).damage for d in (-1e-5, 1e-5)]
+    assert found.by_offset == pytest.approx((near[1] - near[0]) / 2e-5, rel=1e-5)

@@ -77,3 +77,19 @@ def test_the_envelope_holds_every_extreme(history):
     whole = MODAL_STRESS @ history.q
     assert len(found.time) == 600
     assert (found.low.min(), found.high.max()) == (whole.min(), whole.max())
+
+
+def test_constants_move_the_level_and_nothing_else(history):
+    """What is given and means that are removed are in history and envelope, never in parts or spectra."""
+    plain, constants = stress.event_record(history, 1.5), np.array([0.0, 4.0, -1.0])
+    removed = np.array([True, True, False])
+    record = stress.event_record(history, 1.5, constants, removed)
+    level = 1.5 * MODAL_STRESS @ (constants - np.where(removed, history.q.mean(axis=1), 0.0))
+    (found,), (expected,) = (stress.excerpts(one, MODAL_STRESS, 12.0, 12.2, [0, 1]) for one in (record, plain))
+    np.testing.assert_allclose(found.stress, expected.stress + level)
+    assert [found.parts[mode].tolist() for mode in (3, 5)] == [expected.parts[mode].tolist() for mode in (3, 5)]
+    low, high = stress.envelope(record, MODAL_STRESS), stress.envelope(plain, MODAL_STRESS)
+    np.testing.assert_allclose(low.low, high.low + level)
+    np.testing.assert_allclose(low.high, high.high + level)
+    of_both = [stress.spectrum(one, MODAL_STRESS, 2.0, 100.0) for one in (record, plain)]
+    np.testing.assert_array_equal(of_both[0].density, of_both[1].density)

@@ -244,6 +244,7 @@ def _stress_rows(recipe):
                     {
                         **{name: key[name] for name in ("weld", "part", "order", "node")},
                         "mode": mode,
+                        "unit_load": None,
                         **{f"{c}_MPa": value for c, value in values.items()},
                         **{f"{c}_raw_MPa": value for c, value in values.items()},
                     }

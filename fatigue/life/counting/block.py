@@ -23,6 +23,8 @@ class BlockStress:
     size : (n,) factor of the thickness on the range
     same_ratio : (n, 2) the one bending ratio of ``BlockCount.damage_same_ratio``
     shear_factor : (n, 2) factor on dS of ``BlockCount.damage_with_shear``; None: not wanted
+    offset : (n, 2) constant stress of each surface [MPa], never added to samples, so that no range loses a bit: it
+        enters means and stress ratios, and f_M with them; None: 0
     """
 
     membrane: Floats
@@ -30,6 +32,7 @@ class BlockStress:
     size: Floats
     same_ratio: Floats
     shear_factor: Floats | None = None
+    offset: Floats | None = None
 
     def __len__(self) -> int:
         """Count the points."""
@@ -38,19 +41,29 @@ class BlockStress:
     def at(self, rows: slice | NDArray[np.intp]) -> Self:
         """Take some points."""
         shear = None if self.shear_factor is None else self.shear_factor[rows]
-        return type(self)(self.membrane[rows], self.bending[rows], self.size[rows], self.same_ratio[rows], shear)
+        offset = None if self.offset is None else self.offset[rows]
+        of_rows = (self.membrane[rows], self.bending[rows], self.size[rows], self.same_ratio[rows])
+        return type(self)(*of_rows, shear, offset)
+
+    @property
+    def level(self) -> Floats:
+        """Constant stress of each surface (n, 2) [MPa], 0 where none is given."""
+        return np.zeros((len(self), 2)) if self.offset is None else self.offset
 
     def beside(self, others: Self) -> Self:
         """Put other points behind these; a shear factor stays where both have one."""
-        shear = None
+        shear = offset = None
         if self.shear_factor is not None and others.shear_factor is not None:
             shear = np.concatenate([self.shear_factor, others.shear_factor])
+        if self.offset is not None or others.offset is not None:
+            offset = np.concatenate([self.level, others.level])
         return type(self)(
             np.concatenate([self.membrane, others.membrane]),
             np.concatenate([self.bending, others.bending]),
             np.concatenate([self.size, others.size]),
             np.concatenate([self.same_ratio, others.same_ratio]),
             shear,
+            offset,
         )
 
 
@@ -67,9 +80,9 @@ class BlockCount:
     cycles : sum of n
     power_sum : sum of n S**k of the structural stress ranges, k the first slope of the law [MPa**k]
     max_range : largest structural stress range [MPa]
-    r_largest : stress ratio min/max of the largest cycle; NaN without a cycle or where max = 0
+    r_largest : stress ratio min/max of the largest cycle, offset included; NaN without a cycle or where max = 0
     max_equivalent_range : largest dS
-    mean : mean of the structural stress samples [MPa]; NaN without samples
+    mean : mean of the structural stress samples and the offset [MPa]; NaN without samples
     kurtosis : fourth over squared second central moment of the samples, 3 if Gaussian; NaN of a constant row
     histogram : (n, 2, HISTOGRAM_BINS, 2) sum of n and sum of n dS**k between the ``HISTOGRAM_EDGES`` of dS, ranges
         beyond them in the end bins; (n, 2, 0, 2) for a straight law, where damage scales with load**k;

@@ -30,9 +30,9 @@ from fatigue.life.counting.tally import (
     block_count,
     compiled_rule,
     nothing_counted,
+    own_of,
     plain,
     refuse_not_finite,
-    shear_factors,
     tally,
 )
 from fatigue.life.rule import CycleRule
@@ -69,6 +69,7 @@ class _Block(NamedTuple):
     size: Floats
     same_ratio: Floats
     shear_factor: Floats
+    offset: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
@@ -104,7 +105,7 @@ def count_chunks(
     """
     counted = nothing_counted(len(stress), rule.law, ranges=ranges)
     _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk)
-    return block_count(*counted, rule)
+    return block_count(*counted, rule, stress.level)
 
 
 def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
@@ -121,9 +122,10 @@ def _count_points(
 ) -> None:
     """Count a block some points at a time."""
     totals, histogram, trials = counted
+    shear_factor, offset = own_of(stress)
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
-        own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factors(stress)[some]
+        own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factor[some], offset[some]
         block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
         _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_rule(rule), chunk)
 
@@ -357,7 +359,7 @@ def count_chunk(
         else:
             cycles, left = close_open(room.s, state.waiting[row, surface], n, stage.recurs, room.buffers)
         own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
-        point = Surface(room.m, room.b, side, own[0], own[1], own[2])
+        point = Surface(room.m, room.b, side, own[0], own[1], own[2], block.offset[row, surface])
         if block.trials.damage.shape[2] > 0:
             at_first, step = block.trials.first[row, surface], block.trials.step[row, surface]
             tally_trials(point, at_first, step, block.trials.damage[row, surface], rule, room.buffers, cycles)

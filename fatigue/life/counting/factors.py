@@ -5,9 +5,10 @@ Rainflow finds the same cycles at any scale of the stress. A cycle of the equiva
     d(f x) = f^k x^k / A
 
 at the factor f, with the slope k of the segment that f x lies on, and none below the cut-off. With mean stress x is
-divided by f_M for all factors at which ``f (min + max) >= yield`` and ``f S <= 2 yield``: R, and f_M with it, does not
-depend on f. So every cycle has few stretches of ascending factors, on each of which its damage is a constant times f^k.
-Each damage is that of the cycle itself; nothing is sorted into classes.
+divided by f_M for all factors at which ``f (min + max) >= yield`` and ``f S <= 2 yield``: the offset is a stress and
+scales as all do, so that R, and f_M with it, does not depend on f. So every cycle has few stretches of ascending
+factors, on each of which its damage is a constant times f^k. Each damage is that of the cycle itself; nothing is sorted
+into classes.
 
 Damage rises with the factor, but for cycles that leave f_M behind at twice the yield stress. These keep it for one
 factor more. So the damage found at a factor is never below the damage anywhere between this factor and the one before.
@@ -112,8 +113,8 @@ def tally_trials(
     for c in range(cycles):
         i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
         s_i, s_j = first * (membrane[i] + side * bending[i]), first * (membrane[j] + side * bending[j])
-        minimum, maximum = min(s_i, s_j), max(s_i, s_j)
-        S = maximum - minimum
+        S = max(s_i, s_j) - min(s_i, s_j)
+        minimum, maximum = min(s_i, s_j) + first * point.offset, max(s_i, s_j) + first * point.offset
         if S == 0.0:
             continue
         dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])

@@ -23,9 +23,9 @@ from fatigue.life.counting.tally import (
     block_count,
     compiled_rule,
     nothing_counted,
+    own_of,
     plain,
     refuse_not_finite,
-    shear_factors,
     tally,
 )
 from fatigue.life.records.history import Residue, stress_history
@@ -44,6 +44,7 @@ class _Histories(NamedTuple):
     size: Floats
     same_ratio: Floats
     shear_factor: Floats
+    offset: Floats
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
@@ -69,7 +70,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         membrane, bending = (stress_history(S, record.q) for S in (some.membrane, some.bending))
         refuse_not_finite(membrane, bending)
         totals, histogram = nothing_counted(len(membrane), rule.law)
-        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
         trials = Trials(*(part[at] for part in tried))
         block = _Histories(*of_points, totals, histogram, trials)
         _count(block, record.recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
@@ -99,10 +100,10 @@ def _count_some(
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
     totals, histogram = nothing_counted(len(membrane), rule.law, ranges=ranges)
-    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), shear_factors(some)
+    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
     _count(block, recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
-    return block_count(totals, histogram, rule)
+    return block_count(totals, histogram, rule, some.level)
 
 
 @compiled()
@@ -115,8 +116,9 @@ def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
-            own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
-            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2])
+            at = row, surface
+            own = block.size[row], block.same_ratio[at], block.shear_factor[at], block.offset[at]
+            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2], own[3])
             cycles = find_cycles(s, recurs, buffers)
             if block.trials.damage.shape[2] > 0:
                 first, step = block.trials.first[row, surface], block.trials.step[row, surface]

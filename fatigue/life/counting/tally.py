@@ -41,6 +41,7 @@ class Surface(NamedTuple):
     size: float
     same_ratio: float
     shear_factor: float
+    offset: float
 
 
 def compiled_rule(rule: CycleRule) -> CompiledRule:
@@ -57,13 +58,15 @@ def nothing_counted(points: int, law: DamageLaw, *, ranges: bool = False) -> tup
     return totals, np.zeros((points, 2, bins, 2))
 
 
-def shear_factors(stress: BlockStress) -> Floats:
-    """Shear factor of each point and surface; 1 where none is wanted."""
-    return plain(np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor)
+def own_of(stress: BlockStress) -> tuple[Floats, Floats]:
+    """Shear factor, 1 where none is wanted, and offset [MPa] of each point and surface, (n, 2) each."""
+    factor = np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor
+    return plain(factor), plain(stress.level)
 
 
-def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule) -> BlockCount:
-    """Give the totals of a block their names."""
+def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule, offset: Floats) -> BlockCount:
+    """Give the totals of a block their names; the mean of its samples gets the ``offset`` (n, 2)."""
+    totals["mean"] += offset
     if rule.yield_MPa is None:
         totals["damage_mean_stress"] = np.nan
     return BlockCount(**{name: totals[name].copy() for name in _SCALARS}, histogram=histogram)
@@ -124,7 +127,8 @@ def tally(
     """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
 
     A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` (Eq. 7) and
-    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8); the damage is their Miner sum (Eq. 12).
+    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8); the damage is their Miner sum (Eq. 12). The range is that of the samples
+    to the last bit, whatever the offset.
     """
     membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rule.slopes[0]
@@ -133,8 +137,8 @@ def tally(
     for c in range(cycles):
         i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
         s_i, s_j = membrane[i] + side * bending[i], membrane[j] + side * bending[j]
-        minimum, maximum = min(s_i, s_j), max(s_i, s_j)
-        S = maximum - minimum
+        S = max(s_i, s_j) - min(s_i, s_j)
+        minimum, maximum = min(s_i, s_j) + point.offset, max(s_i, s_j) + point.offset
         dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
         I = ratio_factor(db / (dm + db)) if rule.uses_bending_ratio else 1.0  # noqa: E741 - the symbol of the standard
         x = equivalent_range(S, size, I, 1.0)

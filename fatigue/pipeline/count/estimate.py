@@ -21,9 +21,10 @@ class Estimate:
     """One pass of one event at a block of stations in the frequency domain; arrays are (n, 2), top and bottom face.
 
     ``bending_ratio`` is ``std(sigma_b) / (std(sigma_m) + std(sigma_b))``, NaN where nothing varies; ``mean`` [MPa] the
-    time mean of the stress; ``moments`` (4, n, 2) are the spectral moments of orders 0, 1, 2, 4 [MPa^2 Hz^p];
-    ``dirlik`` and ``tb`` damages of one pass, ``tb_whole`` that of the spectrum up to half the sampling rate, and
-    ``outside_share`` the share of its variance above the band. What needs a spectrum is NaN without one.
+    time mean of the stress, its constant part included; ``moments`` (4, n, 2) are the spectral moments of orders 0, 1,
+    2, 4 [MPa^2 Hz^p]; ``dirlik`` and ``tb`` damages of one pass, ``tb_whole`` that of the spectrum up to half the
+    sampling rate, and ``outside_share`` the share of its variance above the band. What needs a spectrum is NaN without
+    one.
     """
 
     bending_ratio: NDArray[np.float64]
@@ -64,8 +65,8 @@ class Estimate:
 
 
 def mean_stress(stress: ModalStress, load: EventLoad) -> NDArray[np.float64]:
-    """Time mean of the stress at both faces of every station, (n, 2) [MPa]."""
-    mean_m, mean_b = (load.stress_factor * (S @ load.mean) for S in (stress.membrane, stress.bending))
+    """Time mean of the stress at both faces of every station, its constant part included, (n, 2) [MPa]."""
+    mean_m, mean_b = (load.stress_factor * (S @ load.level) for S in (stress.membrane, stress.bending))
     return np.stack([mean_m + mean_b, mean_m - mean_b], axis=1)
 
 

@@ -13,6 +13,7 @@ from fatigue.life.shear import shear_factor
 from fatigue.pipeline.count.bounds import Bound
 from fatigue.pipeline.count.estimate import Estimate
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.solve.modal_stress import ModalStress, faces
 from fatigue.quotient import quotient
 from fatigue.spectrum.outside import missed_damage
@@ -127,10 +128,13 @@ def _counted(
     n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
     rows = ends.rows[matters]
     with_shear = np.nan_to_num(with_shear, nan=1.0)  # no stress, no cycles
-    block = BlockStress(f * stress.membrane, f * stress.bending, stress.size, one_ratio, with_shear)
+    membrane, bending = f * stress.membrane, f * stress.bending
+    offset = face_offset(membrane, bending, load)
+    block = BlockStress(membrane, bending, stress.size, one_ratio, with_shear, offset)
     if rows.size:
         membrane, bending = f * ends.stress.membrane[matters], f * ends.stress.bending[matters]
-        block = block.beside(BlockStress(membrane, bending, stress.size[rows], one_ratio[rows], with_shear[rows]))
+        own = stress.size[rows], one_ratio[rows], with_shear[rows], face_offset(membrane, bending, load)
+        block = block.beside(BlockStress(membrane, bending, *own))
     everything = count(block, load.record, stress.rule)
     counted = everything.at(slice(n))
     damage_raw_end = counted.damage.copy()

@@ -13,6 +13,7 @@ from fatigue.life.mission import Plan, straight_load_factor
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.count.event_block import EventBlock
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.quotient import quotient
 
@@ -79,7 +80,9 @@ class _Counted:
         for load, one_pass in zip(self.loads, self.plan.passes, strict=True):
             if one_pass.passes_per_km > 0.0:
                 f = load.stress_factor
-                block = BlockStress(f * some.membrane, f * some.bending, some.size, np.zeros(first.shape))
+                membrane, bending = f * some.membrane, f * some.bending
+                offset = face_offset(membrane, bending, load)
+                block = BlockStress(membrane, bending, some.size, np.zeros(first.shape), offset=offset)
                 per_pass = count_at_factors(block, load.record, some.rule, first, step, factors)
                 damage += one_pass.passes_per_km * per_pass
         return damage * (self.plan.target_km / self.plan.damage_limit)

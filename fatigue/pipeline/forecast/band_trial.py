@@ -47,7 +47,7 @@ def band_warnings(model: Model, plan: Plan, scratch: Path) -> list[Problem]:
 
 def _looked_at(model: Model, plan: Plan) -> list[int]:
     """Numbers of the events that are looked at: the longest, and the shortest of the others."""
-    numbers = len(model.modes.mode) * np.array([one.samples for one in plan.passes])
+    numbers = len(model.body.coordinates) * np.array([one.samples for one in plan.passes])
     *others, longest = np.argsort(numbers, kind="stable").tolist()
     cheap = np.cumsum(numbers[others]) <= READ_AT_MOST
     return sorted([longest, *np.array(others, dtype=int)[cheap].tolist()])

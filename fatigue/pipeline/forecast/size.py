@@ -22,7 +22,7 @@ class JobSize:
 
     Attributes
     ----------
-    modes, stations, welds : how many there are
+    modes, stations, welds : how many there are; unit loads are counted with the modes
     samples : of the kept record of each event
     factors : by which each is upsampled
     share : of the damage limit below which points need no counting; 0: every point is counted
@@ -84,12 +84,13 @@ def job_size(
 ) -> JobSize:
     """Size of a job; ``factors`` where they are known, ``share`` and ``threads`` None as in an assessment."""
     asked = body.case.counting.upsample
-    assumed = tuple(factors) or (AUTOMATIC if asked == "auto" else asked,) * len(plan.passes)
+    wanted = tuple(factors) or (AUTOMATIC if asked == "auto" else asked,) * len(plan.passes)
+    assumed = tuple(p.factor(factor) for p, factor in zip(plan.passes, wanted, strict=True))
     stations, samples = int(body.lines.begin[-1]), tuple(one.samples for one in plan.passes)
     counted = sum(n * factor for n, factor in zip(samples, assumed, strict=True))
     by_default = SHARE if 2 * stations * counted > DOUBLE_PRECISION_SAMPLES else 0.0
     return JobSize(
-        modes=len(body.modes.mode),
+        modes=len(body.coordinates),
         stations=stations,
         welds=len(body.welds),
         samples=samples,

@@ -118,11 +118,12 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
     with threadpool_limits(limits=1, user_api="blas"):
         trial = _Trial(model, one, plan)
-        factor = _factor(body, event, record, trial)
-        upsampled = factor * sum(p.samples for p in plan.passes)
+        finer = _factor(body, event, record, trial, one.refined)
+        factor = finer * max(1, one.refined)
+        upsampled = sum(p.factor(factor) * p.samples for p in plan.passes)
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
-        prepare_s, load = _timed(lambda: load_of(body, event, record, factor, single=single))
-        _, short = _timed(lambda: load_of(body, event, less, factor, single=single))
+        prepare_s, load = _timed(lambda: load_of(body, event, record, finer, single=single))
+        _, short = _timed(lambda: load_of(body, event, less, finer, single=single))
         exact, result = _of_length(load, short, trial.counted)
         default = exact
         if single:
@@ -132,7 +133,7 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     of_groups = stations / len(model.stations)
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
-    cells += stations * len(body.modes.mode) * COLUMNS["structural_stress"]
+    cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
     cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
     worst = worst_points(model.stations, result)
     binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
@@ -150,11 +151,14 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     )
 
 
-def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial) -> int:
-    """Factor by which records are upsampled; where that is automatic, what this record needs at these welds."""
+def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial, refined: int) -> int:
+    """Factor by which the record is upsampled; where that is automatic, what it needs at these welds.
+
+    It is ``refined`` already for a unit load of the event; 0: it is not upsampled.
+    """
     factor = body.case.counting.upsample
-    if factor != "auto":
-        return int(factor)
+    if factor != "auto" or not refined:
+        return max(1, int(factor) // refined) if factor != "auto" and refined else 1
     load = load_of(body, event, record, 1, single=False)
     samples_per_peak = trial.counted(load).of_events("samples_per_peak")
     fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from fatigue.life.bounds.forms import FormPair, form_pair
 from fatigue.life.counting.record import CountedRecord, SingleRecord
 from fatigue.life.counting.single.prepare import single_record
-from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance, upsampled
+from fatigue.life.records.history import ModalHistory, Residue, mean_and_covariance
 from fatigue.life.records.spool import Samples, Spool, create_spool
+from fatigue.readers.neutral.event.event_record import EventRecord
 from fatigue.spectrum.moments import MomentMatrices, Spectra, moment_matrices, spectra_above
 from fatigue.spectrum.trust import TrustMatrices, trust_matrices
 
@@ -24,14 +25,14 @@ class EventLoad:
 
     Attributes
     ----------
-    counted : the kept record, upsampled as asked, on which cycles are counted
+    counted : the kept record, upsampled as asked, on which cycles are counted; c coordinates, modes and unit loads
     single : the same prepared for the kernel in single precision; None: count in double precision
     residue : how the rest of the count is closed
     stress_factor : partial or allowance factor on all stresses of the event
     duration : duration of one pass [s]
-    mean : (m,) time mean of q over the kept samples
-    offset : (m,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
-    covariance : (m, m) covariance of q over the kept samples
+    mean : (c,) time mean of q over the kept samples
+    offset : (c,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
+    covariance : (c, c) covariance of q over the kept samples
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
     is_upsampled : whether mean and covariance are of other samples than those that are counted
     moment_pairs : matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
@@ -55,6 +56,11 @@ class EventLoad:
     top_mode_hz: float | None
 
     @property
+    def level(self) -> NDArray[np.float64]:
+        """Time mean of every coordinate over the kept samples, its constant included, (m,): what mean stress is of."""
+        return self.mean + self.offset
+
+    @property
     def record(self) -> CountedRecord:
         """The record as it is counted."""
         return CountedRecord(self.counted.q, self.residue, self.single)
@@ -69,7 +75,8 @@ class EventLoad:
 class HowCounted:
     """How the record of an event is to be counted.
 
-    ``residue`` and ``stress_factor`` are the same as of ``EventLoad``; ``upsample`` is how many samples one becomes;
+    ``residue`` and ``stress_factor`` are the same as of ``EventLoad``; ``upsample`` is how many samples one of the file
+    becomes;
     ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
     """
 
@@ -86,25 +93,28 @@ def prepare_event(
     spectra: Spectra | None,
     top_mode_hz: float | None,
     scratch: Path | None = None,
+    record: EventRecord | None = None,
 ) -> EventLoad:
     """What all stations share of an event, from its kept record.
 
-    ``scratch``: folder for whatever is as large as the record, None: in memory.
+    ``scratch``: folder for whatever is as large as the record, None: in memory. ``record``: the same history with unit
+    loads that are read between their samples.
     """
+    record = record or EventRecord(history, history.duration)
     trust = None if spectra is None else trust_matrices(history, spectra)
     if trust is None:
         moments, (mean, covariance) = None, mean_and_covariance(history.q)
     else:
         moments, mean, covariance = trust.moments, trust.record.mean, trust.record.covariance
     above = None if spectra is None else spectra_above(spectra)
-    counted = upsampled(history, how.upsample, how.residue, scratch and scratch / "upsampled")
+    counted = record.upsampled(how.upsample, how.residue, scratch and scratch / "upsampled")
     known = (mean, covariance) if counted is history else None
     return EventLoad(
         counted=counted,
         single=kept_single_record(counted.q, scratch, known, held=how.held) if how.single else None,
         residue=how.residue,
         stress_factor=how.stress_factor,
-        duration=history.duration,
+        duration=record.duration,
         mean=mean,
         offset=np.zeros(len(mean)),
         covariance=covariance,

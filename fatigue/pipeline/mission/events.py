@@ -3,7 +3,6 @@
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +11,14 @@ from numpy.typing import NDArray
 from fatigue.case import LARGEST_UPSAMPLE, Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
-from fatigue.life.records.history import ModalHistory, kept
+from fatigue.life.records.history import ModalHistory, mean_and_covariance
 from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, held_copies, prepare_event
+from fatigue.pipeline.mission.offsets import MeanLevel, mean_level, with_offset
+from fatigue.pipeline.mission.unit_loads import event_files
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
-from fatigue.readers.neutral.history import read_history
+from fatigue.readers.neutral.event.event_record import FINER, EventRecord, read_event
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import (
     MomentMatrices,
@@ -49,10 +50,11 @@ def event_loads(
     not depend on how many there are.
     """
     body, events = groups.body, groups.body.case.mission.event
-    sizes = np.array([len(body.modes.mode) * p.samples for p in plan.passes])
-    factor = body.case.counting.upsample
+    sizes = np.array([len(body.coordinates) * p.samples for p in plan.passes])
+    asked = body.case.counting.upsample
     folders = _folders(4 * sizes, scratch)
-    factors = _automatic_factors(groups, folders) if factor == "auto" else [factor] * len(events)
+    wanted = _automatic_factors(groups, folders) if asked == "auto" else [asked] * len(events)
+    factors = [p.factor(factor) for p, factor in zip(plan.passes, wanted, strict=True)]
     stations = int(body.lines.begin[-1])
     samples = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
     single = 2 * stations * samples > DOUBLE_PRECISION_SAMPLES
@@ -63,7 +65,7 @@ def event_loads(
     bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
 
     given = [p.samples for p in plan.passes]
-    held = held_copies(len(body.modes.mode), given, [f * n for f, n in zip(factors, given, strict=True)])
+    held = held_copies(len(body.coordinates), given, [f * n for f, n in zip(factors, given, strict=True)])
 
     def prepared(job: tuple[Event, int, Path | None, bool]) -> EventLoad:
         event, upsample, folder, holds = job
@@ -84,30 +86,34 @@ def event_load(
 ) -> EventLoad:
     """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
     how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single, holds_single)
-    load = _load_of(body, _record(body, event, scratch), how, scratch)
-    if upsample > 1 and scratch is not None:
-        (scratch / RECORD).unlink()
+    record = _record(body, event, scratch)
+    load = with_offset(body, event, _load_of(body, record, how, scratch), record)
+    if load.is_upsampled and scratch is not None:
+        _forget(scratch)
     return load
 
 
 def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> ModalHistory:
     """The first samples of the record of an event behind its start-up."""
-    history = _record(body, event, scratch)
-    shortened = replace(history, q=np.ascontiguousarray(history.q[:, 0:samples]))
-    (scratch / RECORD).unlink(missing_ok=True)
+    shortened = _record(body, event, scratch).shortened(samples).history
+    _forget(scratch)
     return shortened
 
 
 def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool) -> EventLoad:
     """What all stations share of a record in memory."""
-    return _load_of(body, history, HowCounted(body.case.residue(event), event.stress_factor, upsample, single))
+    how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
+    record = EventRecord(history, history.duration, is_static=event.history is None)
+    return with_offset(body, event, _load_of(body, record, how), record)
 
 
-def _load_of(body: Body, history: ModalHistory, how: HowCounted, scratch: Path | None = None) -> EventLoad:
+def _load_of(body: Body, record: EventRecord, how: HowCounted, scratch: Path | None = None) -> EventLoad:
     """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
+    history = record.history
+    spectra = None if record.is_static else event_spectra(body, history)
     try:
         with np.errstate(over="raise", invalid="raise"):
-            return prepare_event(history, how, event_spectra(body, history), top_mode_hz(body), scratch)
+            return prepare_event(history, how, spectra, top_mode_hz(body), scratch, record)
     except FloatingPointError:
         raise NumericalError(_too_large(body, history)) from None
 
@@ -115,14 +121,15 @@ def _load_of(body: Body, history: ModalHistory, how: HowCounted, scratch: Path |
 def _too_large(body: Body, history: ModalHistory) -> Problem:
     """Refusal of a record whose squares exceed double precision, with the largest value in it."""
     file = next(event.history for event in body.case.mission.event if event.name == history.event)
+    where = file or f"{body.case.path.name}: mission.event '{history.event}'"
     largest, mode, at = 0.0, 0, 0
     for i in range(len(history.mode)):
         size = np.abs(history.q[i : i + 1, :])[0]
         if size.max() >= largest:
             largest, mode, at = float(size.max()), i, int(size.argmax())
     what = f"modal coordinates of event '{history.event}' are so large that their squares exceed double precision: "
-    what += f"q_{history.mode[mode]} is {largest:g} at {history.start + at * history.step:g} s"
-    return Problem("overflow", file, what, "Look for a value that is far too large")
+    what += f"{body.coordinates.column[mode]} is {largest:g} at {history.start + at * history.step:g} s"
+    return Problem("overflow", where, what, "Look for a value that is far too large")
 
 
 def event_spectra(body: Body, history: ModalHistory) -> Spectra | None:
@@ -146,18 +153,15 @@ def upper_hz(body: Body, history: ModalHistory) -> float:
     return default_upper_hz(history.step, top_mode_hz(body))
 
 
-def _record(body: Body, event: Event, scratch: Path | None) -> ModalHistory:
+def _record(body: Body, event: Event, scratch: Path | None) -> EventRecord:
     """The record of an event without its start-up."""
-    case = body.case
-    whole, _ = read_history(
-        case.resolve(event.history),
-        event.name,
-        body.modes.mode,
-        case.body.ignore_modes,
-        strict=body.strict,
-        scratch=scratch and scratch / RECORD,
-    )
-    return kept(whole, event.start_s)
+    return read_event(event_files(body, event), scratch and scratch / RECORD)
+
+
+def _forget(scratch: Path) -> None:
+    """Remove the samples as they were read."""
+    for name in (RECORD, RECORD + FINER):
+        (scratch / name).unlink(missing_ok=True)
 
 
 def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | None]:
@@ -166,6 +170,16 @@ def _folders(sizes: NDArray[np.integer], scratch: Path | None) -> list[Path | No
     held = np.empty(len(sizes), dtype=np.bool_)
     held[order] = np.cumsum(sizes[order]) <= HELD_BYTES
     return [None if scratch is None or fits else scratch / f"event-{i:04d}" for i, fits in enumerate(held)]
+
+
+def mean_levels(body: Body, scratch: Path) -> list[MeanLevel]:
+    """Means of every event, whose records are read for it, one after the other; ``scratch``: folder for a long one."""
+    levels = []
+    for event in body.case.mission.event:
+        mean, _ = mean_and_covariance(_record(body, event, scratch).history.q)
+        levels.append(mean_level(body, event, mean))
+        _forget(scratch)
+    return levels
 
 
 def _below_and_above(spectra: Spectra) -> tuple[MomentMatrices, MomentMatrices | None]:
@@ -183,9 +197,9 @@ def _automatic_factors(groups: WeldGroups, folders: Sequence[Path | None]) -> li
     steps: list[float] = []
     moments: list[tuple[MomentMatrices, MomentMatrices | None] | None] = []
     for event, folder in zip(body.case.mission.event, folders, strict=True):
-        history = _record(body, event, folder)
-        spectra = event_spectra(body, history)
-        steps.append(history.step)
+        record = _record(body, event, folder)
+        spectra = None if record.is_static else event_spectra(body, record.history)
+        steps.append(record.history.step * record.refined)
         moments.append(None if spectra is None else _below_and_above(spectra))
     peaks_per_s = np.zeros(len(steps))
     for number in range(len(groups)):

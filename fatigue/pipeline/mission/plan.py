@@ -1,14 +1,18 @@
 """The mission in numbers: how long each record is and how often it is passed, once every record has been checked."""
 
+from pathlib import Path
+
 from fatigue.case import Case, Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.events import top_mode_hz
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
-from fatigue.pipeline.mission.record_warnings import EventRecord, record_warnings
+from fatigue.pipeline.mission.record_warnings import CheckedEvent, record_warnings
+from fatigue.pipeline.mission.unit_loads import event_files, unused_load_warnings
 from fatigue.pipeline.solve.body import Body
-from fatigue.readers.neutral.history import TimeGrid, check_history
+from fatigue.readers.neutral.event.event_record import check_event
+from fatigue.readers.neutral.history import TimeGrid
 from fatigue.readers.neutral.record_outline import RecordOutline
 from fatigue.side_by_side import in_order
 from fatigue.spectrum.moments import FREQUENCY_TOLERANCE, default_upper_hz, samples_per_segment, segment_count
@@ -26,7 +30,7 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
     warnings: list[Problem] = []
     problems: list[Problem] = []
     passes: list[Pass] = []
-    records: list[EventRecord] = []
+    records: list[CheckedEvent] = []
     for checked in in_order(lambda event: _checked(body, event), mission.event, threads):
         if isinstance(checked, FatigueError):
             problems += checked.problems
@@ -35,20 +39,22 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
             warnings += checked[1]
             records.append(checked[2])
     refuse(DataError, problems)
-    warnings += record_warnings(records, body.modes, body.case.path.name)
+    warnings += record_warnings(records, body.coordinates, body.case.path.name)
+    warnings += unused_load_warnings(body.case.path.name, [record.loads for record in records])
     return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
 
 
-def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], EventRecord] | FatigueError:
+def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], CheckedEvent] | FatigueError:
     """The passes of an event, the warnings about its record and the record, or what is wrong with the record."""
     case = body.case
-    path = case.resolve(event.history)
     outline = RecordOutline(event.start_s)
     try:
-        grid, warnings = check_history(
-            path, body.modes.mode, case.body.ignore_modes, strict=body.strict, outline=outline
-        )
-        refuse(DataError, step_problems(grid, body.modes, path.name, event.name))
+        files = event_files(body, event)
+        checked = check_event(files, outline)
+        grid, warnings = checked.grid, checked.warnings
+        name = case.path.name if files.path is None else files.path.name
+        if files.path is not None:
+            refuse(DataError, step_problems(grid, body.modes, name, event.name))
         samples = _kept_samples(case, event, grid)
     except FatigueError as error:
         return error
@@ -58,13 +64,12 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], EventRecord
         length=event_length_km(event, samples * grid.step),
         share=event.share,
         per_1000_km=event.per_1000_km,
+        refined=checked.refined,
     )
-    warnings += step_warnings(grid, body.modes, path.name, event.name)
-    return (
-        one,
-        warnings + _spectrum_warnings(body, event, samples, grid.step),
-        EventRecord(event, path.name, grid, outline),
-    )
+    if files.path is not None:
+        warnings += step_warnings(grid, body.modes, name, event.name)
+        warnings += _spectrum_warnings(body, event, samples, grid.step)
+    return one, warnings, CheckedEvent(event, name, grid, outline, files.loads)
 
 
 def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
@@ -72,11 +77,12 @@ def _kept_samples(case: Case, event: Event, grid: TimeGrid) -> int:
     where = f"{case.path.name}: mission.event '{event.name}'"
     samples = max(0, grid.samples - first_kept(grid.step, event.start_s))
     if samples < 2:
+        file = Path(event.history or "").name
         raise CaseError(
             Problem(
                 "short_record",
                 f"{where}: start_s",
-                f"start_s = {event.start_s:g} leaves {samples} samples of {case.resolve(event.history).name}, which "
+                f"start_s = {event.start_s:g} leaves {samples} samples of {file}, which "
                 f"lasts {grid.samples * grid.step:g} s",
                 "Cut less, or record longer",
             )

@@ -15,53 +15,62 @@ from fatigue.case import Event
 from fatigue.case.plausibility import SPEED
 from fatigue.errors import Problem
 from fatigue.life.records.history import first_kept
+from fatigue.life.records.unit_load import LoadSource
 from fatigue.pipeline.mission.record_units import FEWEST_SAMPLES
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.history import TimeGrid
 from fatigue.readers.neutral.record_outline import RecordOutline
 from fatigue.shown import few, shortened
 
 SAME_STEP = 1e-6  # relative: times in single and in double precision
+OVER_TIME = ("column", "file", "values")  # ways in which a load is given that may change
 _TOLD_APART = ("share", "per_1000_km", "speed_km_h", "length_km", "start_s", "residue")  # keys of two events
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class EventRecord:
-    """The record of an event once it has been read: name of its file, its times, and what is kept of its samples."""
+class CheckedEvent:
+    """The record of an event once it has been read: name of its file, its times, and what is kept of its samples.
+
+    ``loads`` are where its unit loads come from.
+    """
 
     event: Event
     file: str
     grid: TimeGrid
     outline: RecordOutline
+    loads: tuple[LoadSource, ...]
 
     @property
     def kept_samples(self) -> int:
         """Number of samples behind the start-up."""
         return self.grid.samples - first_kept(self.grid.step, self.event.start_s)
 
-    def bends(self, modes: Modes) -> bool:
-        """Whether any mode moves that bends the body."""
-        return bool(np.any(self.outline.moves & _bends(modes)))
+    def bends(self, coordinates: Coordinates) -> bool:
+        """Whether any coordinate moves that bends the body."""
+        return bool(np.any(self.outline.moves & _bends(coordinates)))
 
-    def equals(self, other: "EventRecord") -> bool:
+    def equals(self, other: "CheckedEvent") -> bool:
         """Whether both records have the same samples."""
         mine, its = self.grid, other.grid
         alike = mine.samples == its.samples and bool(np.isclose(mine.step, its.step, rtol=SAME_STEP, atol=0.0))
         return alike and self.outline.equals(other.outline)
 
 
-def record_warnings(records: Sequence[EventRecord], modes: Modes, case_file: str) -> list[Problem]:
+def record_warnings(records: Sequence[CheckedEvent], coordinates: Coordinates, case_file: str) -> list[Problem]:
     """Warnings about the records of all events together, each kind once."""
-    moving = [record for record in records if record.bends(modes)]
+    moving = [record for record in records if record.bends(coordinates)]
+    still = [record for record in records if not record.bends(coordinates)]
     return [
-        *_at_rest_warnings([record for record in records if not record.bends(modes)]),
-        *_lost_mode_warnings(moving, modes),
+        *_at_rest_warnings(still, coordinates),
+        *_lost_mode_warnings(moving, coordinates.modes),
+        *_lost_load_warnings(moving, coordinates),
         *_same_record_warnings(moving),
         *_speed_warnings(records, case_file),
     ]
 
 
-def _speed_warnings(records: Sequence[EventRecord], case_file: str) -> list[Problem]:
+def _speed_warnings(records: Sequence[CheckedEvent], case_file: str) -> list[Problem]:
     """Warning about the speeds that lengths and durations make; a speed that is given is told with the case."""
     found = []
     for record in records:
@@ -83,25 +92,30 @@ def _speed_warnings(records: Sequence[EventRecord], case_file: str) -> list[Prob
     return [Problem("unusual_speed", where, what, remedy, len(found))]
 
 
-def _at_rest_warnings(still: Sequence[EventRecord]) -> list[Problem]:
+def _at_rest_warnings(still: Sequence[CheckedEvent], coordinates: Coordinates) -> list[Problem]:
     """Warning about events in which nothing that bends the body moves."""
     if not still:
         return []
     worst = still[0]
-    what = f"no modal coordinate changes in event '{shortened(worst.event.name)}', so it does no damage"
+    or_load = " and no unit load" if coordinates.unit_loads else ""
+    what = f"no modal coordinate{or_load} changes in event '{shortened(worst.event.name)}', so it does no damage"
     if len(still) > 1:
         what += f"; nor in {_names(still[1:])}"
     remedy = "Export the record again, with the modal coordinates of the running simulation"
-    return [Problem("event_at_rest", f"{worst.file}: columns q_", what, remedy, len(still))]
+    where = f"{worst.file}: columns q_"
+    if worst.event.history is None:
+        where = f"{worst.file}: mission.event '{shortened(worst.event.name)}'"
+        remedy = "Give values that differ: the load before and after"
+    return [Problem("event_at_rest", where, what, remedy, len(still))]
 
 
-def _lost_mode_warnings(records: Sequence[EventRecord], modes: Modes) -> list[Problem]:
+def _lost_mode_warnings(records: Sequence[CheckedEvent], modes: Modes) -> list[Problem]:
     """Warning about normal modes that stand still in a simulation in which more modes move than do not."""
     normal = np.array([kind == "normal" for kind in modes.kind])
-    found: list[tuple[EventRecord, list[int]]] = []
+    found: list[tuple[CheckedEvent, list[int]]] = []
     for record in records:
-        moves = record.outline.moves
-        lost, moving = normal & ~moves, moves & _bends(modes)
+        moves = record.outline.moves[: len(modes.mode)]
+        lost, moving = normal & ~moves, moves & _modes_that_bend(modes)
         if record.grid.samples >= FEWEST_SAMPLES and 0 < np.count_nonzero(lost) < np.count_nonzero(moving):
             found.append((record, modes.mode[lost].tolist()))
     if not found:
@@ -114,7 +128,28 @@ def _lost_mode_warnings(records: Sequence[EventRecord], modes: Modes) -> list[Pr
     return [Problem("mode_at_rest", f"{worst.file}: column q_{lost_modes[0]}", what, remedy, len(found))]
 
 
-def _same_record_warnings(records: Sequence[EventRecord]) -> list[Problem]:
+def _lost_load_warnings(records: Sequence[CheckedEvent], coordinates: Coordinates) -> list[Problem]:
+    """Warning about unit loads that are given over time or by values, and do not change."""
+    found: list[tuple[CheckedEvent, LoadSource]] = []
+    for record in records:
+        moves = record.outline.moves[len(coordinates.modes.mode) :]
+        given = zip(record.loads, moves.tolist(), strict=True)
+        found += [(record, load) for load, changes in given if load.way in OVER_TIME and not changes]
+    if not found:
+        return []
+    record, load = found[0]
+    file = record.file if load.path is None else load.path.name
+    event = shortened(record.event.name)
+    what = f"the unit load '{load.name}' does not change in event '{event}', so it makes no range"
+    if len(found) > 1:
+        others = [f"'{one.name}' in '{of.event.name}'" for of, one in found[1:]]
+        what += f"; nor do {few(others)}"
+    remedy = "Check the column, or give a constant"
+    where = f"{file}: column {load.column or 'values'}"
+    return [Problem("load_at_rest", where, what, remedy, len(found))]
+
+
+def _same_record_warnings(records: Sequence[CheckedEvent]) -> list[Problem]:
     """Warning about events with one record; those that scale it by factors of their own are told apart."""
     pairs = [
         (one, other)
@@ -125,7 +160,9 @@ def _same_record_warnings(records: Sequence[EventRecord]) -> list[Problem]:
         return []
     one, other = pairs[0]
     names = f"'{shortened(one.event.name)}' and '{shortened(other.event.name)}'"
-    files = f"both name {one.file}" if one.event.history == other.event.history else f"in {one.file} and {other.file}"
+    files = f"in {one.file} and {other.file}"
+    if one.event.history == other.event.history:
+        files = "two static load cases" if one.event.history is None else f"both name {one.file}"
     what = f"events {names} have the same record ({files}), and differ in {_difference(one.event, other.event)}"
     if len(pairs) > 1:
         more = [f"'{shortened(a.event.name)}' and '{shortened(b.event.name)}'" for a, b in pairs[1:]]
@@ -145,10 +182,14 @@ def _said(value: object) -> str:
     return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _names(records: Sequence[EventRecord]) -> str:
+def _names(records: Sequence[CheckedEvent]) -> str:
     return few([f"'{record.event.name}'" for record in records])
 
 
-def _bends(modes: Modes) -> NDArray[np.bool_]:
-    """Modes that bend the body, (m,): all but the rigid ones."""
+def _bends(coordinates: Coordinates) -> NDArray[np.bool_]:
+    """Coordinates that bend the body, (c,): all but rigid modes."""
+    return np.array([kind != "rigid" for kind in coordinates.kind])
+
+
+def _modes_that_bend(modes: Modes) -> NDArray[np.bool_]:
     return np.array([kind != "rigid" for kind in modes.kind])

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import Problem
 from fatigue.pipeline.solve.body import Body
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.modes import LOWEST_HZ, Modes
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.shown import few
@@ -24,24 +25,25 @@ FEWEST_MODES = 3  # with fewer, a test load along one axis may leave out compone
 def load_warnings(body: Body, extents: Sequence[LoadExtent]) -> list[Problem]:
     """Warnings about loads that are not there in the whole body, each kind once; ``extents`` has all its welds."""
     forces = body.case.body.nodal_forces or body.case.body.element_forces or ""
-    return list(_warnings(of_welds(list(extents)), body.modes, forces))
+    return list(_warnings(of_welds(list(extents)), body.coordinates, forces))
 
 
-def _warnings(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem]:
+def _warnings(found: LoadExtent, coordinates: Coordinates, file: str) -> Iterator[Problem]:
     zero = np.asarray(~found.largest.any(axis=1))
     if zero.all():
         what, remedy = "all forces of all welds are zero", "Request the forces of the elements at the welds"
         yield Problem("no_weld_force", file, what, remedy, zero.size)
         return
     names = np.array(found.weld, dtype=object)
-    yield from _weld_warnings(found, modes, names, zero, file)
-    yield from _mode_warnings(found, modes, file)
-    yield from _component_warnings(found, modes, names, zero, file)
-    yield from _node_warnings(found, modes, names, zero, file)
+    yield from _weld_warnings(found, coordinates, names, zero, file)
+    yield from _mode_warnings(found, coordinates.modes, file)
+    yield from _unit_load_warnings(found, coordinates)
+    yield from _component_warnings(found, coordinates, names, zero, file)
+    yield from _node_warnings(found, coordinates, names, zero, file)
 
 
 def _weld_warnings(
-    found: LoadExtent, modes: Modes, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
+    found: LoadExtent, coordinates: Coordinates, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
 ) -> Iterator[Problem]:
     """Warnings about welds without any force, or with next to none."""
     if zero.any():
@@ -49,7 +51,7 @@ def _weld_warnings(
         what += f"; so are those of {few(names[zero][1:].tolist())}" if np.count_nonzero(zero) > 1 else ""
         remedy = "Request the forces of the elements on its assessed side, or exclude the weld"
         yield Problem("no_weld_force", f"{file}: weld {names[zero][0]}", what, remedy, int(np.count_nonzero(zero)))
-    bends = np.array([kind != "rigid" for kind in modes.kind])
+    bends = np.array([kind != "rigid" for kind in coordinates.kind])
     line_force = found.line_force[~zero][:, bends] if bends.any() else found.line_force[~zero]
     median = np.median(line_force, axis=0)
     if len(line_force) < 2 or not median.any():
@@ -69,18 +71,29 @@ def _weld_warnings(
 def _mode_warnings(found: LoadExtent, modes: Modes, file: str) -> Iterator[Problem]:
     """Warning about modes that bend the body and no weld; interface modes of a body held statically bend nothing."""
     vibrates = (np.array(modes.kind) == "normal") & (modes.frequency > LOWEST_HZ)
-    lost = modes.mode[vibrates & ~found.line_force.any(axis=0)].tolist()
+    lost = modes.mode[vibrates & ~found.line_force[:, : vibrates.size].any(axis=0)].tolist()
     if lost:
         what = f"all forces of normal mode {few(lost)} are zero at every weld, so its movement does no damage"
         remedy = "Request the forces of every mode, or list the mode under ignore_modes"
         yield Problem("no_mode_force", f"{file}: mode {lost[0]}", what, remedy, len(lost))
 
 
+def _unit_load_warnings(found: LoadExtent, coordinates: Coordinates) -> Iterator[Problem]:
+    """Warning about unit loads that load no weld."""
+    of_loads = found.line_force[:, len(coordinates.modes.mode) :]
+    lost = [name for name, force in zip(coordinates.unit_loads, of_loads.T, strict=True) if not force.any()]
+    if lost:
+        names = few([f"'{name}'" for name in lost])
+        what = f"all forces of unit load {names} are zero at every weld, so it makes no stress"
+        remedy = "Request the forces of its load case, or remove the load"
+        yield Problem("no_unit_load_force", f"body.unit_load '{lost[0]}'", what, remedy, len(lost))
+
+
 def _node_warnings(
-    found: LoadExtent, modes: Modes, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
+    found: LoadExtent, coordinates: Coordinates, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
 ) -> Iterator[Problem]:
     """Warning about nodes without any force in welds that have some; a single one may be a zero of a few modes."""
-    least = 1 if modes.mode.size >= FEWEST_MODES else 2
+    least = 1 if len(coordinates) >= FEWEST_MODES else 2
     bare = np.where(zero | (found.bare < least), 0, found.bare)
     at = np.argsort(-bare, kind="stable")[: np.count_nonzero(bare)]
     if at.size:
@@ -92,7 +105,7 @@ def _node_warnings(
 
 
 def _component_warnings(
-    found: LoadExtent, modes: Modes, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
+    found: LoadExtent, coordinates: Coordinates, names: NDArray[np.object_], zero: NDArray[np.bool_], file: str
 ) -> Iterator[Problem]:
     """Warnings about moments that are zero, everywhere or in some welds, and about other components zero everywhere."""
     without = ~zero & ~found.largest[:, 3:].any(axis=1) & found.across_plate
@@ -109,7 +122,7 @@ def _component_warnings(
         remedy = "Give its moments as well: elements without rotations cannot be assessed"
         yield Problem("no_moments", f"{file}: weld {some[0]}", what, remedy, some.size)
     absent = set(np.flatnonzero(~found.largest.any(axis=0)).tolist()) - told
-    lost = sorted(absent - _left_out_by_plane_models(absent, found.flat_axis, modes.mode.size))
+    lost = sorted(absent - _left_out_by_plane_models(absent, found.flat_axis, len(coordinates)))
     if lost:
         columns = ", ".join(COMPONENTS[i] for i in lost)
         what = f"{columns} {'are' if len(lost) > 1 else 'is'} zero at every node in every mode"

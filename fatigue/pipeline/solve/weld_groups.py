@@ -9,10 +9,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import Problem
 from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.element_balance import checked_balance
+from fatigue.pipeline.solve.load_forces import (
+    LoadForces,
+    check_unit_loads,
+    element_forces_of_loads,
+    loads_by_file,
+    with_unit_loads,
+)
 from fatigue.readers.neutral.against_mesh.sides import side_warnings
-from fatigue.readers.neutral.body.mesh import Mesh
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.forces.by_group import ForcesByGroup
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
@@ -21,15 +29,19 @@ from fatigue.readers.neutral.forces.regular_check import NotRegular
 from fatigue.readers.neutral.register.registered_lines import registered_sides
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.side_by_side import in_order
-from fatigue.weld.element_forces import BALANCE_RED, ElementForces, balance, side_forces
+from fatigue.weld.element_forces import ElementForces, side_forces, together
 from fatigue.weld.line import LineStack, WeldLine, stacked
 from fatigue.weld.line_geometry import split_at_kinks
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
-OF_FILE = ("unknown_column", "unit_unused", "not_utf8")  # warnings about a whole file, told with its first block
+OF_FILE = (
+    "unknown_column",
+    "unit_unused",
+    "not_utf8",
+    "unused_forces",
+)  # warnings about a whole file, told with its first block
 BLOCK = 1024  # stations of a group whose forces are read and solved at once: some 40 MB at 100 modes
-IMBALANCE = {"error": BALANCE_RED, "warning": 1e-4}  # of the element's largest term; single precision leaves 3e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +63,7 @@ class WeldGroups:
 
     ``groups`` and ``blocks`` are slices of welds; ``blocks_of`` are the numbers of the blocks of each group, which are
     read and solved one at a time. ``forces`` are the nodal forces block by block, or the element forces, which do grow
-    with the body.
+    with the body and hold those of the unit loads. ``loads`` are the nodal forces of unit loads, file by file.
     """
 
     body: Body
@@ -59,6 +71,7 @@ class WeldGroups:
     blocks: tuple[slice, ...]
     blocks_of: tuple[range, ...]
     forces: ForcesByGroup | SideForces
+    loads: tuple[LoadForces, ...] = ()
 
     def __len__(self) -> int:
         """Count the groups."""
@@ -96,11 +109,13 @@ def check_forces(groups: WeldGroups, threads: int | None) -> None:
     """
     if not _are_regular(groups, threads):
         in_order(partial(_check_block, groups), range(len(groups.blocks)), threads)
+    if groups.loads:
+        in_order(partial(_check_loads, groups), range(len(groups.blocks)), threads)
     give_back()
 
 
 def forces_of_block(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
-    """Line parts of a block of a group, their forces (n, m, 6), and the warnings about the forces.
+    """Line parts of a block of a group, their forces (n, c, 6), and the warnings about the forces.
 
     Raises
     ------
@@ -109,12 +124,15 @@ def forces_of_block(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray
     body, files = groups.body, groups.body.case.body
     lines = body.lines.lines(groups.blocks[number])
     if isinstance(groups.forces, SideForces):
-        parts, summed = _sums_of_sides(groups.forces, lines, body.modes)
+        parts, summed = _sums_of_sides(groups.forces, lines, body.coordinates)
         return parts, summed, list(groups.forces.warnings) if number == 0 else []
     table = groups.forces.table(number)
     forces, warnings = read_nodal_forces(
         table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
+    if groups.loads:
+        forces, of_loads = with_unit_loads(groups.loads, number, lines, forces, files.force_convention, body)
+        warnings += of_loads
     of_file = OF_FILE if number else ()
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
 
@@ -137,10 +155,16 @@ def _check_block(groups: WeldGroups, number: int) -> None:
     """Check the forces of a block of a group; of element forces only the sums are left to be checked."""
     body, lines = groups.body, groups.body.lines.lines(groups.blocks[number])
     if isinstance(groups.forces, SideForces):
-        _sums_of_sides(groups.forces, lines, body.modes)
+        _sums_of_sides(groups.forces, lines, body.coordinates)
     else:
         ignored = body.case.body.ignore_modes
         check_nodal_forces(groups.forces.table(number), lines, body.modes, ignored, strict=body.strict)
+
+
+def _check_loads(groups: WeldGroups, number: int) -> None:
+    """Check the nodal forces of unit loads of a block of a group."""
+    lines = groups.body.lines.lines(groups.blocks[number])
+    check_unit_loads(groups.loads, number, lines, strict=groups.body.strict)
 
 
 def _open_groups(body: Body, group: NDArray[np.number], block: NDArray[np.number], scratch: Path) -> WeldGroups:
@@ -156,7 +180,11 @@ def _open_groups(body: Body, group: NDArray[np.number], block: NDArray[np.number
     in_file = {weld.name: source for weld, (source,) in zip(body.welds, body.register.sources, strict=True)}
     skipped = {weld.name for weld in body.in_tables} - set(in_file.values())
     forces = ForcesByGroup(body.case.resolve(path), names, scratch, in_file, skipped)
-    return WeldGroups(body, of_groups, of_blocks, blocks_of, forces)
+    loads = tuple(
+        LoadForces(axis, ForcesByGroup(body.case.resolve(file), names, scratch / f"loads-{i:03d}", in_file, skipped))
+        for i, (file, axis) in enumerate(loads_by_file(body))
+    )
+    return WeldGroups(body, of_groups, of_blocks, blocks_of, forces, loads)
 
 
 def _slices(changes: NDArray[np.bool_]) -> tuple[slice, ...]:
@@ -176,23 +204,29 @@ def _side_forces(body: Body) -> SideForces:
     weld_elements, needed = case.resolve(files.weld_elements), body.register.names
     of_tables, of_elements = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
     sides = registered_sides(of_tables, forces, body.register, body.joints)
-    warnings += of_elements + _checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh)
+    warnings += of_elements + checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh, body.coordinates)
     of_sides = forces.of(np.concatenate(list(sides.values())))
     if body.mesh is not None:
         lines_file = case.resolve(files.weld_nodes).name
         warnings += side_warnings(body.lines, of_sides, sides, body.mesh, lines_file, weld_elements.name)
+    of_loads, about_loads = element_forces_of_loads(body, np.concatenate(list(sides.values())))
+    if of_loads:
+        of_sides, warnings = together([of_sides, *of_loads]), warnings + about_loads
     return SideForces(path.name, of_sides, sides, tuple(warnings))
 
 
-def _sums_of_sides(sides: SideForces, lines: LineStack, modes: Modes) -> tuple[LineStack, NDArray[np.floating]]:
-    """Parts of lines between their kinks, and the element forces of the assessed side summed per part, (n, m, 6)."""
+def _sums_of_sides(
+    sides: SideForces, lines: LineStack, coordinates: Coordinates
+) -> tuple[LineStack, NDArray[np.floating]]:
+    """Parts of lines between their kinks, and the element forces of the assessed side summed per part, (n, c, 6)."""
     parts: list[WeldLine] = []
     summed: list[NDArray[np.float64]] = []
     for line in lines:
         split = split_at_kinks(line)
         parts += split
         where = f"{sides.file}: weld {line.weld}"
-        summed += side_forces(split, sides.elements[line.weld], sides.forces, modes.mode, where)
+        elements = sides.elements[line.weld]
+        summed += side_forces(split, elements, sides.forces, coordinates.number, where, coordinates.name)
     return stacked(parts), np.concatenate(summed)
 
 
@@ -202,23 +236,3 @@ def _of_elastic_modes(forces: ElementForces, modes: Modes) -> ElementForces:
     if not is_rigid.any() or is_rigid.all():
         return forces
     return forces.rows(~np.isin(forces.mode, modes.mode[is_rigid]))
-
-
-def _checked_balance(path: Path, forces: ElementForces, mesh: Mesh | None) -> list[Problem]:
-    """Warning of element forces that are further out of balance than single precision explains; worse is refused."""
-    xyz = None if mesh is None else dict(zip(mesh.node.tolist(), mesh.xyz, strict=True))
-    found = balance(forces, xyz)
-    moment = found.force_residual if found.moment_residual is None else found.moment_residual
-    residual = np.maximum(found.force_residual, moment)
-    worst = int(residual.argmax())
-    if residual[worst] <= IMBALANCE["warning"]:
-        return []
-    problem = Problem(
-        "imbalance",
-        f"{path.name}: element {found.element[worst]}, mode {found.mode[worst]}",
-        f"forces and moments are out of balance by {residual[worst]:.2g} of the largest",
-        "Export static element forces only (no inertia), of all corners, in global axes",
-    )
-    if residual[worst] > IMBALANCE["error"]:
-        raise DataError(problem)
-    return [problem]

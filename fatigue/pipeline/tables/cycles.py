@@ -14,6 +14,7 @@ from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.pipeline.tables.rows import FACES
@@ -138,7 +139,10 @@ def _rows(
     rated, rule = point.rated, point.rated.rule
     r = bending_ratio(dm, db)
     size = rated.size(np.array([point.thickness]))
-    f_M = rule.mean_stress_factor(minimum, minimum + cycles.range)
+    modal = load.stress_factor * np.stack([point.membrane, point.bending])
+    of_faces = face_offset(modal[:1], modal[1:], load)
+    offset = 0.0 if of_faces is None else float(of_faces[0, point.face])
+    f_M = rule.mean_stress_factor(minimum + offset, minimum + offset + cycles.range)
     dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
 
     n = len(cycles.range)
@@ -154,7 +158,7 @@ def _rows(
         "start_s": start + step * cycles.start,
         "end_s": start + step * cycles.end,
         "range_MPa": cycles.range,
-        "mean_MPa": cycles.mean,
+        "mean_MPa": cycles.mean + offset,
         "count": cycles.count,
         "membrane_range_MPa": dm,
         "bending_range_MPa": db,

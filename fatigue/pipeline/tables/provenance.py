@@ -7,6 +7,7 @@ from typing import Any
 
 from fatigue.errors import Problem
 from fatigue.pipeline.count.worst import ABOVE
+from fatigue.pipeline.mission.gravity import HeldGravity
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
@@ -31,10 +32,12 @@ def provenance_record(
     folder: Path,
     inputs: Sequence[dict[str, Any]],
     warnings: Sequence[Problem],
+    gravity: Sequence[HeldGravity] = (),
 ) -> dict[str, Any]:
     """Everything an assessor needs to trace or repeat a result; the same inputs give the same record.
 
-    ``stations`` are numbers of stations by the tier of screening that settled them. ``case_path`` leads from the result
+    ``stations`` are numbers of stations by the tier of screening that settled them, ``gravity`` is what the mean of q
+    of each event holds of the dead load. ``case_path`` leads from the result
     folder to the case file, so that both can be moved together.
     """
     case, plan = body.case, work.plan
@@ -52,6 +55,7 @@ def provenance_record(
             "frequency_hz": body.modes.frequency.tolist(),
             "kind": list(body.modes.kind),
         },
+        "unit_loads": [load.model_dump() for load in case.body.unit_load],
         "force_convention": case.body.force_convention,
         "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
         "rules": {
@@ -65,6 +69,7 @@ def provenance_record(
             "bending_ratio": "of each cycle, from its own two instants; one rms ratio per event for the comparison",
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
+            "mean_of_q": {event.name: case.mean_of_q(event) for event in case.mission.event},
             "upsample": case.counting.upsample,
             "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
             "screening": _screening_record(work, stations),
@@ -86,6 +91,7 @@ def provenance_record(
                 for p, event in zip(plan.passes, case.mission.event, strict=True)
             ],
         },
+        "gravity": [one.as_record() for one in gravity],
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
     }

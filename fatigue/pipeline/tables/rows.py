@@ -4,16 +4,25 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+import pyarrow as pa
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.result import OF_EVENT, GroupResult
 from fatigue.pipeline.solve.stations import Stations
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.results import coded
 from fatigue.spectrum.trust import VERDICTS
 
 FACES = ("top", "bottom")
+
+
+def coordinate_columns(coordinates: Coordinates, repeat: int) -> dict[str, Any]:
+    """Key columns of all coordinates in turn, so many times: ``mode``, or ``unit_load`` where it is one."""
+    modes, loads = len(coordinates.modes.mode), coordinates.unit_loads
+    mode = pa.array(np.tile(coordinates.number, repeat), mask=np.tile(~coordinates.is_mode, repeat))
+    code = np.concatenate([np.full(modes, -1), np.arange(len(loads))])
+    return {"mode": mode, "unit_load": coded(np.tile(code, repeat), loads)}
 
 
 def point_columns(stations: Stations, repeat: int = 1, some: slice = slice(None)) -> dict[str, Any]:
@@ -82,16 +91,17 @@ def damage_rows(stations: Stations, result: GroupResult, plan: Plan, some: slice
     }
 
 
-def stress_rows(stations: Stations, modes: NDArray[np.int64], some: slice) -> Mapping[str, Any]:
-    """Rows of ``structural_stress.parquet`` of some stations: the five components of every mode."""
+def stress_rows(stations: Stations, coordinates: Coordinates, some: slice) -> Mapping[str, Any]:
+    """Rows of ``structural_stress.parquet`` of some stations: the five components of every mode and unit load."""
+    count = len(coordinates)
     rows, ends = np.arange(len(stations))[some], stations.raw_ends
     changed, of_changed = np.isin(rows, ends.rows), np.isin(ends.rows, rows)
     columns: dict[str, Any] = {
-        "weld": coded(np.repeat(stations.weld[some], len(modes)), stations.names),
-        "part": np.repeat(stations.part[some], len(modes)),
-        "order": np.repeat(stations.order[some], len(modes)),
-        "node": np.repeat(stations.node[some], len(modes)),
-        "mode": np.tile(modes, changed.size),
+        "weld": coded(np.repeat(stations.weld[some], count), stations.names),
+        "part": np.repeat(stations.part[some], count),
+        "order": np.repeat(stations.order[some], count),
+        "node": np.repeat(stations.node[some], count),
+        **coordinate_columns(coordinates, changed.size),
     }
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
         treated = getattr(stations.treated, component)[some]

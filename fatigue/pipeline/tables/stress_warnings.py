@@ -18,6 +18,7 @@ from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.tables.cycles import KeptPoint, kept_point
 from fatigue.pipeline.tables.rows import FACES
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.shown import few, shortened
 
 MOST = 3000.0  # [MPa] twice the yield strength of the strongest steels that are welded, 1500 MPa
@@ -64,11 +65,11 @@ class StressExtent:
             self.counted, self.event = float(ranges[event, station, face]), event
             self.point = kept_point(model, WorstPoint(int(stations.weld[station]), station, face))
 
-    def warnings(self, loads: Sequence[EventLoad], modes: NDArray[np.int64], files: Sequence[str]) -> list[Problem]:
+    def warnings(self, loads: Sequence[EventLoad], coordinates: Coordinates, files: Sequence[str]) -> list[Problem]:
         """Warnings about the stress ranges of the whole body; ``files`` hold the records of the events."""
         if self.point is not None and self.welds is not None:
             ordered = sorted(self.welds, key=lambda name: -(self.welds or {})[name])
-            return [_beyond_metal_doubt(self, self.point, ordered, loads[self.event], modes, files[self.event])]
+            return [_beyond_metal_doubt(self, self.point, ordered, loads[self.event], coordinates, files[self.event])]
         if not 0.0 < self.largest < LEAST:
             return []
         what = f"no stress range of the body is above {self.largest:.2g} MPa, where {LEAST:g} MPa does no damage yet"
@@ -77,7 +78,7 @@ class StressExtent:
 
 
 def _beyond_metal_doubt(
-    extent: StressExtent, point: KeptPoint, welds: Sequence[str], load: EventLoad, modes: NDArray[np.int64], file: str
+    extent: StressExtent, point: KeptPoint, welds: Sequence[str], load: EventLoad, coordinates: Coordinates, file: str
 ) -> Problem:
     """Warning about the largest range: its point, event, instants and mode."""
     sign = 1.0 if point.face == 0 else -1.0
@@ -87,17 +88,18 @@ def _beyond_metal_doubt(
     high, low = int(stress.argmax()), int(stress.argmin())
     change = modal * (q[:, high : high + 1].astype(np.float64) - q[:, low : low + 1])[:, 0]
     mode = int(np.abs(change).argmax())
+    column, name_of_mode = coordinates.column[mode], coordinates.name(int(coordinates.number[mode]))
     at = [load.counted.start + load.counted.step * i for i in (high, low)]
     name = shortened(load.counted.event)
     what = f"the stress range is {extent.counted:.4g} MPa, no metal bears {MOST:g}: node {point.node}, "
-    what += f"{FACES[point.face]} face, event '{name}', from {at[1]:.6g} s to {at[0]:.6g} s, mode {modes[mode]} makes "
+    what += f"{FACES[point.face]} face, event '{name}', from {at[1]:.6g} s to {at[0]:.6g} s, {name_of_mode} makes "
     what += f"{change[mode] / change.sum():.0%} of it"
     what += f"; {extent.points} points of {few(welds)} are above" if extent.points > 1 else ""
     alone = [i for i in (high, low) if _stands_alone(stress, i)]
     if alone:
         when = load.counted.start + load.counted.step * alone[0]
         what += f"; the sample at {when:.6g} s stands alone"
-        remedy = f"Look at q_{modes[mode]} there in {file}: this looks like one damaged value"
+        remedy = f"Look at {column} there in {file}: this looks like one damaged value"
     else:
         remedy = "Check the units of forces, coordinates of the modes and thickness (N, mm, MPa), and the mode's scale"
     return Problem("stress_beyond_metal", f"weld {point.weld}", what, remedy, extent.points)

@@ -1,10 +1,12 @@
 """Histories of modal coordinates in the neutral format: ``time_s`` and one column ``q_<mode>`` for every mode.
 
+Columns ``u_<name>`` are unit loads, further coordinates behind the modes.
+
 A short record is read column by column, a long one block of rows after block, see ``long_history``.
 """
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,10 +41,14 @@ def read_history(
     *,
     strict: bool,
     scratch: Path | None = None,
+    loads: Sequence[str | None] = (),
+    single: bool = True,
 ) -> tuple[ModalHistory, list[Problem]]:
-    """Read the whole record of one event, (m, t) in the order of ``modes``; float32 where the file has float32.
+    """Read the whole record of one event, (c, t) in the order of ``modes``; float32 where the file has float32.
 
     The step is (last time - first time) / (samples - 1). The samples go to the file ``scratch``, if one is given.
+    Behind the modes comes a row for each of ``loads``: a column of the file, or zeros for None. Not ``single``: in
+    double precision whatever the file has.
 
     Raises
     ------
@@ -52,16 +58,16 @@ def read_history(
     """
     if is_long(path):
         try:
-            return _read_long(path, event, modes, ignore_modes, strict, scratch)
+            return _read_long(path, event, modes, ignore_modes, strict, scratch, loads, single)
         except Irregular:
             pass  # what is wrong is told below
-    table, names, grid = _open(path, modes, ignore_modes, strict)
-    kind, shape = _precision(table, names), (modes.size, grid.samples)
-    q: Samples = np.empty(shape, dtype=kind) if scratch is None else create_spool(scratch, shape, kind)
-    for i, name in enumerate(names):
+    table, names, grid = _open(path, modes, ignore_modes, strict, _given(loads))
+    kind, shape = _precision(table, names, single), (modes.size + len(loads), grid.samples)
+    q: Samples = np.zeros(shape, dtype=kind) if scratch is None else create_spool(scratch, shape, kind)
+    for i, name in zip(_rows(modes.size, loads), names, strict=True):
         q[i : i + 1, :] = table.numbers(name)[None]
     table.refuse()
-    return ModalHistory(event=event, mode=modes, q=q, step=grid.step, start=grid.start), table.warnings
+    return ModalHistory(event, coordinate_numbers(modes, len(loads)), q, grid.step, grid.start), table.warnings
 
 
 def check_history(
@@ -71,24 +77,27 @@ def check_history(
     *,
     strict: bool,
     outline: RecordOutline,
+    loads: Sequence[str | None] = (),
 ) -> tuple[TimeGrid, list[Problem]]:
     """Times of a record that is read, checked and not kept; raises what ``read_history`` raises.
 
-    ``outline`` takes in the samples, all of a mode or some of all modes at a time.
+    ``outline`` takes in the samples, all of a mode or some of all modes at a time; ``loads`` are as there, and of those
+    that are None nothing is taken in.
     """
+    rows = _rows(modes.size, loads)
     if is_long(path):
         try:
-            table, names = _long(path, modes, ignore_modes, strict)
+            table, names = _long(path, modes, ignore_modes, strict, _given(loads))
             times = Times()
             for block in blocks(table, names, _precision(table, names)):
                 times.add(block.time)
-                for i, samples in enumerate(block.q):
+                for i, samples in zip(rows, block.q, strict=True):
                     outline.add(i, samples, times.mean_step)
             return TimeGrid(times.samples, times.step(STEP_TOLERANCE), times.first), table.warnings
         except Irregular:
             outline.forget()  # what is wrong is told below
-    table, names, grid = _open(path, modes, ignore_modes, strict)
-    for i, name in enumerate(names):
+    table, names, grid = _open(path, modes, ignore_modes, strict, _given(loads))
+    for i, name in zip(rows, names, strict=True):
         outline.add(i, table.numbers(name), grid.step)
     table.refuse()
     return grid, table.warnings
@@ -101,55 +110,87 @@ def _read_long(
     ignore_modes: Collection[int],
     strict: bool,
     scratch: Path | None,
+    loads: Sequence[str | None],
+    single: bool,
 ) -> tuple[ModalHistory, list[Problem]]:
     """Read a long record block by block."""
-    table, names = _long(path, modes, ignore_modes, strict)
-    kind, times = _precision(table, names), Times()
+    table, names = _long(path, modes, ignore_modes, strict, _given(loads))
+    kind, times = _precision(table, names, single), Times()
+    rows, count = _rows(modes.size, loads), modes.size + len(loads)
     if scratch is None:
         parts = []
         for block in blocks(table, names, kind):
             times.add(block.time)
-            parts.append(block.q)
+            parts.append(_spread(block.q, rows, count))
         q: Samples = np.concatenate(parts, axis=1)
     else:
-        with SpoolWriter(scratch, modes.size, kind) as writer:
+        with SpoolWriter(scratch, count, kind) as writer:
             for block in blocks(table, names, kind):
                 times.add(block.time)
-                writer.append(block.q)
+                writer.append(_spread(block.q, rows, count))
         q = writer.spool()
-    return ModalHistory(event, modes, q, times.step(STEP_TOLERANCE), times.first), table.warnings
+    history = ModalHistory(event, coordinate_numbers(modes, len(loads)), q, times.step(STEP_TOLERANCE), times.first)
+    return history, table.warnings
 
 
-def _long(path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool) -> tuple[Table, list[str]]:
+def _given(loads: Sequence[str | None]) -> list[str]:
+    """Names of the columns of unit loads that are read."""
+    return [name for name in loads if name is not None]
+
+
+def _rows(modes: int, loads: Sequence[str | None]) -> list[int]:
+    """Rows of q that columns are read for: those of all modes, and those of unit loads with a column."""
+    return [*range(modes), *(modes + i for i, name in enumerate(loads) if name is not None)]
+
+
+def coordinate_numbers(modes: NDArray[np.int64], loads: int) -> NDArray[np.int64]:
+    """Ids of the modes, and numbers for unit loads behind them, as in ``Coordinates``."""
+    return np.concatenate([modes, modes.max() + 1 + np.arange(loads)]) if loads else modes
+
+
+def _spread(q: NDArray[np.floating], rows: Sequence[int], count: int) -> NDArray[np.floating]:
+    """Rows at their places among so many, the others zero."""
+    if len(rows) == count:
+        return q
+    spread = np.zeros((count, q.shape[1]), q.dtype)
+    spread[rows] = q
+    return spread
+
+
+def _long(
+    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool, loads: Sequence[str]
+) -> tuple[Table, list[str]]:
     """Open a long table and match its columns with the modes; what is not right is left to ``_open``."""
     table = long_table(path)
-    names = _columns(table, modes, ignore_modes, strict)
+    names = _columns(table, modes, ignore_modes, strict, loads)
     if table.problems:
         raise Irregular
     return table, names
 
 
-def _precision(table: Table, names: Collection[str]) -> np.dtype[np.floating]:
+def _precision(table: Table, names: Collection[str], single: bool = True) -> np.dtype[np.floating]:
     """Single precision where all columns are in it."""
-    return np.dtype(np.float32) if table.single_precision(names) else np.dtype(np.float64)
+    return np.dtype(np.float32) if single and table.single_precision(names) else np.dtype(np.float64)
 
 
 def _open(
-    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool
+    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool, loads: Sequence[str]
 ) -> tuple[Table, list[str], TimeGrid]:
     """Open a table, match its columns with the modes, and check its times."""
     table = open_table(path)
-    names = _columns(table, modes, ignore_modes, strict)
+    names = _columns(table, modes, ignore_modes, strict, loads)
     table.refuse()
     time = table.numbers("time_s").astype(np.float64)
     table.refuse()
-    return table, names, TimeGrid(table.rows, _step(table, time), float(time[0]))
+    return table, names, TimeGrid(table.rows, uniform_step(table, time), float(time[0]))
 
 
-def _columns(table: Table, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool) -> list[str]:
-    """Names of the columns of the modes; what is wrong with the head of the table is noted."""
+def _columns(
+    table: Table, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool, loads: Sequence[str]
+) -> list[str]:
+    """Names of the columns of modes and unit loads; what is wrong with the head of the table is noted."""
     _check_statements(table)
-    names = _mode_columns(table, modes, ignore_modes)
+    names = [*_mode_columns(table, modes, ignore_modes), *loads]
     ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
     table.expect(("time_s", *names), ignored, strict=strict)
     return names
@@ -213,7 +254,7 @@ def _mode_columns(table: Table, modes: NDArray[np.int64], ignore_modes: Collecti
     return [columns[mode] for mode in modes.tolist() if mode in columns]
 
 
-def _step(table: Table, time: NDArray[np.float64]) -> float:
+def uniform_step(table: Table, time: NDArray[np.float64]) -> float:
     """Uniform time step [s]."""
     if time.size < 2:
         raise DataError(Problem("few_samples", table.path.name, "the history has one sample", "Give at least 2"))

@@ -72,10 +72,16 @@ class RecordOutline:
     columns: list[_Column] = field(default_factory=list)
 
     def add(self, mode: int, values: NDArray[Any], step: float) -> None:
-        """Take in the next samples of the mode of number ``mode``, ``step`` [s] apart."""
-        if mode == len(self.columns):
-            self.columns.append(_Column())
-        self.columns[mode].add(values, first_kept(step, self.start_s) if step > 0.0 else 0)
+        """Take in the next samples of the coordinate of number ``mode``, ``step`` [s] apart."""
+        self._column(mode).add(values, first_kept(step, self.start_s) if step > 0.0 else 0)
+
+    def add_kept(self, mode: int, values: NDArray[Any]) -> None:
+        """Take in samples of a coordinate that has no start-up."""
+        self._column(mode).add(values, 0)
+
+    def _column(self, mode: int) -> _Column:
+        self.columns += [_Column() for _ in range(len(self.columns), mode + 1)]
+        return self.columns[mode]
 
     def forget(self) -> None:
         """Begin again: the record is read anew."""

@@ -67,11 +67,15 @@ def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, De
     steps = {}
     with TemporaryDirectory(prefix="fatigue-") as scratch:
         for event in inputs.case.mission.event:
-            record = stress.event_record(inputs.history(event, Path(scratch) / "record"), event.stress_factor)
+            history = inputs.history(event, Path(scratch) / "record")
+            removed = np.full(len(history.mode), inputs.case.mean_of_q(event) == "remove")
+            record = stress.event_record(history, event.stress_factor, removed=removed)
             steps[event.name] = record.history.step
             upper = upper_hz(result, inputs, record.history.step)
             for name, weld in welds.items():
-                spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
+                spectrum = None
+                if event.history is not None:
+                    spectrum = stress.spectrum(record, weld.worst, inputs.case.spectrum.segment_s, upper)
                 if spectrum is not None:
                     details[name].spectra.append(spectrum)
                 if weld.governing_event == event.name:

@@ -59,6 +59,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
         Rule(
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
+        *_level_rule(chosen),
         Rule("Upsampling before counting", str(chosen["upsample"]), "case file: counting.upsample"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(
@@ -92,11 +93,23 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("Thickness in ΔS", _thickness(chosen["thickness_rule"])),
         ("Below the knee", _extension(chosen)),
         ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
+        *((rule.subject, rule.choice) for rule in _level_rule(chosen)),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
+
+
+def _level_rule(chosen: Mapping[str, Any]) -> list[Rule]:
+    """Which events have the mean of their modal coordinates removed; nothing where none has."""
+    of_event: Mapping[str, str] = chosen.get("mean_of_q", {})
+    removed = [event for event, rule in of_event.items() if rule == "remove"]
+    if not removed:
+        return []
+    where = "in all events" if len(removed) == len(of_event) else f"in {', '.join(removed)}"
+    choice = f"removed {where}: means and stress ratios are those about the static loads that are given"
+    return [Rule("Mean of q", choice, "case file: mean_of_q")]
 
 
 def _curve_rule(name: str, curve: Mapping[str, Any]) -> Rule:

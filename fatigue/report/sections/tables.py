@@ -184,6 +184,32 @@ def event_table(
     return PageTable("events", headings, tuple(rows))
 
 
+def gravity_table(gravity: Sequence[Mapping[str, Any]]) -> PageTable | None:
+    """What the mean of q of every event holds of the dead load; None without a gravity load."""
+    if not gravity:
+        return None
+    rows = [
+        (
+            text(one["event"]),
+            text(one["verdict"]),
+            num(one["beta"]),
+            num(one["cos"]),
+            text("removed" if one["mean_of_q"] == "remove" else "kept"),
+            num(one["given"]),
+        )
+        for one in gravity
+    ]
+    headings = (
+        Heading("event", numeric=False),
+        Heading("dead load in the mean of q", numeric=False),
+        Heading("times the gravity load", "-"),
+        Heading("cosine", "-"),
+        Heading("mean of q", numeric=False),
+        Heading(f"{gravity[0]['unit_load']} given"),
+    )
+    return PageTable("gravity", headings, tuple(rows))
+
+
 def mode_table(modes: Mapping[str, Any]) -> PageTable:
     """The modes used."""
     rows = tuple(

@@ -125,13 +125,14 @@ def _record_figures(
     if event is None or detail.envelope is None or detail.variance_share is None:
         return []
     colours = figures.event_colours([e["event"] for e in result.events])
-    names, natural = _mode_names(result.record["modes"])
+    names, natural = _mode_names(result)
     history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
     close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
     caption = f"Stress in event {wording.short(event)}{close_by}"
     shown = [figs.add("history", history, caption, wide=True)]
     leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
-    parts = {result.record["modes"]["used"][k]: float(detail.variance_share[k]) for k in leading}
+    numbers = list(result.coordinates)
+    parts = {numbers[k]: float(detail.variance_share[k]) for k in leading}
     if modes_too:
         title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
         bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
@@ -147,7 +148,7 @@ def _record_figures(
 
 def _why_figures(result: ShownResult, why: Why, event: str, figs: Figures) -> list[Shown]:
     """Figures of the modes, frequency bands and places that make the damage of a weld's worst point."""
-    names, natural = _mode_names(result.record["modes"])
+    names, natural = _mode_names(result)
     shown = []
     modes = mode_shares(why).head(MODES_DRAWN)
     title = "share of the damage, all events [%]"
@@ -165,9 +166,9 @@ def _why_figures(result: ShownResult, why: Why, event: str, figs: Figures) -> li
     return shown
 
 
-def _mode_names(modes: Mapping[str, Any]) -> tuple[dict[int, str], dict[int, float]]:
-    """Name of every mode, and the natural frequencies [Hz] of the normal ones."""
-    names, natural = {}, {}
+def _mode_names(result: ShownResult) -> tuple[dict[int, str], dict[int, float]]:
+    """Name of every mode and unit load, and the natural frequencies [Hz] of the normal modes."""
+    modes, names, natural = result.record["modes"], dict(result.coordinates), {}
     for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True):
         names[mode] = f"mode {mode}, {frequency:.4g} Hz" + ("" if kind == "normal" else f", {kind}")
         if kind == "normal" and frequency > 0.0:

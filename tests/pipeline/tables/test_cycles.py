@@ -41,10 +41,10 @@ def model(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def load():
-    """Record of one event in single precision that starts at 3 s, stress factor 1.5."""
+    """Record of one event in single precision that starts at 3 s, stress factor 1.5, with constants beside it."""
     q = np.random.default_rng(4).normal(0.0, 20.0, (3, 9000)).cumsum(axis=1).astype(np.float32)
     history = ModalHistory("run", np.array([1, 2, 7]), OnlySlices(q), 0.01, 3.0)
-    return SimpleNamespace(counted=history, stress_factor=1.5, residue="repeat")
+    return SimpleNamespace(counted=history, stress_factor=1.5, residue="repeat", offset=np.array([20.0, -1.0, 3.0]))
 
 
 @pytest.mark.parametrize("samples_at_once", [1, 40_000, 4_000_000])
@@ -59,6 +59,9 @@ def test_cycles_are_those_of_each_point_alone(model, load, monkeypatch, samples_
         expected = rainflow(stress, "repeat")
         assert rows["start_s"] == pytest.approx(3.0 + 0.01 * expected.start)
         assert rows["range_MPa"] == pytest.approx(expected.range, rel=1e-9)
+        side = 1.0 - 2.0 * point.face
+        constant = 1.5 * (treated.membrane + side * treated.bending)[point.station] @ load.offset
+        assert rows["mean_MPa"] == pytest.approx(expected.mean + constant, rel=1e-9)
         across = np.abs(bending[expected.end] - bending[expected.start])
         assert rows["bending_range_MPa"] == pytest.approx(across, rel=1e-9)
 

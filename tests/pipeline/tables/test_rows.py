@@ -84,7 +84,7 @@ def test_damage_lists_the_events_of_a_point_one_after_the_other(model, tmp_path)
 
 def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path):
     """All five components as solved and with the ends treated."""
-    rows = written(tmp_path, "structural_stress", stress_rows(model.stations, model.modes.mode, slice(None)))
+    rows = written(tmp_path, "structural_stress", stress_rows(model.stations, model.body.coordinates, slice(None)))
     assert list(rows["mode"]) == [1, 2, 7] * len(model.stations)
     assert list(rows["order"]) == list(np.repeat(model.stations.order, 3))
     for component in ("membrane", "bending", "in_plane_shear", "twist_shear", "transverse_shear"):
@@ -92,5 +92,7 @@ def test_stress_lists_the_modes_of_a_station_one_after_the_other(model, tmp_path
         raw = getattr(model.stations.treated, component).copy()
         raw[model.stations.raw_ends.rows] = getattr(model.stations.raw_ends.stress, component)
         assert list(rows[f"{component}_raw_MPa"]) == list(raw.ravel())
-    part = written(tmp_path / "part", "structural_stress", stress_rows(model.stations, model.modes.mode, slice(5, 9)))
+    part = written(
+        tmp_path / "part", "structural_stress", stress_rows(model.stations, model.body.coordinates, slice(5, 9))
+    )
     pd.testing.assert_frame_equal(part, rows[15:27].reset_index(drop=True))

@@ -95,15 +95,25 @@ def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) ->
             again[name] -= again["mean"]
         found[doubtful] = again[wanted]
     count = _evaluated(found, block, stress, record.q.shape[1], rule)
-    unsuited = found["crowded"]
+    unsuited, tense = found["crowded"], np.zeros((len(stress), 2), np.bool_)
     if rule.yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
-        unsuited |= 2.0 * (block.mean + block.scale * found["maximum"]) >= (1.0 - 1e-6) * rule.yield_MPa
         count = replace(count, damage_mean_stress=count.damage.copy())
+        highest = block.mean + block.scale * found["maximum"]
+        unsuited |= 2.0 * highest >= (1.0 - 1e-6) * rule.yield_MPa
+        tense = 2.0 * (highest + stress.level) >= (1.0 - 1e-6) * rule.yield_MPa
+        unsuited |= tense & rule.mean_stress
     rows = np.flatnonzero(unsuited.any(axis=1))
     if rows.size:
         exact = count_chunks(stress.at(rows), record, rule)
         for field in fields(BlockCount):
             getattr(count, field.name)[rows] = getattr(exact, field.name)
+    tense[rows] = False
+    rows = np.flatnonzero(tense.any(axis=1))
+    if rows.size:  # in tension by the offset, on which nothing else may depend
+        exact = count_chunks(stress.at(rows), record, rule)
+        counted = exact.damage > 0.0
+        factor = np.divide(exact.damage_mean_stress, exact.damage, out=np.ones_like(exact.damage), where=counted)
+        count.damage_mean_stress[rows] *= factor
     return count
 
 
@@ -179,7 +189,8 @@ def _evaluated(
     I_same = rule.ratio_factor(stress.same_ratio)
     nan = np.full(stress.same_ratio.shape, np.nan)
     turning = found["first_up"] >= 0
-    minimum, maximum = block.mean + block.scale * found["minimum"], block.mean + block.scale * found["maximum"]
+    mean = block.mean + stress.level
+    minimum, maximum = mean + block.scale * found["minimum"], mean + block.scale * found["maximum"]
     return BlockCount(
         damage=to_damage * found["damage"],
         damage_same_ratio=to_damage * I_same**-k * found["power_sum"],
@@ -190,7 +201,7 @@ def _evaluated(
         max_range=block.scale * (found["maximum"] - found["minimum"]),
         r_largest=np.divide(minimum, maximum, out=nan.copy(), where=turning & (maximum != 0.0)),
         max_equivalent_range=block.scale * size * found["largest"] ** (1.0 / k),
-        mean=block.mean,
+        mean=mean,
         kurtosis=np.divide(samples * found["fourth"], found["second"] ** 2, out=nan.copy(), where=turning),
         histogram=np.zeros((len(stress), 2, 0, 2)),
     )

@@ -29,6 +29,11 @@ class Coordinates:
         first = int(self.modes.mode.max()) + 1
         return np.concatenate([self.modes.mode, np.arange(first, first + len(self.unit_loads))])
 
+    def name(self, number: int) -> str:
+        """Name of the coordinate of a number, for messages: ``mode 7`` or ``unit load gravity``."""
+        at = int(np.flatnonzero(self.number == number)[0])
+        return f"mode {number}" if self.is_mode[at] else f"unit load {self.unit_load[at]}"
+
     @property
     def column(self) -> list[str]:
         """(c,) names of columns in histories: ``q_<mode>`` and ``u_<name>``."""

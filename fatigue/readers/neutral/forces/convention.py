@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.unit_loads import UnitLoads
 
 Convention: TypeAlias = Literal["on_element", "on_node"]
 COMPONENTS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
 
 
-def on_element_factor(modes: Modes, convention: Convention) -> NDArray[np.float64]:
-    """Factor of each mode (m,) that turns the forces of a file into on_element forces of the mode as simulated."""
+def on_element_factor(modes: Modes | UnitLoads, convention: Convention) -> NDArray[np.float64]:
+    """Factor of each mode or unit load (m,) that turns forces of a file into on_element forces as simulated."""
     return modes.scale if convention == "on_element" else -modes.scale
 
 

@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 
 from fatigue.errors import Problem
 from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.unit_loads import UnitLoads, key_column
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.forces.convention import COMPONENTS, Convention, on_element, on_element_factor
+from fatigue.readers.neutral.forces.load_names import row_numbers
 from fatigue.readers.neutral.forces.mistakes import note_unknown_modes
 from fatigue.readers.neutral.forces.placement import positions
 from fatigue.readers.neutral.tables import open_table
@@ -17,18 +19,21 @@ from fatigue.weld.element_forces import ElementForces
 
 
 def read_element_forces(
-    path: Path, modes: Modes, convention: Convention, ignore_modes: Collection[int], *, strict: bool
+    path: Path, modes: Modes | UnitLoads, convention: Convention, ignore_modes: Collection[int], *, strict: bool
 ) -> tuple[ElementForces, list[Problem]]:
     """Read ``mode, node, element, fx_N ... mz_Nmm``, one row per element corner, as forces on the element.
+
+    Of unit loads the column is ``unit_load`` in place of ``mode``; rows of loads that are not asked for are skipped.
 
     Raises
     ------
     DataError
         a row given twice, an unknown mode, a value that is no finite number
     """
-    table = open_table(path)
-    table.expect(("mode", "node", "element", *COMPONENTS), (), strict=strict)
-    mode, node, element = (table.integers(name) for name in ("mode", "node", "element"))
+    table = open_table(path, texts=("unit_load",))
+    table.expect((key_column(modes), "node", "element", *COMPONENTS), (), strict=strict)
+    mode, ignore_modes = row_numbers(table, modes, ignore_modes)
+    node, element = table.integers("node"), table.integers("element")
     column = positions(modes.mode, mode)
     note_unknown_modes(table, mode, column, ignore_modes)
     table.unique({"mode": mode, "node": node, "element": element})

@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 from fatigue.errors import DataError
 from fatigue.readers.neutral.columns import DAMAGE, damaged
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
-from fatigue.readers.neutral.forces.source import Source, coded, force_columns, trimmed
+from fatigue.readers.neutral.forces.source import TEXTS, Source, coded, force_columns, trimmed
 from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds
 from fatigue.readers.neutral.forces.weld_codes import WeldCodes
 
@@ -26,7 +26,8 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
     header = open_nodal_forces(path)
     columns = force_columns(header)
     weld = next(stored for stored, name in columns.items() if name == "weld")
-    file = pq.ParquetFile(path, read_dictionary=[weld], pre_buffer=False)
+    texts = [stored for stored, name in columns.items() if name in TEXTS]
+    file = pq.ParquetFile(path, read_dictionary=texts, pre_buffer=False)
     rows = tuple(file.metadata.row_group(i).num_rows for i in range(file.num_row_groups))
     if max(rows) > most_rows:
         return None
@@ -47,7 +48,7 @@ def in_place(path: Path, welds: WeldCodes, most_rows: int) -> Source | None:
         return coded(trimmed(table, columns), welds, int(first[bucket]))
 
     def batches(bucket: int, at_once: int) -> Iterator[pa.RecordBatch]:
-        own = pq.ParquetFile(path, metadata=file.metadata, read_dictionary=[weld], pre_buffer=False)
+        own = pq.ParquetFile(path, metadata=file.metadata, read_dictionary=texts, pre_buffer=False)
         for batch in own.iter_batches(at_once, [bucket], list(columns), use_threads=False):
             batch.validate(full=True)
             yield trimmed(batch, columns)

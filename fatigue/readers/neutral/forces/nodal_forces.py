@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from fatigue.errors import Problem
 from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.unit_loads import UnitLoads, key_column
 from fatigue.readers.neutral.forces.convention import COMPONENTS, Convention, on_element, on_element_factor
+from fatigue.readers.neutral.forces.load_names import row_numbers
 from fatigue.readers.neutral.forces.mistakes import refuse_misplaced
 from fatigue.readers.neutral.forces.placement import Grid, RowKeys, Slots, grid, slots
 from fatigue.readers.neutral.tables import Table, open_table
@@ -17,14 +19,14 @@ from fatigue.weld.line import LineStack
 
 
 def open_nodal_forces(path: Path) -> Table:
-    """Open a table of modal nodal forces."""
-    return open_table(path, texts=("weld",))
+    """Open a table of nodal forces of modes or unit loads."""
+    return open_table(path, texts=("weld", "unit_load"))
 
 
 def read_nodal_forces(
     table: Table,
     lines: LineStack,
-    modes: Modes,
+    modes: Modes | UnitLoads,
     convention: Convention,
     ignore_modes: Collection[int],
     *,
@@ -32,6 +34,7 @@ def read_nodal_forces(
 ) -> tuple[NDArray[Any], list[Problem]]:
     """Read ``weld, node, mode, fx_N ... mz_Nmm``: the forces on the elements of all lines, (n, m, 6) [N, N mm].
 
+    Of unit loads the column is ``unit_load`` in place of ``mode``; rows of loads that are not asked for are skipped.
     ``table`` is a whole file, or the rows of the lines' welds in it. Nodes are in the order of the lines, modes in that
     of ``modes``; float32 where the file has float32. Rows of ignored modes and of nodes that are not on the weld's line
     are skipped.
@@ -51,7 +54,7 @@ def read_nodal_forces(
 
 
 def check_nodal_forces(
-    table: Table, lines: LineStack, modes: Modes, ignore_modes: Collection[int], *, strict: bool
+    table: Table, lines: LineStack, modes: Modes | UnitLoads, ignore_modes: Collection[int], *, strict: bool
 ) -> None:
     """Refuse what ``read_nodal_forces`` refuses, in the same words, and keep nothing."""
     _placed(table, lines, modes, ignore_modes, strict=strict)
@@ -61,11 +64,12 @@ def check_nodal_forces(
 
 
 def _placed(
-    table: Table, lines: LineStack, modes: Modes, ignore_modes: Collection[int], *, strict: bool
+    table: Table, lines: LineStack, modes: Modes | UnitLoads, ignore_modes: Collection[int], *, strict: bool
 ) -> Grid | Slots:
     """Place of every row; a table is refused unless every (station, mode) has exactly one."""
-    table.expect(("weld", "node", "mode", *COMPONENTS), (), strict=strict)
-    keys = RowKeys(*table.groups("weld"), table.integers("node"), table.integers("mode"))
+    table.expect(("weld", "node", key_column(modes), *COMPONENTS), (), strict=strict)
+    mode, ignore_modes = row_numbers(table, modes, ignore_modes)
+    keys = RowKeys(*table.groups("weld"), table.integers("node"), mode)
     regular = None if table.problems else grid(keys, lines, modes, ignore_modes)
     if regular is not None:
         return regular

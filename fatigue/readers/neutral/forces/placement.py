@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.unit_loads import UnitLoads
 from fatigue.weld.line import LineStack, line_of_node
 
 BLOCK = 1 << 20  # rows whose stations are looked up at a time, so that a large file needs little memory beside it
@@ -70,7 +71,7 @@ class Slots:
         return placed.reshape(self.shape)
 
 
-def grid(keys: RowKeys, lines: LineStack, modes: Modes, ignore_modes: Collection[int]) -> Grid | None:
+def grid(keys: RowKeys, lines: LineStack, modes: Modes | UnitLoads, ignore_modes: Collection[int]) -> Grid | None:
     """Grid of a complete regular table; None if anything is unusual."""
     names, weld, node, mode = keys.names, keys.weld, keys.node, keys.mode
     if not set(lines.weld).issuperset(names):
@@ -97,7 +98,7 @@ def grid(keys: RowKeys, lines: LineStack, modes: Modes, ignore_modes: Collection
     return Grid(shape, by_node, np.argsort(station), np.argsort(column)[np.count_nonzero(ignored) :])
 
 
-def slots(keys: RowKeys, lines: LineStack, modes: Modes) -> Slots:
+def slots(keys: RowKeys, lines: LineStack, modes: Modes | UnitLoads) -> Slots:
     """Station and mode of every row, looked up one by one."""
     station, mode = stations_of(keys.names, keys.weld, keys.node, lines), positions(modes.mode, keys.mode)
     slot = np.where((station < 0) | (mode < 0), -1, station.astype(np.int64) * modes.mode.size + mode)

@@ -18,7 +18,7 @@ from fatigue.files.misplaced import misplaced
 from fatigue.readers.neutral.columns import DAMAGE, Columns, damaged
 from fatigue.readers.neutral.csv_columns import csv_batches
 from fatigue.readers.neutral.forces.nodal_forces import open_nodal_forces
-from fatigue.readers.neutral.forces.source import CODE, KINDS, Source, coded, force_columns, trimmed
+from fatigue.readers.neutral.forces.source import CODE, KINDS, TEXTS, Source, coded, force_columns, trimmed
 from fatigue.readers.neutral.forces.unknown_welds import UnknownWelds
 from fatigue.readers.neutral.forces.weld_codes import WeldCodes
 from fatigue.readers.neutral.table_units import units_row_warnings
@@ -45,7 +45,7 @@ def sorted_copy(path: Path, welds: WeldCodes, scratch: Path) -> Source:
         header = open_nodal_forces(path)
         return _dealt_out(header, header.rows, _parquet_batches(path, force_columns(header)), welds, scratch)
     refuse(DataError, filter(None, [misplaced(path, path.name, text=False)]))
-    layout = table_layout(path, ("weld",))
+    layout = table_layout(path, TEXTS)
     kinds = tuple(KINDS.get(name.strip(), pa.string()) for name in layout.names)
     warnings = units_row_warnings(path.name, layout)
     if layout.encoding == "cp1252":
@@ -106,8 +106,8 @@ def _dealt_out(header: Table, rows: int, batches: Iterable[pa.Table], welds: Wel
 
 def _parquet_batches(path: Path, columns: Mapping[str, str]) -> Iterator[pa.Table]:
     """Read a Parquet file in batches; buffered, so that not even a whole column of a row group is in memory."""
-    weld = [stored for stored, name in columns.items() if name == "weld"]
-    file = pq.ParquetFile(path, read_dictionary=weld, buffer_size=READ_BUFFER, pre_buffer=False)
+    texts = [stored for stored, name in columns.items() if name in TEXTS]
+    file = pq.ParquetFile(path, read_dictionary=texts, buffer_size=READ_BUFFER, pre_buffer=False)
     try:
         for batch in file.iter_batches(BATCH, columns=list(columns)):
             yield trimmed(pa.Table.from_batches([batch]), columns)

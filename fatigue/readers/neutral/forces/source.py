@@ -15,7 +15,10 @@ Rows = TypeVar("Rows", pa.Table, pa.RecordBatch)
 Batches: TypeAlias = Callable[[int, int], Iterator[pa.RecordBatch]]
 
 CODE, ROW = "weld among all", "row of the file"  # columns of a bucket; no names of the neutral format
-KINDS = {"weld": pa.string(), "node": pa.int64(), "mode": pa.int64()} | dict.fromkeys(COMPONENTS, pa.float64())
+TEXTS = ("weld", "unit_load")  # columns of names
+KINDS = {"weld": pa.string(), "unit_load": pa.string(), "node": pa.int64(), "mode": pa.int64()} | dict.fromkeys(
+    COMPONENTS, pa.float64()
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
