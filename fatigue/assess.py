@@ -46,6 +46,7 @@ from fatigue.pipeline.tables.histogram import HistogramWriter
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
+from fatigue.pipeline.tables.sampling_warnings import sampling_warnings
 from fatigue.pipeline.tables.stress_warnings import StressExtent
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
@@ -64,7 +65,6 @@ from fatigue.results import (
 from fatigue.results.folder import refuse_foreign, remember_case, result_log, stale_files
 from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
-from fatigue.spectrum.trust import FEW_SAMPLES_PER_PEAK, sampling_loss
 from fatigue.stages import stage
 from fatigue.weld.load_extent import LoadExtent
 
@@ -164,7 +164,7 @@ def assess(
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
-                assessed = by_orders(work, state, executor, Order(str(case.path.resolve()), strict, options, key, 0))
+                assessed = by_orders(work, state, executor, order_of(case, work, options, key, strict=strict))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
             done.warnings.add((*body.warnings, *record_warnings, *of_gravity))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
@@ -219,6 +219,11 @@ def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, P
     """Body and mission of a case, read and checked, and the warnings about its records."""
     body = read_body(case, strict=strict)
     return body, *mission_plan(body, threads)
+
+
+def order_of(case: Case, work: Work, options: ScreeningOptions, key: str, *, strict: bool) -> Order:
+    """Order of any group of welds of a job."""
+    return Order(str(case.path.resolve()), strict, options, key, work.factors, group=0)
 
 
 def write_records(
@@ -330,23 +335,8 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     files = [event.history or body.case.path.name for event in body.case.mission.event]
     of_stress = done.stress.warnings(work.loads, body.coordinates, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
-    return [*load_warnings(body, done.extents), *of_stress, *sampling_warnings(body, done), *of_spectra]
-
-
-def sampling_warnings(body: Body, done: Tally) -> list[Problem]:
-    """Warnings of records that are sampled too coarsely for their points, with the damage that hides."""
-    slope = max(float(rated.rule.law.slopes[0]) for rated in body.curves.values())
-    return [
-        Problem(
-            "sampling",
-            f"event '{event}'",
-            f"{samples:.1f} samples per peak at the fastest point, damage there is about "
-            f"{100 * float(sampling_loss(np.array(samples), slope)):.0f} % low",
-            'Set upsample = "auto" in [counting], or sample the simulation more finely',
-        )
-        for event, samples in done.samples_per_peak.items()
-        if samples < FEW_SAMPLES_PER_PEAK
-    ]
+    of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
+    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra]
 
 
 def one_blas_thread() -> threadpool_limits:

@@ -17,7 +17,6 @@ import pandas as pd
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.forecast.needs import diagnosis_memory
@@ -25,21 +24,18 @@ from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import memory_warnings
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.solve.body import Body, conversion_file, read_body, register_file
+from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
-    case_of,
-    changed_inputs,
     is_same_result,
-    named_case,
-    new_inputs,
     read_provenance,
     read_rows,
     refuse_mixed,
     relist,
     row_count,
     table_writer,
+    upsampling_factors,
 )
 from fatigue.results.folder import result_log
 from fatigue.results.lock import locked, settle_folder
@@ -96,9 +92,10 @@ def diagnose(
     settle_folder(folder, no_lock=no_lock)
     record = read_provenance(folder)
     refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
-    body = _same_body(record, folder, case_file)
+    body = assessed_body(record, folder, case_file)
     plan, _ = mission_plan(body)
-    needed = diagnosis_memory(job_size(body, plan))
+    factors = upsampling_factors(record)
+    needed = diagnosis_memory(job_size(body, plan, factors=factors))
     for problem in memory_warnings("the diagnosis", needed, "Use a machine with more memory, or shorter records"):
         log.warning("%s", problem)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
@@ -109,14 +106,15 @@ def diagnose(
         staging_in(folder) as staging,
     ):
         _refuse_another(folder, record)
-        numbers = numbers_of_point(plan, body.modes, bins)
-        chosen = choose_points(folder, body.case, plan, share_of_limit, numbers)
+        numbers = numbers_of_point(plan, len(body.coordinates), bins)
+        samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
+        chosen = choose_points(folder, samples, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         points, worst = gather_points(folder, groups, chosen), chosen.worst
         assessed = assessed_rows(folder, chosen.rows, plan)
-        loads = event_loads(groups, plan, staging / "histories")
+        loads = event_loads(groups, plan, staging / "histories", factors=factors)
 
         stage("sharing out the damage of %d points, event by event (%d)", len(points), len(plan.passes))
         events: list[EventAttribution] = []
@@ -184,18 +182,6 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
         raise DataError(Problem("other_points", str(folder / "damage.parquet"), what, "Run the assessment again"))
     table = read_rows(folder, "damage", (rows[:, None] * events + np.arange(events)).ravel(), columns).to_pandas()
     return [table[number::events].reset_index(drop=True) for number in range(events)]
-
-
-def _same_body(record: Mapping[str, Any], folder: Path, case_file: Path | None) -> Body:
-    """Body of a result, read again; none of its files may have changed since."""
-    path = case_of(record, folder) if case_file is None else named_case(record, case_file)
-    if not path.is_file():
-        what, remedy = "the case of this result is not there any more", "Name the case file with --case CASE"
-        raise DataError(Problem("missing_case", str(path), what, remedy))
-    refuse(DataError, changed_inputs(record, path))
-    case = load_case(path)
-    refuse(DataError, new_inputs(record, filter(None, [register_file(case), conversion_file(case)])))
-    return read_body(case, strict=False)
 
 
 def _refuse_another(folder: Path, record: Mapping[str, Any]) -> None:

@@ -23,7 +23,7 @@ class SmallCase:
     histories: dict[str, pd.DataFrame]
     body: dict[str, str] = field(default_factory=dict)
     curve: dict[str, object] = field(default_factory=lambda: {"name": "master-aluminium"})
-    counting: dict[str, object] = field(default_factory=dict)
+    counting: dict[str, object] = field(default_factory=lambda: {"upsample": 1})
     spectrum: dict[str, object] = field(default_factory=lambda: {"segment_s": 1.0})
     mission: dict[str, object] = field(
         default_factory=lambda: {"target_km": 1e6, "km_per_year": 2e5, "damage_limit": 1.0}

@@ -156,7 +156,9 @@ class Counting(Table):
 
     residue: Residue = Field(default="repeat", description="the treatment of the residue: 'repeat' or 'half'")
     upsample: Annotated[int, Field(ge=1, le=LARGEST_UPSAMPLE)] | Literal["auto"] = Field(
-        default=1, description=f"the upsampling factor before counting: 1, 2, 4 ... {LARGEST_UPSAMPLE} or 'auto'"
+        default="auto",
+        description=f"the upsampling factor before counting: 1, 2, 4 ... {LARGEST_UPSAMPLE}, or 'auto': of each event, "
+        "what gives 20 samples per peak; 1 counts the samples as they are",
     )
     mean_of_q: MeanOfQ = Field(
         default="keep",

@@ -63,7 +63,7 @@ def _option(field: OptionField) -> Callable[[Command], Command]:
 def _type(kind: Any) -> Any:
     """Type of a value, as click knows it."""
     if is_dataclass(kind):
-        return tuple(_type(field.type) for field in fields(kind))
+        return tuple(float if field.type is float else _type(field.type) for field in fields(kind))
     if get_origin(kind) is Literal:
         return click.Choice(get_args(kind))
     return {Path: FILE, float: ABOVE_ZERO}.get(kind, kind)

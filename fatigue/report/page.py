@@ -22,6 +22,7 @@ from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
@@ -115,6 +116,7 @@ def report_page(
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
         "gravity": tables.gravity_table(record.get("gravity", [])),
         "modes": tables.mode_table(record["modes"]),
+        "unit_loads": load_table(record.get("unit_loads", ())),
         "rules": method.rules(record),
         "checks": recomputed(result),
         "verification": tables.verification_table(verification),

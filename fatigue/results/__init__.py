@@ -26,7 +26,6 @@ from fatigue.results.belonging import (
 from fatigue.results.columns import (
     ASSESSED,
     ATTRIBUTION,
-    BENCHED,
     CYCLES,
     DAMAGE,
     DIAGNOSED,
@@ -39,8 +38,10 @@ from fatigue.results.columns import (
     TABLES,
     TRACK,
     WELDS,
-    Column,
 )
+from fatigue.results.dictionary.bench import BENCHED
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
@@ -51,6 +52,7 @@ from fatigue.results.provenance import (
     is_same_result,
     read_provenance,
     software_versions,
+    upsampling_factors,
     write_provenance,
 )
 from fatigue.results.rows import (
@@ -79,6 +81,7 @@ __all__ = [
     "JOURNAL",
     "LEVERS",
     "LIST",
+    "LOAD_SPECTRA",
     "NODES",
     "OPTIONAL",
     "PAGE",
@@ -124,6 +127,7 @@ __all__ = [
     "software_versions",
     "strangers",
     "table_writer",
+    "upsampling_factors",
     "way_to_case",
     "worst_toes",
     "write_json",

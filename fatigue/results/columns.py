@@ -1,28 +1,9 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
-from dataclasses import dataclass
-from typing import Literal
-
-ColumnType = Literal["text", "int", "flag", "float"]
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """One column of a result table: name, type, unit and meaning, written into the file beside the numbers."""
-
-    name: str
-    type: ColumnType
-    unit: str
-    meaning: str
-
-
-_POINT = (
-    Column("weld", "text", "-", "weld line"),
-    Column("part", "int", "-", "straight part of a weld split at its kinks, from 1"),
-    Column("node", "int", "-", "FE node id"),
-    Column("order", "int", "-", "position along the weld line, as given"),
-    Column("surface", "text", "-", "top (side of the plate normal) or bottom face of the assessed plate"),
-)
+from fatigue.results.dictionary.bench import BENCHED
+from fatigue.results.dictionary.column import POINT as _POINT
+from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 
 NODES = (
     *_POINT,
@@ -268,10 +249,12 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; mode, band: its parts, each set adds up to the event; load: all stresses; thickness: "
-        "the plate through its stress, at constant line force and moment; thickness_rule: the plate through the rule",
+        "event: the whole event; mode with unit_load, and band: its parts, each set adds up to the event; load: all "
+        "stresses; thickness: the plate through its stress, at constant line force and moment; thickness_rule: the "
+        "plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
+    Column("unit_load", "text", "-", "name of the unit load, for kind unit_load"),
     Column("low_hz", "float", "Hz", "lower edge, for kind band"),
     Column("high_hz", "float", "Hz", "upper edge, for kind band; empty: no upper edge"),
     Column(
@@ -363,50 +346,16 @@ LEVERS = (
     *_POINT,
     _CHOSEN,
     Column("rank", "int", "-", "1: buys most"),
-    Column("mode", "int", "-", "mode id"),
-    Column("frequency_hz", "float", "Hz", "natural frequency of the mode"),
-    Column("kind", "text", "-", "normal, interface or rigid"),
-    Column("share", "float", "-", "share of the damage owed to the mode"),
-    Column("life_exponent", "float", "-", "d ln(life) / d ln(amplitude of the mode in all events)"),
+    Column("mode", "int", "-", "mode id, empty of a unit load"),
+    Column("unit_load", "text", "-", "name of the unit load, empty of a mode"),
+    Column("frequency_hz", "float", "Hz", "natural frequency of the mode, empty of a unit load"),
+    Column("kind", "text", "-", "normal, interface, rigid or unit_load"),
+    Column("share", "float", "-", "share of the damage owed to it"),
+    Column("life_exponent", "float", "-", "d ln(life) / d ln(its amplitude in all events)"),
     Column("life_km", "float", "km", "life as it is"),
-    Column("life_km_estimated", "float", "km", "life with the mode 10 % smaller, by the exponent"),
+    Column("life_km_estimated", "float", "km", "life with it 10 % smaller, by the exponent"),
     Column("life_km_counted", "float", "km", "the same with all cycles counted again"),
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
-)
-
-_METHOD = Column(
-    "method",
-    "text",
-    "-",
-    "least_squares: closest to all targets; cover: every target reached, none exceeded by more than need be",
-)
-_BLOCK = Column("block", "text", "-", "block of the bench, by its name or its row")
-
-BENCH_BLOCKS = (
-    _METHOD,
-    _BLOCK,
-    Column("cycles", "float", "-", "cycles of the block in the programme; 0: it is not used"),
-    Column("whole_cycles", "float", "-", "the same rounded up"),
-)
-
-BENCH_POINTS = (
-    _METHOD,
-    *_POINT,
-    Column("factor", "float", "-", "factor on the target damage, as asked for"),
-    Column("target_damage", "float", "-", "Miner sum of the point at target_km, times its factor"),
-    Column("achieved_over_target", "float", "-", "Miner sum of the programme over the target"),
-    Column("achieved_over_target_whole", "float", "-", "the same in whole cycles"),
-)
-
-BENCH_DAMAGE = (
-    *_POINT,
-    _BLOCK,
-    Column("membrane_range_MPa", "float", "MPa", "membrane stress range of a cycle of the block"),
-    Column("bending_range_MPa", "float", "MPa", "bending stress range of the cycle"),
-    Column("range_MPa", "float", "MPa", "structural stress range of the cycle at the face"),
-    Column("bending_ratio", "float", "-", "bending / (membrane + bending) range"),
-    Column("equivalent_range_dS", "float", "MPa mm^-0.222", "equivalent range (MPa on curves in structural stress)"),
-    Column("damage_per_cycle", "float", "-", "1 / cycles to failure at this range, without mean-stress factor"),
 )
 
 ASSESSED: dict[str, tuple[Column, ...]] = {
@@ -423,9 +372,4 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "levers": LEVERS,
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
-BENCHED: dict[str, tuple[Column, ...]] = {
-    "bench_blocks": BENCH_BLOCKS,
-    "bench_points": BENCH_POINTS,
-    "bench_damage": BENCH_DAMAGE,
-}
-TABLES = ASSESSED | OPTIONAL | DIAGNOSED | BENCHED
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

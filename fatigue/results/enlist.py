@@ -1,7 +1,8 @@
 """Documents that are written into a result folder one by one, as from a notebook, are listed with its outputs."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from fatigue.results.belonging import DOCUMENTS, listed_of, write_list
 from fatigue.results.lock import locked
@@ -22,9 +23,12 @@ def enlist(folder: Path, *documents: Path) -> None:
         publish(staging, folder)
 
 
-def relist(folder: Path, staging: Path, written: Iterable[Path]) -> None:
-    """Write to ``staging`` what a result folder says of its outputs once files just written are among them."""
-    record = read_provenance(folder)
+def relist(folder: Path, staging: Path, written: Iterable[Path], said: Mapping[str, Any] | None = None) -> None:
+    """Write to ``staging`` what a result folder says of its outputs once files just written are among them.
+
+    ``said`` are entries of the provenance about them.
+    """
+    record = read_provenance(folder) | dict(said or {})
     result, new = record.get("result", ""), list(written)
     if documents := [path for path in new if path.name in DOCUMENTS]:
         new.append(write_list(staging, documents, result, listed_of(folder, result)))

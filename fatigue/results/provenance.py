@@ -54,6 +54,13 @@ def parsed_provenance(folder: Path) -> dict[str, Any]:
     return _parsed(folder / PROVENANCE, _content(folder))
 
 
+def upsampling_factors(record: Mapping[str, Any]) -> list[int]:
+    """Factor by which the record of each event of a result was upsampled before it was counted, in their order."""
+    rules, events = record["rules"], [event["event"] for event in record["mission"]["events"]]
+    given = rules["upsample"] if isinstance(rules["upsample"], int) else 1
+    return [int(rules.get("upsampled", {}).get(event, given)) for event in events]
+
+
 def _content(folder: Path) -> bytes:
     try:
         return (folder / PROVENANCE).read_bytes()

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, given_names, given_path, refuse
 from fatigue.files.mishaps import is_of_the_system, refusal, refused_writing
-from fatigue.results.columns import ASSESSED, TABLES, ColumnType
+from fatigue.results.columns import ASSESSED, TABLES
+from fatigue.results.dictionary.column import ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
     "text": pa.string(),

@@ -54,8 +54,10 @@ class EventAttribution:
     load_slope : (p,) by ln(load), all stresses of the event scaled
     thickness_slope : (p,) by ln(t) through the stress: membrane ~ 1/t, bending ~ 1/t^2 at constant line load
     rule_slope : (p,) by ln(t) through the thickness rule of the curve
-    mode, mode_slope : (p, m) damage owed to each mode, below 0 where it relieves; slope by ln(amplitude) of the mode
-    resonant : (p, m) part of ``mode`` in resonance, within f (1 +- 2 zeta) of the mode; NaN without damping
+    mode, mode_slope : (p, c) damage owed to each mode and, behind them, to each unit load, below 0 where it relieves;
+        slope by ln(amplitude) of it
+    resonant : (p, c) part of ``mode`` in resonance, within f (1 +- 2 zeta) of the mode; NaN without damping, and of
+        unit loads
     band, band_slope : (p, b) the same for the frequency bands
     edges_hz : (b + 1,) edges of the bands; one band from 0 to infinity for a record too short to have a spectrum
     place : (p, x) damage credited half and half to the two instants of each cycle, per bin of the track
@@ -124,17 +126,17 @@ class Attribution:
 
     @property
     def mode_share(self) -> Floats:
-        """Share of every mode over all events, (p, m); below 0 where a mode relieves."""
+        """Share of every mode and unit load over all events, (p, c); below 0 where it relieves."""
         return self.share(np.asarray(sum(event.mode for event in self.events)))
 
     @property
     def resonant_share(self) -> Floats:
-        """Part of ``mode_share`` that each mode makes in its own resonance, (p, m); NaN without damping."""
+        """Part of ``mode_share`` that each mode makes in its own resonance, (p, c); NaN without damping."""
         return self.share(np.asarray(sum(event.resonant for event in self.events)))
 
     @property
     def mode_exponent(self) -> Floats:
-        """Exponents d ln(life) / d ln(amplitude) of every mode in all events, (p, m)."""
+        """Exponents d ln(life) / d ln(amplitude) of every mode and unit load in all events, (p, c)."""
         return -self.share(np.asarray(sum(event.mode_slope for event in self.events)))
 
     @property
@@ -145,14 +147,14 @@ class Attribution:
         return self.share(np.column_stack([np.asarray(sum(resolved)), short] if resolved else [short]))
 
 
-def numbers_of_point(plan: Plan, modes: Modes, bins: Bins) -> int:
+def numbers_of_point(plan: Plan, coordinates: int, bins: Bins) -> int:
     """How many numbers are held of one point for all events."""
     places = sum(TIME_BINS if one.length is None else int(one.length / bins.length_km) + 1 for one in plan.passes)
-    return places + len(plan.passes) * (3 * len(modes.mode) + 2 * len(bins.edges_hz) + _OTHER_NUMBERS)
+    return places + len(plan.passes) * (3 * coordinates + 2 * len(bins.edges_hz) + _OTHER_NUMBERS)
 
 
 def attribute_event(points: Points, load: EventLoad, one_pass: Pass, modes: Modes, bins: Bins) -> EventAttribution:
-    """Damage of one event at some points, shared out."""
+    """Damage of one event at some points, shared out; the first coordinates of its record are ``modes``."""
     q = load.counted.q
     inner = bins.edges_hz if load.moments is not None else np.zeros(0)
     place_s, place_km = _place_edges(load, one_pass, bins.length_km)
@@ -238,7 +240,7 @@ def count_credit(
 
 
 def _resonant_products(share: Floats, Q: Floats, frequency: Floats, modes: Modes) -> Floats:
-    """Products of the share vectors (p, t) with each mode's coordinate in its own resonance: (p, m)."""
+    """Products of the share vectors (p, t) with each mode's coordinate in its own resonance: (p, c)."""
     half_width = 2.0 * modes.damping_ratio * modes.frequency
     products = np.full((len(share), len(Q)), np.nan)
     for k in np.flatnonzero(np.isfinite(half_width)):

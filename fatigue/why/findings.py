@@ -15,6 +15,7 @@ from fatigue.shown import shortened, visible
 from fatigue.why.attribute import Attribution
 from fatigue.why.evidence import Evidence
 from fatigue.why.levers import SMALLER
+from fatigue.why.rows import ids
 
 LONGEST_LIFE_KM = 1e12
 WIDTH = 110
@@ -26,11 +27,15 @@ HALF = 0.5
 
 @dataclass(frozen=True, slots=True)
 class ModeFinding:
-    """A mode and what it has to do with the damage of a point; see ``fatigue.why.attribute.Attribution``."""
+    """A mode or unit load and what it has to do with the damage of a point; see ``fatigue.why.attribute.Attribution``.
 
-    mode: int
+    ``mode`` and ``frequency_hz`` are None of a unit load, ``unit_load`` is its name and ``kind`` says so.
+    """
+
+    mode: int | None
+    unit_load: str
     kind: str
-    frequency_hz: float
+    frequency_hz: float | None
     share: float
     resonant_share: float | None
     life_exponent: float
@@ -47,9 +52,10 @@ class BandFinding:
 
 @dataclass(frozen=True, slots=True)
 class LeverFinding:
-    """What a mode buys if it is 10 % smaller: life by its exponent, and counted again [km]."""
+    """What a mode or a unit load buys if it is 10 % smaller: life by its exponent, and counted again [km]."""
 
-    mode: int
+    mode: int | None
+    unit_load: str
     life_km_estimated: float
     life_km_counted: float
 
@@ -58,11 +64,11 @@ class LeverFinding:
 class Finding:
     """What makes the damage at the worst point of a weld.
 
-    ``modes`` and ``bands`` are those with the largest shares, no bands where no record is long enough for a spectrum;
-    ``relieving_share`` is what all relieving modes take off; ``half_damage_part`` is the smallest part of the governing
-    event that holds half of its damage, and its worst bin begins at ``place_km`` (None for an event counted by number)
-    and ``place_s``; ``verdict`` and the split of the Dirlik ratio into errors of formula and process, None where it was
-    not made, belong to the governing event.
+    ``modes`` (unit loads among them) and ``bands`` are those with the largest shares, no bands where no record is long
+    enough for a spectrum; ``relieving_share`` is what all relieving ones take off; ``half_damage_part`` is the smallest
+    part of the governing event that holds half of its damage, and its worst bin begins at ``place_km`` (None for an
+    event counted by number) and ``place_s``; ``verdict`` and the split of the Dirlik ratio into errors of formula and
+    process, None where it was not made, belong to the governing event. ``with_loads``: whether the body has unit loads.
     """
 
     weld: str
@@ -81,6 +87,7 @@ class Finding:
     place_s: float
     place_intensity: float
     levers: tuple[LeverFinding, ...]
+    with_loads: bool
     verdict: str
     reason: str
     formula_error: float | None
@@ -94,13 +101,14 @@ class Finding:
         weld, event = shortened(visible(self.weld)), shortened(visible(self.event))
         best = self.levers[0]
         gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
+        relieving = "relieving modes and loads" if self.with_loads else "relieving modes"
         lines = {
             "event": f"{event} {_percent(self.event_share)}",
             "bands": bands or "not available: no record is long enough for a spectrum",
-            "modes": f"{modes}; relieving modes {_percent(self.relieving_share)}",
+            "loads" if self.with_loads else "modes": f"{modes}; {relieving} {_percent(self.relieving_share)}",
             "place": f"half of the damage of {event} on {_percent(self.half_damage_part)} of it, most at {place}, "
             f"{self.place_intensity:.1f} times the average",
-            "lever": f"mode {best.mode} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
+            "lever": f"{called(best)} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
             "Dirlik": f"{self.verdict}: {self.reason}",
         }
         if self.formula_error is not None and self.process_error is not None:
@@ -109,7 +117,9 @@ class Finding:
         return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
 
     def _mode(self, mode: ModeFinding) -> str:
-        """Name of a mode; a mode far above the band it damages in follows its load and does not swing."""
+        """Name of a mode or load; a mode far above the band it damages in follows its load and does not swing."""
+        if mode.frequency_hz is None:
+            return called(mode)
         high = self.bands[0].high_hz if self.bands else None
         follows = high is not None and mode.frequency_hz > FAR_ABOVE * high
         return f"{mode.mode} ({mode.kind}, {mode.frequency_hz:.4g} Hz{', quasi-static' if follows else ''})"
@@ -153,7 +163,8 @@ def findings(evidence: Evidence, points: str) -> Diagnosis:
 
 def _finding(evidence: Evidence, row: int) -> Finding:
     """Finding at the point of one row of the levers."""
-    modes, levers = evidence.body.modes, evidence.levers
+    coordinates, levers = evidence.body.coordinates, evidence.levers
+    mode, unit_load = ids(coordinates)
     point = int(levers.point[row])
     own = evidence.attribution.of(slice(point, point + 1))
     points, event_share, exponent = own.points, own.event_share[0], own.mode_exponent[0]
@@ -173,9 +184,10 @@ def _finding(evidence: Evidence, row: int) -> Finding:
         event_share=float(event_share.max()),
         modes=tuple(
             ModeFinding(
-                mode=int(modes.mode[k]),
-                kind=modes.kind[k],
-                frequency_hz=float(modes.frequency[k]),
+                mode=mode[k],
+                unit_load=unit_load[k] or "",
+                kind=coordinates.kind[k],
+                frequency_hz=float(coordinates.modes.frequency[k]) if coordinates.is_mode[k] else None,
                 share=float(share[k]),
                 resonant_share=_or_none(resonant[k]),
                 life_exponent=float(exponent[k]),
@@ -189,16 +201,22 @@ def _finding(evidence: Evidence, row: int) -> Finding:
         place_s=float(event.place_s[hottest]),
         place_intensity=float(intensity[hottest]),
         levers=tuple(
-            LeverFinding(int(modes.mode[k]), float(estimated), float(counted))
+            LeverFinding(mode[k], unit_load[k] or "", float(estimated), float(counted))
             for k, estimated, counted in zip(
                 levers.mode[row], levers.life_estimated[row], levers.life_counted[row], strict=True
             )
         ),
+        with_loads=len(coordinates.unit_loads) > 0,
         verdict=str(verdict.verdict[point]),
         reason=str(verdict.reason[point]),
         formula_error=_or_none(verdict.formula[point]),
         process_error=_or_none(verdict.process[point]),
     )
+
+
+def called(found: ModeFinding | LeverFinding) -> str:
+    """Name of a mode or a unit load in a sentence."""
+    return f"unit load {found.unit_load}" if found.mode is None else f"mode {found.mode}"
 
 
 def _largest_bands(own: Attribution) -> tuple[BandFinding, ...]:
@@ -230,7 +248,14 @@ def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
             "no mode has" if np.isnan(damping).all() else f"{np.count_nonzero(np.isnan(damping))} modes do not have"
         )
         yield f"{without} a damping ratio, so it is not said what such a mode does in resonance"
+    static = {event.name for event in body.case.mission.event if event.history is None}
     for event in attribution.events:
+        if event.event in static:
+            yield (
+                f"event '{event.event}' is a static load case, so its damage is that of its values one after another, "
+                "with no frequency and no place on the track"
+            )
+            continue
         if not event.has_bands:
             yield (
                 f"event '{event.event}': the record is shorter than one spectral segment, so its damage is not shared "

@@ -1,4 +1,4 @@
-"""Which mode, if 10 % smaller, buys most kilometres: estimated for all modes, counted again for the best."""
+"""Which mode or unit load, if 10 % smaller, buys most kilometres: estimated for all, counted again for the best."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Levers:
     Attributes
     ----------
     point : (w,) index into the points of the attribution
-    mode : index into the modes of the model
+    mode : index into the coordinates of the body, its modes and unit loads
     exponent : d ln(life) / d ln(amplitude)
     life_estimated : life by that exponent, ``life * 0.9**exponent`` [km]
     life_counted : life when the mode is scaled in every event and all cycles are counted again [km]
@@ -41,7 +41,7 @@ class Levers:
 
 
 def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan, point: NDArray[np.int64]) -> Levers:
-    """Modes of some points, which must have damage, ranked by what 10 % less buys; the best are counted again."""
+    """Modes and unit loads ranked by what 10 % less buys at some points that have damage; the best counted again."""
     points, exponents = attribution.points.of(point), attribution.mode_exponent[point]
     mode = np.argsort(exponents, axis=1, kind="stable")[:, :CANDIDATES]
     exponent = np.take_along_axis(exponents, mode, axis=1)
@@ -57,7 +57,7 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
 
 
 def _damages(point: Points, scale: Floats, q: Samples, load: EventLoad) -> list[float]:
-    """Miner sums of a point in one pass, its modal coordinates scaled in some ways (c, m)."""
+    """Miner sums of a point in one pass, its coordinates scaled in some ways (w, c)."""
     membrane, bending = scale * point.membrane, scale * point.bending
     side, size, rule, residue = float(point.side[0]), float(point.size[0]), point.rule[0], load.residue
     offset = (membrane + side * bending) @ load.offset

@@ -74,6 +74,7 @@ def long_blocks(
         long_band_slices(samples, step, residue, [f - width, f + width])[1] if np.isfinite(width) else None
         for f, width in zip(modes.frequency, half_width, strict=True)
     ]
+    resonance += [None] * (m - len(resonance))  # unit loads
     double = np.dtype(np.float64)
     Q = create_spool(q.path.with_name("coefficients"), q.shape, double)
     _transform(q, Q, residue)

@@ -10,9 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.case import Case
 from fatigue.errors import DataError, Problem
-from fatigue.life.mission import Plan
 from fatigue.life.rule import size_exponent
 from fatigue.pipeline.solve.model import Model, solve_group
 from fatigue.pipeline.solve.weld_groups import SideForces, WeldGroups
@@ -110,11 +108,12 @@ class Chosen:
     what: str
 
 
-def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, numbers: int) -> Chosen:
+def choose_points(folder: Path, samples: int, share_of_limit: float, numbers: int) -> Chosen:
     """All points if that is affordable, else the worst of every weld and the points above a share of the limit.
 
-    ``numbers`` is how many are held for each point. Where even the worst points are too many, those with the highest
-    utilisation stay. Points that a bound has settled have no cycles to share out and are never chosen.
+    ``samples`` is how many are counted at each point, ``numbers`` how many numbers are held for it. Where even the
+    worst points are too many, those with the highest utilisation stay. Points that a bound has settled have no cycles
+    to share out and are never chosen.
     """
     weld, _ = read_codes(folder, "nodes", "weld")
     tier, tiers = read_codes(folder, "nodes", "screened")
@@ -124,8 +123,6 @@ def choose_points(folder: Path, case: Case, plan: Plan, share_of_limit: float, n
     utilisation = np.where(toe & counted, table["utilisation"].to_numpy(), -1.0)  # a face without a toe never governs
     worst = np.sort(pd.Series(utilisation).groupby(weld).idxmax().to_numpy())
 
-    upsample = case.counting.upsample
-    samples = sum(one.samples for one in plan.passes) * (upsample if isinstance(upsample, int) else 1)
     if counted.all() and len(weld) * samples <= MOST_SAMPLES and len(weld) * numbers <= MOST_NUMBERS:
         rows = np.arange(len(weld))
         return Chosen(rows, np.full(len(rows), "all", dtype=object), worst, f"all {len(rows)} points")

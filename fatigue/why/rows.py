@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.life.mission import life_km
 from fatigue.pipeline.tables.rows import FACES
-from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.why.attribute import Attribution, EventAttribution
 from fatigue.why.evidence import Evidence
 from fatigue.why.points import Points
@@ -18,27 +19,31 @@ POINTS_AT_ONCE = 1000  # whose rows are made at a time
 
 def rows_of_tables(evidence: Evidence) -> dict[str, Iterator[dict[str, Any]]]:
     """Rows of all tables by name, event by event, within an event block by block of points."""
-    attribution, modes = evidence.attribution, evidence.body.modes
+    attribution, coordinates = evidence.attribution, evidence.body.coordinates
     events = range(len(evidence.plan.passes))
     firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
     some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
     blocks = [(attribution.of(few), [verdict.of(few) for verdict in evidence.verdicts]) for few in some]
     return {
-        "attribution": (attribution_rows(modes, block, block.events[e]) for e in events for block, _ in blocks),
+        "attribution": (attribution_rows(coordinates, block, block.events[e]) for e in events for block, _ in blocks),
         "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
         "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
         "levers": iter([lever_rows(evidence)]),
     }
 
 
-def attribution_rows(modes: Modes, attribution: Attribution, event: EventAttribution) -> dict[str, Any]:
-    """Rows of ``attribution.parquet`` for one event: per point the event, its modes, its bands, load and thickness."""
+def attribution_rows(coordinates: Coordinates, attribution: Attribution, event: EventAttribution) -> dict[str, Any]:
+    """Rows of ``attribution.parquet`` for one event: per point the event, its parts, load and thickness.
+
+    The parts are modes, unit loads and frequency bands.
+    """
     points, bands = len(attribution.points), event.band.shape[1]
-    of_mode = slice(1, 1 + len(modes.mode))
+    of_mode = slice(1, 1 + len(coordinates))
     of_band = slice(of_mode.stop, of_mode.stop + bands)
-    kind = np.array(["event", *["mode"] * len(modes.mode), *["band"] * bands, "load", "thickness", "thickness_rule"])
-    mode = np.full(len(kind), None)
-    mode[of_mode] = modes.mode
+    parts = np.where(coordinates.is_mode, "mode", "unit_load")
+    kind = np.array(["event", *parts, *["band"] * bands, "load", "thickness", "thickness_rule"])
+    mode, unit_load = np.full((2, len(kind)), None)
+    mode[of_mode], unit_load[of_mode] = ids(coordinates)
     low, high = np.full((2, len(kind)), np.nan)
     low[of_band], high[of_band] = (
         event.edges_hz[:-1],
@@ -56,6 +61,7 @@ def attribution_rows(modes: Modes, attribution: Attribution, event: EventAttribu
         "event": np.full(damage.size, event.event, dtype=object),
         "kind": np.tile(kind.astype(object), points),
         "mode": np.tile(mode, points),
+        "unit_load": np.tile(unit_load, points),
         "low_hz": np.tile(low, points),
         "high_hz": np.tile(high, points),
         "damage_per_km": damage.ravel(),
@@ -101,17 +107,20 @@ def diagnosis_rows(points: Points, of: EventVerdicts) -> dict[str, Any]:
 
 
 def lever_rows(evidence: Evidence) -> dict[str, Any]:
-    """Rows of ``levers.parquet``: the modes whose reduction buys most, at the worst point of every weld."""
-    modes, attribution, levers = evidence.body.modes, evidence.attribution, evidence.levers
+    """Rows of ``levers.parquet``: modes and unit loads whose reduction buys most, at the worst point of every weld."""
+    coordinates, attribution, levers = evidence.body.coordinates, evidence.attribution, evidence.levers
+    number, unit_load = ids(coordinates)
+    frequency = np.concatenate([coordinates.modes.frequency, np.full(len(coordinates.unit_loads), np.nan)])
     ranks = levers.mode.shape[1]
     mode = levers.mode.ravel()
     life = np.repeat(life_km(attribution.damage[levers.point], evidence.plan.damage_limit), ranks)
     return {
         **point_columns(attribution.points.of(levers.point), ranks),
         "rank": np.tile(np.arange(1, ranks + 1), len(levers.point)),
-        "mode": modes.mode[mode],
-        "frequency_hz": modes.frequency[mode],
-        "kind": np.array(modes.kind, dtype=object)[mode],
+        "mode": number[mode],
+        "unit_load": unit_load[mode],
+        "frequency_hz": frequency[mode],
+        "kind": np.array(coordinates.kind, dtype=object)[mode],
         "share": attribution.mode_share[np.repeat(levers.point, ranks), mode],
         "life_exponent": levers.exponent.ravel(),
         "life_km": life,
@@ -119,6 +128,14 @@ def lever_rows(evidence: Evidence) -> dict[str, Any]:
         "life_km_counted": levers.life_counted.ravel(),
         "gain_km": levers.life_counted.ravel() - life,
     }
+
+
+def ids(coordinates: Coordinates) -> tuple[NDArray[np.object_], NDArray[np.object_]]:
+    """Mode id and name of the unit load of every coordinate, (c,) each; None where it is the other."""
+    is_mode = coordinates.is_mode
+    mode, unit_load = np.array([coordinates.number, coordinates.unit_load], dtype=object)
+    mode[~is_mode] = unit_load[is_mode] = None
+    return mode, unit_load
 
 
 def point_columns(points: Points, repeat: int) -> dict[str, Any]:

@@ -27,6 +27,7 @@ from fatigue.why.points import Points
 Floats = NDArray[np.float64]
 
 NO_SPECTRUM = "The record is shorter than one spectral segment, so there is no frequency-domain estimate to judge."
+STATIC = "A static load case has no spectrum, so there is no frequency-domain estimate to judge."
 MEASURED = tuple(
     field.name
     for field in fields(Judgement)
@@ -79,10 +80,11 @@ def event_verdicts(
     ratio is split by counting Gaussian surrogates.
     """
     nothing = np.full(len(points), np.nan)
+    is_static = any(e.name == attribution.event and e.history is None for e in body.case.mission.event)
     found = EventVerdicts(
         event=attribution.event,
         verdict=np.full(len(points), VERDICTS[0], dtype=object),
-        reason=np.full(len(points), NO_SPECTRUM, dtype=object),
+        reason=np.full(len(points), STATIC if is_static else NO_SPECTRUM, dtype=object),
         measured={name: nothing.copy() for name in MEASURED},
         segmentwise_ratio=nothing.copy(),
         formula=nothing.copy(),

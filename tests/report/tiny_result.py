@@ -390,6 +390,7 @@ def _provenance(recipe, passes, files):
             "weld_ends": "mean over the plate thickness",
             "residue": dict.fromkeys(recipe.events, "the record recurs: every cycle closes"),
             "upsample": 1,
+            "upsampled": {},
             "screening": {"rule": "none", "share_of_limit": 0.0, "stations": {}},
             "spectrum": {"segment_s": 2.0, "upper_hz": None, "window": "periodic Hann, 50 % overlap, constant detrend"},
         },

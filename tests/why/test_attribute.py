@@ -63,6 +63,6 @@ def test_shares_of_all_events_are_of_the_damage_of_the_point(found):
 
 def test_numbers_of_a_point_grow_with_its_bins():
     """Half as long bins of a 2 km event: four more; one band more: two more."""
-    few = numbers_of_point(PLAN, MODES, BINS)
-    assert numbers_of_point(PLAN, MODES, Bins(BINS.edges_hz, 0.25)) == few + 4
-    assert numbers_of_point(PLAN, MODES, Bins(np.array([3.0, 8.0, 9.0]), 0.5)) == few + 2
+    few = numbers_of_point(PLAN, len(MODES.mode), BINS)
+    assert numbers_of_point(PLAN, len(MODES.mode), Bins(BINS.edges_hz, 0.25)) == few + 4
+    assert numbers_of_point(PLAN, len(MODES.mode), Bins(np.array([3.0, 8.0, 9.0]), 0.5)) == few + 2

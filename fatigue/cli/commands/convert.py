@@ -22,6 +22,7 @@ from fatigue.shown import visible
 
 if TYPE_CHECKING:
     from fatigue.readers.convert.convert import Conversion
+    from fatigue.readers.convert.loads.names import UnitLoad
 
 _COLOUR = {"red": "red", "amber": "yellow", "green": "green"}
 
@@ -64,12 +65,14 @@ def _refuse_mistakes(options: ConvertOptions) -> None:
 
 def _record(done: "Conversion") -> dict[str, Any]:
     """Tell a conversion to machines."""
+    from fatigue.readers.convert.record import load_record
     from fatigue.readers.neutral.register.weld_register import reasons
 
     return {
         "folder": str(done.folder),
         "files": done.files,
         "modes": done.modes,
+        "unit_loads": [load_record(load) for load in done.unit_loads],
         "audit": [
             {"check": r.check, "light": r.light, "value": r.value, "finding": r.finding, "remedy": r.remedy}
             for r in done.audit.rows
@@ -79,6 +82,14 @@ def _record(done: "Conversion") -> dict[str, Any]:
         "not_assessed": [{"lines": number, "reason": reason} for number, reason in reasons(done.welds)],
         "remarks": [str(problem) for problem in done.warnings],
     }
+
+
+def _told(load: "UnitLoad") -> str:
+    """Tell a unit load, and what one of it is."""
+    subcase = f"the load of subcase {load.case.subcase} of {load.case.source}"
+    if not load.is_unit_known:
+        return f"{load.name} is {subcase}, as it was run"
+    return f"{load.name}: {load.amount:g} {load.unit} is {subcase}"
 
 
 def _print(done: "Conversion") -> None:
@@ -93,6 +104,8 @@ def _print(done: "Conversion") -> None:
         click.echo(light + visible(f"  {row.check}:{value} {row.finding}.{remedy}"))
     for problem in done.warnings:
         say(f"note   {problem}")
+    for load in done.unit_loads:
+        say(f"unit load {_told(load)}")
     say(f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed")
     for number, reason in reasons(done.welds):
         say(f"{number} weld line{'s' * (number > 1)} not assessed: {visible(reason)}")

@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import LARGEST_UPSAMPLE, Event
+from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
@@ -19,10 +19,10 @@ from fatigue.pipeline.forecast.needs import PER_STRESS_SAMPLE
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
-    SAMPLES_PER_PEAK,
     load_of,
     shortened_record,
 )
+from fatigue.pipeline.mission.upsampling import factor_for, peak_forms
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
@@ -138,7 +138,7 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     worst = worst_points(model.stations, result)
     binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
     alone, each = PER_STRESS_SAMPLE[False]
-    binning_s = 2 * binned * upsampled * (alone + each * len(body.modes.mode))
+    binning_s = 2 * binned * upsampled * (alone + each * len(body.coordinates))
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
@@ -159,10 +159,8 @@ def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial, refin
     factor = body.case.counting.upsample
     if factor != "auto" or not refined:
         return max(1, int(factor) // refined) if factor != "auto" and refined else 1
-    load = load_of(body, event, record, 1, single=False)
-    samples_per_peak = trial.counted(load).of_events("samples_per_peak")
-    fewest = float(np.nanmin(samples_per_peak, initial=SAMPLES_PER_PEAK))
-    return int(min(LARGEST_UPSAMPLE, 2 ** max(0, np.ceil(np.log2(SAMPLES_PER_PEAK / fewest)))))
+    forms = peak_forms(load_of(body, event, record, 1, single=False))
+    return factor_for(forms.fastest(trial.model.stations.treated), record.step)
 
 
 def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:

@@ -1,7 +1,7 @@
 """What an event brings to every station: its record ready to be counted, and its second-order statistics."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +34,7 @@ class EventLoad:
     offset : (c,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
     covariance : (c, c) covariance of q over the kept samples
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
-    is_upsampled : whether mean and covariance are of other samples than those that are counted
+    upsample : how many samples one has become; mean and covariance are of the samples as they were
     moment_pairs : matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
     pairs_above : the same of what lies above the band of the spectrum; empty where nothing does
     top_mode_hz : highest frequency of a normal mode [Hz], None where there is none
@@ -48,7 +48,7 @@ class EventLoad:
     mean: NDArray[np.float64]
     offset: NDArray[np.float64]
     covariance: NDArray[np.float64]
-    is_upsampled: bool
+    upsample: int
     moments: MomentMatrices | None
     moment_pairs: tuple[FormPair, ...]
     pairs_above: tuple[FormPair, ...]
@@ -66,6 +66,11 @@ class EventLoad:
         return CountedRecord(self.counted.q, self.residue, self.single)
 
     @property
+    def is_upsampled(self) -> bool:
+        """Whether mean and covariance are of other samples than those that are counted."""
+        return self.upsample > 1
+
+    @property
     def known(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
         """Mean and covariance of the samples that are counted; None where those known are of other samples."""
         return None if self.is_upsampled else (self.mean, self.covariance)
@@ -76,8 +81,7 @@ class HowCounted:
     """How the record of an event is to be counted.
 
     ``residue`` and ``stress_factor`` are the same as of ``EventLoad``; ``upsample`` is how many samples one of the file
-    becomes;
-    ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
+    becomes; ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
     """
 
     residue: Residue
@@ -88,48 +92,55 @@ class HowCounted:
 
 
 def prepare_event(
-    history: ModalHistory,
-    how: HowCounted,
-    spectra: Spectra | None,
-    top_mode_hz: float | None,
-    scratch: Path | None = None,
-    record: EventRecord | None = None,
+    history: ModalHistory, how: HowCounted, spectra: Spectra | None, top_mode_hz: float | None
 ) -> EventLoad:
-    """What all stations share of an event, from its kept record.
+    """What all stations share of an event, from its kept record in memory."""
+    record = EventRecord(history, history.duration)
+    return as_counted(of_samples(record, how, spectra, top_mode_hz), record, how)
 
-    ``scratch``: folder for whatever is as large as the record, None: in memory. ``record``: the same history with unit
-    loads that are read between their samples.
-    """
-    record = record or EventRecord(history, history.duration)
+
+def of_samples(record: EventRecord, how: HowCounted, spectra: Spectra | None, top_mode_hz: float | None) -> EventLoad:
+    """Statistics of the kept record of an event, beside its samples as they are; ``as_counted`` comes next."""
+    history = record.history
     trust = None if spectra is None else trust_matrices(history, spectra)
     if trust is None:
         moments, (mean, covariance) = None, mean_and_covariance(history.q)
     else:
         moments, mean, covariance = trust.moments, trust.record.mean, trust.record.covariance
     above = None if spectra is None else spectra_above(spectra)
-    counted = record.upsampled(how.upsample, how.residue, scratch and scratch / "upsampled")
-    known = (mean, covariance) if counted is history else None
     return EventLoad(
-        counted=counted,
-        single=kept_single_record(counted.q, scratch, known, held=how.held) if how.single else None,
+        counted=history,
+        single=None,
         residue=how.residue,
         stress_factor=how.stress_factor,
         duration=record.duration,
         mean=mean,
         offset=np.zeros(len(mean)),
         covariance=covariance,
-        is_upsampled=counted is not history,
+        upsample=1,
         moments=moments,
-        moment_pairs=_pairs(moments),
-        pairs_above=_pairs(None if above is None else moment_matrices(above)),
+        moment_pairs=() if moments is None else form_pairs(moments),
+        pairs_above=() if above is None else form_pairs(moment_matrices(above)),
         trust=trust,
         top_mode_hz=top_mode_hz,
     )
 
 
-def _pairs(moments: MomentMatrices | None) -> tuple[FormPair, ...]:
-    """Moment matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; nothing of None."""
-    return () if moments is None else (form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:]))
+def as_counted(load: EventLoad, record: EventRecord, how: HowCounted, scratch: Path | None = None) -> EventLoad:
+    """The same event with its ``record`` upsampled, and prepared for the kernel in single precision, as asked.
+
+    ``scratch``: folder for whatever is as large as the record, None: in memory.
+    """
+    counted = record.upsampled(how.upsample, how.residue, scratch and scratch / "upsampled")
+    factor = 1 if record.is_static else max(how.upsample, record.refined)
+    load = replace(load, counted=counted, upsample=factor)
+    single = kept_single_record(counted.q, scratch, load.known, held=how.held) if how.single else None
+    return replace(load, single=single)
+
+
+def form_pairs(moments: MomentMatrices) -> tuple[FormPair, ...]:
+    """Moment matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations."""
+    return form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])
 
 
 def held_copies(modes: int, given: Sequence[int], counted: Sequence[int]) -> list[bool]:

@@ -1,78 +1,84 @@
 """The records of the events, read and prepared: what each event brings to every station, in memory or on disk."""
 
 import logging
-import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import LARGEST_UPSAMPLE, Event
+from fatigue.case import Event
 from fatigue.errors import NumericalError, Problem
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import ModalHistory, mean_and_covariance
-from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, held_copies, prepare_event
+from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, as_counted, held_copies, of_samples
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level, with_offset
 from fatigue.pipeline.mission.unit_loads import event_files
+from fatigue.pipeline.mission.upsampling import automatic_factors
 from fatigue.pipeline.solve.body import Body
-from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import WeldGroups
 from fatigue.readers.neutral.event.event_record import FINER, EventRecord, read_event
 from fatigue.side_by_side import in_order
-from fatigue.spectrum.moments import (
-    MomentMatrices,
-    Spectra,
-    default_upper_hz,
-    has_spectrum,
-    moment_matrices,
-    point_moments,
-    segment_spectra,
-    spectra_above,
-)
-from fatigue.spectrum.outside import peak_rate
+from fatigue.spectrum.moments import Spectra, default_upper_hz, has_spectrum, segment_spectra
 
 log = logging.getLogger(__name__)
 
-SAMPLES_PER_PEAK = 20.0  # what upsample = "auto" reaches for
 DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (3e-7 of damage)
 RECORD = "record"  # file of the samples as they were read
 HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
 
 
 def event_loads(
-    groups: WeldGroups, plan: Plan, scratch: Path | None = None, threads: int | None = None
+    groups: WeldGroups,
+    plan: Plan,
+    scratch: Path | None = None,
+    threads: int | None = None,
+    factors: Sequence[int] | None = None,
 ) -> tuple[EventLoad, ...]:
     """What all stations share of every event; it is kept while welds stream by.
 
     ``scratch`` is a folder for the longest records where all of them are more than ``HELD_BYTES``; None: all are held
     in memory, whatever their size. ``threads`` prepare an event each, by default one per processor core; the numbers do
-    not depend on how many there are.
+    not depend on how many there are. ``factors`` by which the records are upsampled, where they are known; None: as the
+    case asks for.
     """
     body, events = groups.body, groups.body.case.mission.event
     sizes = np.array([len(body.coordinates) * p.samples for p in plan.passes])
-    asked = body.case.counting.upsample
     folders = _folders(4 * sizes, scratch)
-    wanted = _automatic_factors(groups, folders) if asked == "auto" else [asked] * len(events)
-    factors = [p.factor(factor) for p, factor in zip(plan.passes, wanted, strict=True)]
-    stations = int(body.lines.begin[-1])
-    samples = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
-    single = 2 * stations * samples > DOUBLE_PRECISION_SAMPLES
+
+    def given(job: tuple[Event, Path | None]) -> tuple[EventLoad, EventRecord]:
+        record = _record(body, *job)
+        return _of_samples(body, job[0], record, how_counted(body, job[0])), record
+
+    loads = list(in_order(given, zip(events, folders, strict=True), threads))
+    if factors is None:
+        factors = _factors(groups, plan, [load for load, _ in loads], threads)
+    samples = [f * p.samples for f, p in zip(factors, plan.passes, strict=True)]
+    single = 2 * int(body.lines.begin[-1]) * sum(samples) > DOUBLE_PRECISION_SAMPLES
     log.info("cycles are counted in %s precision", "single" if single else "double")
     for event, upsample in zip(events, factors, strict=True):
         if upsample > 1:
             log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
     bytes_held = sizes * [f * (8 if f > 1 else 4) for f in factors]  # interpolated in double precision
+    held = held_copies(len(body.coordinates), [p.samples for p in plan.passes], samples)
+    finer = _folders(bytes_held, scratch)
 
-    given = [p.samples for p in plan.passes]
-    held = held_copies(len(body.coordinates), given, [f * n for f, n in zip(factors, given, strict=True)])
+    def prepared(number: int) -> EventLoad:
+        how = how_counted(body, events[number], factors[number], single=single, held=held[number])
+        before = folders[number]
+        return _as_counted(body, *loads[number], how, finer[number] or before, before)
 
-    def prepared(job: tuple[Event, int, Path | None, bool]) -> EventLoad:
-        event, upsample, folder, holds = job
-        return event_load(body, event, upsample, single=single, scratch=folder, holds_single=holds)
+    return tuple(in_order(prepared, range(len(events)), threads))
 
-    jobs = zip(events, factors, _folders(bytes_held, scratch), held, strict=True)
-    return tuple(in_order(prepared, jobs, threads))
+
+def _factors(groups: WeldGroups, plan: Plan, loads: Sequence[EventLoad], threads: int | None) -> list[int]:
+    """By how much the record of each event is upsampled in all, of which ``loads`` has the samples."""
+    asked = groups.body.case.counting.upsample
+    if asked != "auto":
+        return [p.factor(asked) for p in plan.passes]
+    found = automatic_factors(groups, loads, threads)  # of records that may have been refined for a load
+    return [p.factor(factor * max(1, p.refined)) for p, factor in zip(plan.passes, found, strict=True)]
 
 
 def event_load(
@@ -85,12 +91,9 @@ def event_load(
     holds_single: bool = True,
 ) -> EventLoad:
     """What all stations share of one event, whose record is read; ``scratch``: folder to keep the record in."""
-    how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single, holds_single)
+    how = how_counted(body, event, upsample, single=single, held=holds_single)
     record = _record(body, event, scratch)
-    load = with_offset(body, event, _load_of(body, record, how, scratch), record)
-    if load.is_upsampled and scratch is not None:
-        _forget(scratch)
-    return load
+    return _as_counted(body, _of_samples(body, event, record, how), record, how, scratch, scratch)
 
 
 def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> ModalHistory:
@@ -102,18 +105,50 @@ def shortened_record(body: Body, event: Event, samples: int, scratch: Path) -> M
 
 def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, single: bool) -> EventLoad:
     """What all stations share of a record in memory."""
-    how = HowCounted(body.case.residue(event), event.stress_factor, upsample, single)
+    how = how_counted(body, event, upsample, single=single)
     record = EventRecord(history, history.duration, is_static=event.history is None)
-    return with_offset(body, event, _load_of(body, record, how), record)
+    return _as_counted(body, _of_samples(body, event, record, how), record, how)
 
 
-def _load_of(body: Body, record: EventRecord, how: HowCounted, scratch: Path | None = None) -> EventLoad:
-    """What all stations share of a record; ``scratch``: folder for what is computed of each sample."""
-    history = record.history
-    spectra = None if record.is_static else event_spectra(body, history)
+def how_counted(body: Body, event: Event, upsample: int = 1, *, single: bool = False, held: bool = True) -> HowCounted:
+    """How the case has the record of an event counted."""
+    return HowCounted(body.case.residue(event), event.stress_factor, upsample, single, held)
+
+
+def _of_samples(body: Body, event: Event, record: EventRecord, how: HowCounted) -> EventLoad:
+    """Statistics of a record, and its constants, beside its samples."""
+    with _no_overflow(body, record.history):
+        spectra = None if record.is_static else event_spectra(body, record.history)
+        load = of_samples(record, how, spectra, top_mode_hz(body))
+    return with_offset(body, event, load, record)
+
+
+def _as_counted(
+    body: Body,
+    load: EventLoad,
+    record: EventRecord,
+    how: HowCounted,
+    scratch: Path | None = None,
+    before: Path | None = None,
+) -> EventLoad:
+    """A record as it is counted.
+
+    ``scratch``: folder for what is computed of each sample; ``before``: folder of the samples as they were read, which
+    are removed where others are counted.
+    """
+    with _no_overflow(body, record.history):
+        counted = as_counted(load, record, how, scratch)
+    if counted.counted is not record.history and before is not None:
+        _forget(before)
+    return counted
+
+
+@contextmanager
+def _no_overflow(body: Body, history: ModalHistory) -> Iterator[None]:
+    """Refuse a record whose squares exceed double precision."""
     try:
         with np.errstate(over="raise", invalid="raise"):
-            return prepare_event(history, how, spectra, top_mode_hz(body), scratch, record)
+            yield
     except FloatingPointError:
         raise NumericalError(_too_large(body, history)) from None
 
@@ -180,36 +215,3 @@ def mean_levels(body: Body, scratch: Path) -> list[MeanLevel]:
         levels.append(mean_level(body, event, mean))
         _forget(scratch)
     return levels
-
-
-def _below_and_above(spectra: Spectra) -> tuple[MomentMatrices, MomentMatrices | None]:
-    """Moment matrices of the band of the spectra, and of what lies above it."""
-    above = spectra_above(spectra)
-    return moment_matrices(spectra), None if above is None else moment_matrices(above)
-
-
-def _automatic_factors(groups: WeldGroups, folders: Sequence[Path | None]) -> list[int]:
-    """Smallest power of 2 per event that gives every point of the body ``SAMPLES_PER_PEAK`` samples per peak.
-
-    ``folders`` are for the records of the events, None: in memory. One record is open at a time.
-    """
-    body = groups.body
-    steps: list[float] = []
-    moments: list[tuple[MomentMatrices, MomentMatrices | None] | None] = []
-    for event, folder in zip(body.case.mission.event, folders, strict=True):
-        record = _record(body, event, folder)
-        spectra = None if record.is_static else event_spectra(body, record.history)
-        steps.append(record.history.step * record.refined)
-        moments.append(None if spectra is None else _below_and_above(spectra))
-    peaks_per_s = np.zeros(len(steps))
-    for number in range(len(groups)):
-        stress = solve_group(groups, number).stations.treated
-        faces = np.concatenate([stress.membrane + stress.bending, stress.membrane - stress.bending])
-        for i, matrices in enumerate(moments):
-            if matrices is not None:
-                of_band, of_above = matrices
-                band = point_moments(faces, of_band)
-                above = np.zeros_like(band) if of_above is None else point_moments(faces, of_above)
-                peaks_per_s[i] = np.nanmax(peak_rate(band, above), initial=peaks_per_s[i])
-    wanted = SAMPLES_PER_PEAK * peaks_per_s * np.array(steps)
-    return [min(LARGEST_UPSAMPLE, 2 ** max(0, math.ceil(math.log2(w)))) if w > 0.0 else 1 for w in wanted]

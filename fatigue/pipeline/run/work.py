@@ -56,18 +56,31 @@ class Work:
     kept_from: float
     histogram: HistogramPoints
 
+    @property
+    def factors(self) -> tuple[int, ...]:
+        """By how much the record of each event is upsampled."""
+        return tuple(load.upsample for load in self.loads)
+
     def group(self, number: int) -> tuple[Model, GroupResult]:
         """One group of welds, solved, and its result."""
         model = solve_group(self.groups, number)
         return model, assess_group(model, self.loads, self.plan, self.screening)
 
 
-def open_work(groups: WeldGroups, plan: Plan, options: ScreeningOptions, scratch: Path, threads: int | None) -> Work:
+def open_work(
+    groups: WeldGroups,
+    plan: Plan,
+    options: ScreeningOptions,
+    scratch: Path,
+    threads: int | None,
+    factors: Sequence[int] | None = None,
+) -> Work:
     """The work of a job, with the records of its events read and its screening prepared.
 
-    ``scratch`` is a folder for what memory cannot hold; ``threads`` are by default one per processor core.
+    ``scratch`` is a folder for what memory cannot hold; ``threads`` are by default one per processor core; ``factors``
+    as of ``event_loads``.
     """
-    loads = event_loads(groups, plan, scratch / "histories", threads)
+    loads = event_loads(groups, plan, scratch / "histories", threads, factors)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
     share = large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)

@@ -11,6 +11,7 @@ from fatigue.pipeline.mission.gravity import HeldGravity
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.tables.unit_loads import load_records
 from fatigue.results import software_versions, way_to_case
 
 RESIDUE_RULES = {
@@ -55,7 +56,7 @@ def provenance_record(
             "frequency_hz": body.modes.frequency.tolist(),
             "kind": list(body.modes.kind),
         },
-        "unit_loads": [load.model_dump() for load in case.body.unit_load],
+        "unit_loads": load_records(body),
         "force_convention": case.body.force_convention,
         "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
         "rules": {
@@ -71,6 +72,8 @@ def provenance_record(
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
             "mean_of_q": {event.name: case.mean_of_q(event) for event in case.mission.event},
             "upsample": case.counting.upsample,
+            "upsampled": {load.counted.event: load.upsample for load in work.loads},
+            "reversals": case.counting.reversals,
             "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,

@@ -26,7 +26,7 @@ elements = "elements.parquet"
 register = "welds_register.csv"   # EDIT: which lines are assessed, their names, faces, thickness, curves
 force_convention = "{convention}"
 ignore_modes = {ignore}
-
+{loads}
 [curve]
 name = "{curve}"               # EDIT
 survival = "mean-2sigma"
@@ -36,7 +36,7 @@ mean_stress = "none"
 
 [counting]
 residue = "repeat"
-upsample = 1
+upsample = "auto"              # 20 samples per peak; 1: the samples as they are
 
 [mission]
 target_km = {target!r}         # EDIT
@@ -64,24 +64,33 @@ _NO_EVENT = """
 
 
 def case_text(
-    options: ConvertOptions, convention: Convention, ignore_modes: Sequence[int], events: Sequence[tuple[str, str]]
+    options: ConvertOptions,
+    convention: Convention,
+    ignore_modes: Sequence[int],
+    events: Sequence[tuple[str, str]],
+    loads: tuple[str, str] = ("", ""),
 ) -> str:
-    """Text of a case with one event for each (name, file), all with the same share and speed."""
+    """Text of a case with one event for each (name, file), all with the same share and speed.
+
+    ``loads`` is the text of the unit loads of the body, and what to write of them behind the events.
+    """
     head = _HEAD.format(
         title=json.dumps(options.title or options.mesh.stem),
         convention=convention,
         ignore=list(ignore_modes),
+        loads=loads[0],
         curve=options.curve,
         target=float(options.target_km),
         per_year=float(options.target_km) / 30,
     )
     if not events:
-        return head + _NO_EVENT
+        return head + _NO_EVENT + loads[1]
     speed, share = float(options.speed_km_h), 1.0 / len(events)
-    return head + "".join(
+    texts = (
         _EVENT.format(name=json.dumps(name), history=json.dumps(file), speed=speed, share=share)
         for name, file in events
     )
+    return head + "".join(texts) + loads[1]
 
 
 def register_named(case_file: Path) -> str:

@@ -11,11 +11,15 @@ from fatigue.readers.convert.audit.shell_rows import without_drilling
 from fatigue.readers.convert.case_text import CASE, case_text
 from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, write_folder
 from fatigue.readers.convert.inputs import audited, read_inputs, unknown_checks
-from fatigue.readers.convert.modal_basis import common_modes, coordinate_units
+from fatigue.readers.convert.loads.at_welds import loads_at_welds
+from fatigue.readers.convert.loads.names import UnitLoad
+from fatigue.readers.convert.loads.text import UNIT_LOADS, load_warnings, loads_not_given, loads_text
+from fatigue.readers.convert.modal_basis import common_modes, coordinate_units, only_modes
 from fatigue.readers.convert.neutral_tables import (
     elements_table,
     event_tables,
     forces_table,
+    loads_table,
     modes_table,
     nodes_table,
     weld_tables,
@@ -41,6 +45,7 @@ class Conversion:
     welds: tuple[RegisterRow, ...]
     warnings: tuple[Problem, ...]
     modes: int
+    unit_loads: tuple[UnitLoad, ...]
     force_rows: int
     nodes: int
     files: tuple[str, ...]
@@ -80,21 +85,27 @@ def convert(options: ConvertOptions) -> Conversion:
         force = without_drilling(force, results, inputs.model)
     rows = rows_at_welds(found, results)
     force = to_mid_surface(force, results, metric, rows)
+    loads = inputs.unit_loads
+    basis = only_modes(results, results.of_basis)
     files: dict[str, pa.Table | str] = {
-        "modes.csv": modes_table(results, inputs.interface_modes, inputs.simulated),
+        "modes.csv": modes_table(basis, inputs.interface_modes, inputs.simulated),
         "nodes.parquet": nodes_table(metric),
         "elements.parquet": elements_table(metric),
-        "element_forces.parquet": forces_table(results, force, rows),
+        "element_forces.parquet": forces_table(basis, force[results.of_basis] if loads else force, rows),
         **weld_tables(found),
         REGISTER: register_text(found.rows),
     }
-    factor = coordinate_units(results, history_units, options.normalisation)
-    events = event_tables(inputs.histories, results.mode, factor)
+    if loads:
+        files[UNIT_LOADS] = loads_table(only_modes(results, ~results.of_basis), force[~results.of_basis], rows, loads)
+    factor = coordinate_units(basis, history_units, options.normalisation)
+    events = event_tables(inputs.histories, basis.mode, factor, loads)
     ignored = {int(mode) for history in inputs.histories for mode in history.mode} - set(results.mode.tolist())
     files |= {name: table for (_, name), table in events.items()}
-    files[CASE] = case_text(options, convention, sorted(ignored), list(events))
-    kept = {}
+    lacking = loads_not_given(loads, events)
+    files[CASE] = case_text(options, convention, sorted(ignored), list(events), loads_text(loads, lacking))
+    kept, kept_case = {}, None
     if options.keep_case and (options.out / CASE).is_file():
+        kept_case = options.out / CASE
         kept = {name: known for name, known in recorded_files(options.out).items() if name == CASE}
         del files[CASE]
     if not options.force:
@@ -102,15 +113,17 @@ def convert(options: ConvertOptions) -> Conversion:
     warnings = (
         *(*unknown_checks(judged, options), *results.warnings, *inputs.model.warnings),
         *(*found.warnings, *left_out, *inputs.warnings),
+        *(*loads_at_welds(results, metric, found), *load_warnings(loads, lacking, kept_case)),
     )
-    record = conversion_record(options, inputs.files(options), convention, judged, warnings, found.rows)
+    record = conversion_record(options, inputs.files(options), convention, judged, warnings, found.rows, loads)
     write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,
         audit=judged,
         welds=found.rows,
         warnings=warnings,
-        modes=results.mode.size,
+        modes=basis.mode.size,
+        unit_loads=loads,
         force_rows=rows.size * results.mode.size,
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
         files=(*files, RECORD),

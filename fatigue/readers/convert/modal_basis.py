@@ -36,6 +36,11 @@ def without_modes(results: FeResults, ignored: Iterable[int]) -> FeResults:
     if not keep.any():
         what = f"all {results.mode.size} modes with forces are left out: {_short(results.mode.tolist())}"
         raise DataError(Problem("no_modes", results.source, what, "Name fewer modes in --ignore-modes"))
+    return only_modes(results, keep)
+
+
+def only_modes(results: FeResults, keep: NDArray[np.bool_]) -> FeResults:
+    """FE results of the modes and unit loads to ``keep``, (m,)."""
     return replace(
         results,
         mode=results.mode[keep],
@@ -153,11 +158,14 @@ def simulated_frequencies(histories: Sequence[ForeignHistory], table: Simulation
 def common_modes(
     results: FeResults, histories: Sequence[ForeignHistory], source: Path, interface_modes: Collection[int]
 ) -> tuple[FeResults, list[Problem]]:
-    """FE results without the rigid modes that the simulation lacks, and warnings; any other difference is refused."""
+    """FE results without the rigid modes that the simulation lacks, and warnings; any other difference is refused.
+
+    Unit loads may have a history each or none.
+    """
     problems, warnings = [], []
-    have = set(results.mode.tolist())
+    have = set(results.mode[results.of_basis].tolist())
     for history in histories:
-        if extra := sorted(set(history.mode.tolist()) - have):
+        if extra := sorted(set(history.mode.tolist()) - have - set(results.unit_loads)):
             problems.append(
                 Problem(
                     "mode_without_forces",
@@ -192,9 +200,10 @@ def common_modes(
 
 def _in_order(history: ForeignHistory, results: FeResults) -> str:
     """Proposal to join in order, where the simulation seems to count its modes from another number; else empty."""
-    own, fe = np.sort(history.mode), results.mode
+    own = np.sort(history.mode[~np.isin(history.mode, list(results.unit_loads))])
+    fe = results.mode[results.of_basis]
     count = own.size
-    rigid = fe[results.frequency <= LOWEST_HZ]
+    rigid = results.mode[results.frequency <= LOWEST_HZ]
     if np.array_equal(own, fe) or not np.array_equal(own, own[:1] + np.arange(count)):
         return ""
     if count == fe.size:
@@ -233,8 +242,7 @@ def mode_scale(results: FeResults, table: SimulationModes) -> Floats:
 
 def coordinate_units(results: FeResults, units: UnitSystem, normalisation: Normalisation) -> NDArray[np.float64]:
     """Unit of each mode's coordinate, (m,); the coordinate of a static subcase is a plain number of its loads."""
-    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
-    return np.where(is_static, 1.0, units.modal_coordinate(normalisation))
+    return np.where(results.is_static, 1.0, units.modal_coordinate(normalisation))
 
 
 def assumed_masses(results: FeResults, table: SimulationModes) -> list[Problem]:

@@ -8,6 +8,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.readers.convert.audit.shell_rows import elastic_modes
+from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.modal_basis import SimulationModes, mode_masses, mode_scale
 from fatigue.readers.convert.weld_lines import FoundWelds
 from fatigue.readers.foreign.fe.model import FeModel
@@ -46,6 +47,16 @@ def forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[
             **{name: np.ascontiguousarray(flat[:, k]) for k, name in enumerate(COMPONENTS)},
         }
     )
+
+
+def loads_table(
+    results: FeResults, force: NDArray[np.floating], rows: NDArray[np.int64], loads: Sequence[UnitLoad]
+) -> pa.Table:
+    """Table of the forces per unit of every unit load, of the forces (u, r, 6) of their subcases, ``results``."""
+    of_one = force / np.array([load.amount for load in loads])[:, None, None]
+    table = forces_table(results, of_one.astype(force.dtype), rows)
+    name = pa.array([load.name for load in loads])
+    return table.set_column(0, "unit_load", name.take(pa.array(np.repeat(np.arange(len(loads)), rows.size))))
 
 
 def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
@@ -95,10 +106,9 @@ def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
 
 def modes_table(results: FeResults, interface_modes: Sequence[int], simulated: SimulationModes) -> pa.Table:
     """Table of the modes: frequencies of the FE run, masses of the simulation where it gives them, and the scale."""
-    is_static = results.analysis == "static"
     interface = np.isin(results.mode, np.array(interface_modes, np.int64))
     rigid = (results.frequency <= LOWEST_HZ) | ~elastic_modes(results)
-    kind = np.where(interface | is_static, "interface", np.where(rigid, "rigid", "normal"))
+    kind = np.where(interface | results.is_static, "interface", np.where(rigid, "rigid", "normal"))
     mass, of_simulation = mode_masses(results, simulated)
     return pa.table(
         {
@@ -112,19 +122,24 @@ def modes_table(results: FeResults, interface_modes: Sequence[int], simulated: S
 
 
 def event_tables(
-    histories: Sequence[ForeignHistory], mode: NDArray[np.int64], factor: NDArray[np.float64]
+    histories: Sequence[ForeignHistory],
+    mode: NDArray[np.int64],
+    factor: NDArray[np.float64],
+    loads: Sequence[UnitLoad] = (),
 ) -> dict[tuple[str, str], pa.Table]:
-    """Tables of the coordinates of all events, by the names of the event and of its file."""
+    """Tables of the coordinates of all events, by the names of the event and of its file; and of loads they give."""
     tables: dict[tuple[str, str], pa.Table] = {}
     for history in histories:
         event = Path(history.source).stem
         file = _unused(f"q_{_slug(event)}.parquet", {name for _, name in tables})
-        tables[event, file] = _history_table(history, mode, factor)
+        tables[event, file] = _history_table(history, mode, factor, loads)
     return tables
 
 
-def _history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDArray[np.float64]) -> pa.Table:
-    """Table of the coordinates of the modes, (m,), each times its ``factor``, (m,)."""
+def _history_table(
+    history: ForeignHistory, mode: NDArray[np.int64], factor: NDArray[np.float64], loads: Sequence[UnitLoad]
+) -> pa.Table:
+    """Table of the coordinates of the modes, (m,), each times its ``factor``, (m,), and of the loads it gives."""
     row = {int(m): k for k, m in enumerate(history.mode)}
     return pa.table(
         {
@@ -133,6 +148,7 @@ def _history_table(history: ForeignHistory, mode: NDArray[np.int64], factor: NDA
                 f"q_{m}": (history.q[row[int(m)]] * f).astype(np.float32)
                 for m, f in zip(mode, factor.tolist(), strict=True)
             },
+            **{load.column: history.q[row[load.case.number]] for load in loads if load.case.number in row},
         }
     )
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Annotated, Literal, get_args
 
 from fatigue.errors import CaseError, Problem
+from fatigue.readers.convert.loads.names import LoadName
 from fatigue.readers.convert.option_fields import Option, take_paths
 from fatigue.readers.foreign.formats import COORDINATES, FORCES, MESH, formats_in_help
 from fatigue.readers.units.systems import Normalisation
@@ -71,7 +72,7 @@ class ConvertOptions:
     mesh: Annotated[Path, Option("--mesh", f"Geometry: {formats_in_help(MESH, ', or ')}.")]
     unit_loads: Annotated[
         tuple[Path, ...],
-        Option("--unit-loads", "Forces of static unit loads in a file of their own: interface modes; repeatable."),
+        Option("--unit-loads", "Forces of static subcases in a file of their own; repeatable."),
     ] = field(default=(), kw_only=True)
     coordinates: Annotated[
         tuple[Path, ...],
@@ -112,6 +113,23 @@ class ConvertOptions:
             "--interface-modes",
             "Residual, constraint or attachment modes, and static subcases that are such, as 31-52.",
             is_list=True,
+        ),
+    ] = ()
+    static_subcases: Annotated[
+        Literal["unit_loads", "interface_modes", "leave_out"] | None,
+        Option(
+            "--static-subcases",
+            "What static subcases are that --interface-modes does not name; default: interface modes where the "
+            "coordinates have a column for them, else unit loads.",
+        ),
+    ] = None
+    unit_load_names: Annotated[
+        tuple[LoadName, ...],
+        Option(
+            "--unit-load-name",
+            "A subcase is so much of this load, as 1001 tunnel_pressure 5 kPa; repeatable. Else its name is made of "
+            "its subtitle, label or title, and 1 is the load as it was run.",
+            metavar="SUBCASE NAME AMOUNT UNIT",
         ),
     ] = ()
     ignore_modes: Annotated[

@@ -9,6 +9,7 @@ from typing import Any
 from fatigue.errors import Problem
 from fatigue.files.hashes import sha256
 from fatigue.readers.convert.audit.audit import Audit
+from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.option_fields import words_of
 from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.neutral.forces.convention import Convention
@@ -23,6 +24,7 @@ def conversion_record(
     audit: Audit,
     warnings: Iterable[Problem],
     welds: Sequence[RegisterRow],
+    loads: Sequence[UnitLoad],
 ) -> dict[str, Any]:
     """What ``convert.json`` holds besides the hashes of the files that were written."""
     return {
@@ -30,8 +32,22 @@ def conversion_record(
         "convention": convention,
         "audit": [_plain(asdict(row)) for row in audit.rows],
         "remarks": [str(problem) for problem in warnings],
+        "unit_loads": [load_record(load) for load in loads],
         LINES: _lines_of_welds(welds),
         COMMAND: words_of(options),
+    }
+
+
+def load_record(load: UnitLoad) -> dict[str, Any]:
+    """What a unit load is, and what it was made of."""
+    return {
+        "name": load.name,
+        "unit": load.unit,
+        "is_unit_known": load.is_unit_known,
+        "amount": load.amount,
+        "subcase": load.case.subcase,
+        "file": load.case.source,
+        **asdict(load.case.heading),
     }
 
 

@@ -1,32 +1,35 @@
-"""Unit loads in a file of their own: static subcases of the same model, joined to its modes as interface modes.
+"""Static subcases of the same model in a file of their own, joined to its modes.
 
 Solvers that compute modes and static subcases in separate runs (MYSTRAN among them) write them into separate files.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.readers.convert.loads.roles import static_cases_of
 from fatigue.readers.foreign.fe.force_rows import common_rows
 from fatigue.readers.foreign.fe.results import FeResults, ForceBlock
+from fatigue.readers.foreign.fe.static_case import APART
 
 
 def with_unit_loads(modes: FeResults, loads: FeResults) -> FeResults:
-    """FE results with static subcases joined to the modes, each as a mode that has the number of its subcase.
+    """FE results with static subcases joined to the modes, each with the number of its subcase if no other has it.
 
     Raises
     ------
-    DataError : the second file holds modes, a number is used twice, or the elements with forces differ
+    DataError : the second file holds modes, or the elements with forces differ
     """
-    refuse(DataError, _problems(modes, loads))
+    refuse(DataError, _problems(loads))
+    number = _unused(loads.mode.tolist(), set(modes.mode.tolist()))
     rows = common_rows([*_blocks(modes), *_blocks(loads)])
     shape_node, shape = _shapes(modes, loads)
     return replace(
         modes,
-        mode=np.concatenate([modes.mode, loads.mode]),
+        mode=np.concatenate([modes.mode, np.array(number, np.int64)]),
         frequency=np.concatenate([modes.frequency, loads.frequency]),
         modal_mass=np.concatenate([modes.modal_mass, loads.modal_mass]),
         node=rows.node,
@@ -36,22 +39,30 @@ def with_unit_loads(modes: FeResults, loads: FeResults) -> FeResults:
         shape_node=shape_node,
         shape=shape,
         warnings=(*modes.warnings, *loads.warnings),
-        static_modes=(*modes.static_modes, *loads.mode.tolist()),
+        static_modes=(*modes.static_modes, *number),
+        static_cases=(
+            *static_cases_of(modes),
+            *(replace(case, number=own) for case, own in zip(static_cases_of(loads), number, strict=True)),
+        ),
     )
 
 
-def _problems(modes: FeResults, loads: FeResults) -> Iterator[Problem]:
-    """Mistakes that keep two files from being one basis."""
+def _unused(subcases: Sequence[int], taken: Collection[int]) -> list[int]:
+    """Number of every subcase, or one from ``APART`` on where a mode or a subcase of another file has its own."""
+    found: list[int] = []
+    for subcase in subcases:
+        number = subcase
+        while number in taken or number in found:
+            number = max(number, APART - 1) + 1
+        found.append(number)
+    return found
+
+
+def _problems(loads: FeResults) -> Iterator[Problem]:
+    """Mistakes that keep a file from being one of static subcases."""
     if loads.analysis != "static":
         remedy = "Give the file with modes as the forces, and the one with static subcases as unit loads"
         yield Problem("no_unit_loads", loads.source, "it holds modes, no static subcases", remedy)
-    elif (both := np.intersect1d(modes.mode, loads.mode)).size:
-        yield Problem(
-            "mode_twice",
-            loads.source,
-            f"subcase {both[0]} has the number of a mode in {modes.source}",
-            "Number the subcases of unit loads apart from the modes, as from 1001 on",
-        )
 
 
 def _blocks(results: FeResults) -> Iterator[ForceBlock]:

@@ -54,9 +54,11 @@ def recognise(path: Path) -> ForeignFormat:
     return next(form for form in reversed(FORMATS) if form.fits_text(text))
 
 
-def read_forces(path: Path, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
-    """Grid point forces from any format that holds them, with static subcases named as interface modes."""
-    results: FeResults = _reader(path, FORCES)(path, subcase, interface)
+def read_forces(
+    path: Path, subcase: int | None, interface: Collection[int] = (), loads: Collection[int] | None = ()
+) -> FeResults:
+    """Grid point forces from any format that holds them, with static subcases that are interface modes or loads."""
+    results: FeResults = _reader(path, FORCES)(path, subcase, interface, loads)
     return results
 
 

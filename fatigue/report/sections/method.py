@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fatigue.report.wording import number
+from fatigue.shown import few
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +26,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             f"force convention {record['force_convention']}, global axes, {len(record['modes']['used'])} modes",
             "case file: body.force_convention",
         ),
+        *(_load_rule(load) for load in record.get("unit_loads", ())),
         Rule(
             "Line forces",
             "consistent with the edge shape functions along each weld line, solved once for all modes",
@@ -60,7 +62,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
         *_level_rule(chosen),
-        Rule("Upsampling before counting", str(chosen["upsample"]), "case file: counting.upsample"),
+        Rule("Upsampling before counting", _upsampling(chosen), "case file: counting.upsample"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(
             "Mission",
@@ -82,6 +84,23 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
     ]
 
 
+def _load_rule(load: Mapping[str, Any]) -> Rule:
+    """What one unit load is, and what events that do not give it have of it; its values stand under Loads."""
+    what = f"forces per {load['unit']}, one more coordinate beside the modes, role {load['role']}; an event that does "
+    what += "not give it " + ("is refused" if load["when_missing"] == "error" else "has none of it")
+    ways = ", ".join(dict.fromkeys(_WAYS[given["way"]] for given in load["given"].values()))
+    return Rule(f"Unit load {load['name']}", f"{what}; here: {ways}", "case file: body.unit_load")
+
+
+_WAYS = {
+    "constant": "constant",
+    "values": "static values",
+    "column": "column of the event's record",
+    "file": "a history of its own",
+    "missing": "not given, zero",
+}
+
+
 def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
     """What the life on the first page assumes, in a few lines."""
     chosen, mission = record["rules"], record["mission"]
@@ -95,6 +114,7 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("Mean stress", "no correction" if chosen["mean_stress"] == "none" else "ASME factor for high mean tension"),
         *((rule.subject, rule.choice) for rule in _level_rule(chosen)),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
+        ("Upsampling", _upsampling(chosen)),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
@@ -146,6 +166,16 @@ def _extension(chosen: Mapping[str, Any]) -> str:
         "cutoff": f"cut-off at {number(chosen['knee_cycles'])} cycles",
     }
     return words[chosen["extension"]]
+
+
+def _upsampling(chosen: Mapping[str, Any]) -> str:
+    """By how much the record of each event was upsampled, in words."""
+    events: dict[int, list[str]] = {}
+    for event, factor in chosen.get("upsampled", {}).items():
+        events.setdefault(factor, []).append(f'"{event}"')
+    done = [f"{'none' if factor == 1 else f'{factor} times'}: {few(events[factor])}" for factor in sorted(events)]
+    asked = "as much as gives 20 samples per peak" if chosen["upsample"] == "auto" else str(chosen["upsample"])
+    return "; ".join([asked, *done])
 
 
 def _screening(screening: Mapping[str, Any]) -> str:

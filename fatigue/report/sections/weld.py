@@ -136,7 +136,8 @@ def _record_figures(
     if modes_too:
         title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
         bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
-        shown.append(figs.add("modes", bars, "Modes in the stress of the worst point"))
+        what = "Modes and unit loads" if result.record.get("unit_loads") else "Modes"
+        shown.append(figs.add("modes", bars, f"{what} in the stress of the worst point"))
     if detail.spectra:
         drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
         marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
@@ -152,11 +153,15 @@ def _why_figures(result: ShownResult, why: Why, event: str, figs: Figures) -> li
     shown = []
     modes = mode_shares(why).head(MODES_DRAWN)
     title = "share of the damage, all events [%]"
-    bars = figures.shares([names[mode] for mode in modes["mode"]], modes["share"].to_numpy(), title)
-    shown.append(figs.add("damage-modes", bars, "Damage by mode; a negative share relieves"))
+    pairs = zip(modes["mode"], modes["unit_load"], strict=True)
+    called = [f"unit load {load}" if pd.isna(mode) else names[mode] for mode, load in pairs]
+    bars = figures.shares(called, modes["share"].to_numpy(), title)
+    what = "mode and unit load" if result.record.get("unit_loads") else "mode"
+    shown.append(figs.add("damage-modes", bars, f"Damage by {what}; a negative share relieves"))
     bands = band_shares(why)
     if len(bands) > 1:
-        marked = [natural[mode] for mode in modes["mode"][:MODES_MARKED] if mode in natural]
+        leading = modes["mode"].dropna()[:MODES_MARKED]
+        marked = [natural[mode] for mode in leading if mode in natural]
         caption = "Damage by frequency band; dotted: the leading normal modes"
         shown.append(figs.add("damage-bands", figures.damage_by_band(bands, marked), caption))
     track = why.track[why.track["event"] == event]

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text
 from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
 
 
@@ -110,12 +110,13 @@ def event_table(id_: str, damage: pd.DataFrame, passes_per_km: Mapping[str, floa
 
 
 def lever_table(id_: str, levers: pd.DataFrame) -> PageTable:
-    """Which mode, if 10 % smaller, buys most kilometres; ``levers`` has the columns of the table of that name."""
+    """Which mode or unit load, if 10 % smaller, buys most km; ``levers`` has the columns of the table of that name."""
+    with_loads = bool(levers["unit_load"].notna().any())
     rows = tuple(
         (
-            integer(row.mode),
+            integer(row.mode) if pd.isna(row.unit_load) else text(row.unit_load),
             num(row.frequency_hz),
-            Cell(row.kind),
+            Cell(row.kind.replace("_", " ")),
             percent(row.share),
             num(row.life_exponent),
             num(row.life_km_estimated),
@@ -125,7 +126,7 @@ def lever_table(id_: str, levers: pd.DataFrame) -> PageTable:
         for row in levers.sort_values("rank").itertuples()
     )
     headings = (
-        Heading("mode"),
+        Heading("mode or unit load" if with_loads else "mode", numeric=not with_loads),
         Heading("frequency", "Hz"),
         Heading("kind", numeric=False),
         Heading("share of damage", "%"),

@@ -42,11 +42,14 @@ def read_why(folder: Path, result: ShownResult) -> Why | None:
 
 
 def mode_shares(why: Why) -> pd.DataFrame:
-    """Share of each mode in the damage over all events, largest first: ``mode``, ``share``, ``resonant_share``."""
-    modes = why.attribution[why.attribution["kind"] == "mode"]
-    shares = modes.groupby("mode")[["share", "resonant_share"]].sum(min_count=1).reset_index()
-    order = np.argsort(-shares["share"].abs().to_numpy(), kind="stable")
-    return shares.iloc[order].astype({"mode": int})
+    """Share of each mode and unit load in the damage over all events, largest first.
+
+    Columns ``mode``, ``unit_load`` (each empty where it is the other), ``share``, ``resonant_share``.
+    """
+    rows = why.attribution[why.attribution["kind"].isin(["mode", "unit_load"])]
+    by = rows.groupby(["mode", "unit_load"], dropna=False, sort=True)
+    shares = by[["share", "resonant_share"]].sum(min_count=1).reset_index().astype({"mode": "Int64"})
+    return shares.iloc[np.argsort(-shares["share"].abs().to_numpy(), kind="stable")]
 
 
 def band_shares(why: Why) -> pd.DataFrame:

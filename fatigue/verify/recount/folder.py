@@ -5,7 +5,6 @@ the keys of its stations and two columns of its points.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from numbers import Integral
 from pathlib import Path
 from typing import Any
@@ -14,29 +13,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
-from fatigue.results import ASSESSED, TABLES, read_provenance, strangers
+from fatigue.results import ASSESSED, read_provenance, strangers, upsampling_factors
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
 from fatigue.verify.recount.anew.curve import curve_named
-from fatigue.verify.recount.anew.point import (
-    MeanStress,
-    OnePass,
-    RecountEvent,
-    Values,
-    bounds_of_point,
-    one_pass,
-    point_of,
-    point_values,
-)
-from fatigue.verify.recount.anew.record import read_record, spectrum_rules
+from fatigue.verify.recount.anew.mission import RecountEvent
+from fatigue.verify.recount.anew.point import Values
 from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
-from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, open_inputs, read_modes
+from fatigue.verify.recount.counted import Passes, bounds_of, count, loop_names, mean_stress_of, values_of
+from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs
+from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
     Station,
-    cycle_row,
     damage_row,
     largest_stress,
     node_row,
@@ -61,20 +52,6 @@ FORCES_AT_ONCE = 400_000  # nodes times modes of the welds that are solved at a 
 SAMPLES_AT_ONCE = 50_000_000  # of stress that are counted before rows are compared: a curve with knees keeps cycles
 POINTS_AT_ONCE = 2000
 STRESS_ROWS_AT_ONCE = 20_000
-CYCLE_COLUMNS = [column.name for column in TABLES["cycles"] if column.type == "float"]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Passes:
-    """One pass of every event at a point, the damage of each without end treatment, and its cycles compared.
-
-    ``raw_bounds`` are what rounding may do to the damage without end treatment.
-    """
-
-    treated: list[OnePass]
-    raw_damage: list[float]
-    raw_bounds: list[float]
-    cycles: list[Row]
 
 
 def recount(
@@ -141,26 +118,27 @@ def _recount(
     most_samples: int,
 ) -> Recount:
     """The recount of a folder whose inputs are as they were; ``astray`` are its files that are not."""
-    modes, body = read_modes(inputs), layout(inputs)
+    coordinates, body = read_coordinates(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
-    stored = open_tables(folder, body, events, modes)
+    stored = open_tables(folder, body, [*events, *loop_names(inputs)], coordinates)
     checks = [*stored.keys, *left_out_check(stored, inputs)]
     if not all(check.passed for check in checks):
         return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
 
     toe, utilisation = toes_and_utilisation(stored)
-    worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(inputs, record)
+    worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(record)
     most = max(2, most_samples // samples)
     choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, most=most)
-    fastest, cycles_of = fastest_peaks(folder, inputs, events), with_cycles(stored, governing, record)
+    sampling = list(zip(fastest_peaks(folder, inputs, events), upsampling_factors(record), strict=True))
+    cycles_of = with_cycles(stored, governing, record)
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
     found: list[ColumnCheck] = []
     mission: list[RecountEvent] = []
     weld_of_point = body.weld[choice.points // 2]
-    for group in groups_of_welds(body, np.unique(weld_of_point).tolist(), len(modes.mode), FORCES_AT_ONCE):
-        welds = _welds(inputs, modes, record, [body.welds[weld] for weld in group])
+    for group in groups_of_welds(body, np.unique(weld_of_point).tolist(), len(coordinates), FORCES_AT_ONCE):
+        welds = _welds(inputs, coordinates, record, [body.welds[weld] for weld in group])
         stations = _stations(body, welds, group)
         points = choice.points[np.isin(weld_of_point, group)]
         values: dict[Key, Values] = {}
@@ -168,15 +146,15 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = _count(inputs, modes, few, fastest, stored, cycles_of)
-            of_few = _values(inputs, few, passes, mission)
-            rounding = _rounding(inputs, few, passes, mission, of_few)
+            passes, mission = count(inputs, coordinates, few, sampling, stored, cycles_of)
+            of_few = values_of(inputs, few, passes, mission)
+            rounding = bounds_of(inputs, few, passes, mission, of_few)
             steps = _steps(inputs, few.values())
             found += _compared(few, stored, of_few, rounding, passes, mission, raw_life_enough, steps)
             values |= {body.key(point): of_few[point] for point in few}
             bounds |= {body.key(point): rounding[point] for point in few}
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
-        found += _compared_stress(modes, recounted, stored)
+        found += _compared_stress(coordinates, recounted, stored)
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
         found += _compared_welds(chosen, stored, values, bounds, all_counted=all_counted)
     checks += merged(found)
@@ -200,19 +178,18 @@ def _toes(inputs: RecountInputs, body: Layout) -> NDArray[np.bool_]:
     return np.array([[face in TOES[surface] for face in FACES] for surface in surfaces])[body.weld].ravel()
 
 
-def _samples(inputs: RecountInputs, record: Mapping[str, Any]) -> int:
+def _samples(record: Mapping[str, Any]) -> int:
     """Samples on which a point is counted, as far as they are known before the records are read."""
-    upsample = inputs.case.get("counting", {}).get("upsample", 1)
-    factor = upsample if isinstance(upsample, int) else 1
-    return factor * sum(int(event["samples"]) for event in record["mission"]["events"])
+    events = record["mission"]["events"]
+    return sum(int(e["samples"]) * factor for e, factor in zip(events, upsampling_factors(record), strict=True))
 
 
 def _welds(
-    inputs: RecountInputs, modes: RecountModes, record: Mapping[str, Any], names: Sequence[str]
+    inputs: RecountInputs, coordinates: RecountCoordinates, record: Mapping[str, Any], names: Sequence[str]
 ) -> dict[str, RecountWeld]:
     """Some welds, read and solved."""
     parts: dict[str, list[Any]] = {name: [] for name in names}
-    for solved in solved_lines(inputs, modes, names):
+    for solved in solved_lines(inputs, coordinates, names):
         parts[solved.line.weld].append(solved)
     welds, closed = {}, closed_welds(inputs, names)
     for name in names:
@@ -240,70 +217,6 @@ def _stations(body: Layout, welds: Mapping[str, RecountWeld], group: Sequence[in
         )
         stations |= dict(enumerate(places, start=int(body.first[index])))
     return stations
-
-
-def _count(
-    inputs: RecountInputs,
-    modes: RecountModes,
-    stations: Mapping[int, Station],
-    fastest: Sequence[float],
-    stored: Stored,
-    cycles_of: frozenset[int],
-) -> tuple[dict[int, Passes], list[RecountEvent]]:
-    """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once."""
-    mean_stress = _mean_stress(inputs)
-    counted = {point: Passes([], [], [], []) for point in stations}
-    events = []
-    for number, given in enumerate(inputs.case["mission"]["event"]):
-        record = read_record(inputs, given, modes, fastest[number])
-        rules = spectrum_rules(inputs.case, modes, record.step)
-        events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
-        there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
-        for point, station in stations.items():
-            solved, at, curve, key = station.solved, station.at, station.weld.curve, stored.body.key(point)
-            largest, thickness = station.largest, float(solved.line.thickness[at])
-            one = one_pass(point_of(solved.treated[at], largest, key[3], curve, thickness), record, rules, mean_stress)
-            if point in there:
-                counted[point].cycles.append(cycle_row(key, events[-1], one, there[point]))
-            one = replace(one, rows={})
-            raw = one
-            if not np.array_equal(solved.raw[at], solved.treated[at]):
-                raw = one_pass(point_of(solved.raw[at], largest, key[3], curve, thickness), record, rules, mean_stress)
-            counted[point].treated.append(one)
-            counted[point].raw_damage.append(raw.quantities["damage_per_pass"])
-            counted[point].raw_bounds.append(raw.bounds["damage_per_pass"])
-    return counted, events
-
-
-def _mean_stress(inputs: RecountInputs) -> MeanStress:
-    asked = inputs.case["curve"]
-    return MeanStress(asked.get("yield_MPa"), counts=asked.get("mean_stress", "none") == "asme")
-
-
-def _values(
-    inputs: RecountInputs, stations: Mapping[int, Station], passes: Mapping[int, Passes], events: Sequence[RecountEvent]
-) -> dict[int, Values]:
-    """Columns of the table of points, point by point: the events weighted with the mission."""
-    mission, mean_stress = inputs.case["mission"], _mean_stress(inputs)
-    return {
-        point: point_values(of.treated, of.raw_damage, events, mission, stations[point].weld.curve, mean_stress)
-        for point, of in passes.items()
-    }
-
-
-def _rounding(
-    inputs: RecountInputs,
-    stations: Mapping[int, Station],
-    passes: Mapping[int, Passes],
-    events: Sequence[RecountEvent],
-    values: Mapping[int, Values],
-) -> dict[int, Bounds]:
-    """What rounding may do to the columns of the table of points, point by point."""
-    mission = inputs.case["mission"]
-    return {
-        point: bounds_of_point(of.treated, of.raw_bounds, events, mission, stations[point].weld.curve, values[point])
-        for point, of in passes.items()
-    }
 
 
 def _compared(
@@ -335,18 +248,20 @@ def _compared(
     ]
 
 
-def _compared_stress(modes: RecountModes, stations: Mapping[int, Station], stored: Stored) -> list[ColumnCheck]:
+def _compared_stress(
+    coordinates: RecountCoordinates, stations: Mapping[int, Station], stored: Stored
+) -> list[ColumnCheck]:
     """Checks of the stored stress of some stations beside the solved one, few of them at a time."""
-    numbers, m = np.array(list(stations)), len(modes.mode)
+    numbers, c = np.array(list(stations)), len(coordinates)
     checks: list[ColumnCheck] = []
-    for first in range(0, len(numbers), max(1, STRESS_ROWS_AT_ONCE // m)):
-        few = numbers[first : first + max(1, STRESS_ROWS_AT_ONCE // m)]
-        found = rows_of(stored, "structural_stress", stored.stress.of((few[:, None] * m + np.arange(m)).ravel()))
-        of_station = [found[i * m : (i + 1) * m] for i in range(len(few))]
+    for first in range(0, len(numbers), max(1, STRESS_ROWS_AT_ONCE // c)):
+        few = numbers[first : first + max(1, STRESS_ROWS_AT_ONCE // c)]
+        found = rows_of(stored, "structural_stress", stored.stress.of((few[:, None] * c + np.arange(c)).ravel()))
+        of_station = [found[i * c : (i + 1) * c] for i in range(len(few))]
         rows = [
             row
             for number, of in zip(few.tolist(), of_station, strict=True)
-            for row in stress_rows(stations[number], modes.mode, of)
+            for row in stress_rows(stations[number], coordinates, of)
         ]
         checks += compare("structural_stress", rows, {})
     return checks
@@ -376,5 +291,5 @@ def _compared_welds(
 
 def _steps(inputs: RecountInputs, stations: Iterable[Station]) -> dict[str, float]:
     """Tolerances of columns that are found in steps where damage does not scale with one power of the load."""
-    scales = not _mean_stress(inputs).counts and all(station.weld.curve.is_straight for station in stations)
+    scales = not mean_stress_of(inputs).counts and all(station.weld.curve.is_straight for station in stations)
     return {} if scales else {"load_factor": LOAD_FACTOR_STEP}

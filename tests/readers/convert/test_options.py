@@ -8,6 +8,7 @@ import click
 
 from fatigue.cli import cli
 from fatigue.cli.options import asking_for
+from fatigue.readers.convert.loads.names import LoadName
 from fatigue.readers.convert.option_fields import option_fields, words_of
 from fatigue.readers.convert.options import ConvertOptions, Displacement, WeldSources
 from fatigue.readers.foreign.histories.matching import Match
@@ -31,6 +32,8 @@ MANY = ConvertOptions(
     resample_s=0.01,
     simulation_modes="modes.csv",
     interface_modes=(31, 32),
+    static_subcases="leave_out",
+    unit_load_names=(LoadName(1001, "tunnel_pressure", -5.0, "kPa"), LoadName(1002, "gravity", 1.0, "g")),
     ignore_modes=(1, 2, 9),
     displacements=(Displacement("u.csv", 7, "z"), Displacement("v.csv", 8, "x")),
     accept=("sign", "grid totals"),

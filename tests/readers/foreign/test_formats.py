@@ -9,7 +9,7 @@ from fatigue.files.known_formats import OWN
 from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, all_formats, formats_called
 
 PARAMETERS = {
-    FORCES: ["path", "subcase", "interface"],
+    FORCES: ["path", "subcase", "interface", "loads"],
     MESH: ["path"],
     COORDINATES: ["path", "columns", "time_column"],
 }

@@ -11,7 +11,8 @@ from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from tests.report.reading import Page, values
 from tests.report.tiny_result import MODES, write_result
 
-SHARES = {1: 0.7, 2: 0.4, 7: -0.1}
+SHARES = {1: 0.7, 2: 0.4, 7: -0.2}
+LOAD = {"tunnel": 0.1}
 BANDS = ((0.0, 5.0, 0.2), (5.0, 20.0, 0.9), (20.0, np.nan, -0.1))
 REASON = "Dirlik over rainflow 1.12 lies within 0.76 to 1.32; <b>stationary</b>."
 
@@ -25,11 +26,22 @@ def diagnose(folder):
     def part(kind, **columns):
         return points.assign(kind=kind, **columns)
 
-    empty = {"mode": np.nan, "low_hz": np.nan, "high_hz": np.nan, "resonant_share": np.nan, "damage_per_km": 1e-8}
+    empty = {
+        "mode": np.nan,
+        "unit_load": None,
+        "low_hz": np.nan,
+        "high_hz": np.nan,
+        "resonant_share": np.nan,
+        "damage_per_km": 1e-8,
+    }
     attribution = [part("event", **{**empty, "share": half, "life_exponent": -half})]
     attribution += [
         part("mode", **{**empty, "mode": float(mode), "share": half * share, "life_exponent": -3.6 * half * share})
         for mode, share in SHARES.items()
+    ]
+    attribution += [
+        part("unit_load", **{**empty, "unit_load": load, "share": half * share, "life_exponent": -3.6 * half * share})
+        for load, share in LOAD.items()
     ]
     attribution += [
         part("band", **{**empty, "low_hz": low, "high_hz": high, "share": half * share, "life_exponent": np.nan})
@@ -60,16 +72,17 @@ def diagnose(folder):
             levers.assign(
                 rank=rank,
                 mode=mode,
+                unit_load=load,
                 frequency_hz=8.5,
-                kind="normal",
-                share=SHARES[mode],
+                kind="normal" if load is None else "unit_load",
+                share=SHARES.get(mode, 0.1),
                 life_exponent=-2.0,
                 life_km=1e7,
                 life_km_estimated=1.2e7,
                 life_km_counted=1.25e7,
                 gain_km=2.5e6,
             )
-            for rank, mode in enumerate(MODES[:2], start=1)
+            for rank, (mode, load) in enumerate([(MODES[0], None), (np.nan, "tunnel")], start=1)
         ]
     ).to_parquet(folder / "levers.parquet")
 
@@ -99,8 +112,9 @@ def test_shares_of_modes_and_bands_sum_over_the_events(diagnosed):
     """Both events together give the share of the point, largest mode first."""
     why = read_why(diagnosed, read_result(diagnosed, 2, 100, 50)).of_weld("W1 bracket")
     modes = mode_shares(why)
-    assert dict(zip(modes["mode"], modes["share"], strict=True)) == pytest.approx(SHARES)
-    assert list(modes["mode"]) == [1, 2, 7]
+    keys = [load if pd.isna(mode) else mode for mode, load in zip(modes["mode"], modes["unit_load"], strict=True)]
+    assert keys == [1, 2, 7, "tunnel"]
+    assert dict(zip(keys, modes["share"], strict=True)) == pytest.approx(SHARES | LOAD)
     np.testing.assert_allclose(band_shares(why)["share"], [share for _, _, share in BANDS])
     assert np.isnan(band_shares(why)["high_hz"].iloc[-1])
     assert exponents(why) == pytest.approx({"load": -3.6, "thickness": 7.2, "thickness_rule": -0.8})
@@ -109,11 +123,13 @@ def test_shares_of_modes_and_bands_sum_over_the_events(diagnosed):
 def test_the_page_shows_who_makes_the_damage(diagnosed_page):
     """Modes with their shares, bands, places, levers and the effect of one percent."""
     figures = diagnosed_page.figures
-    assert figures["weld-1-damage-modes"]["data"][0]["text"] == ["70.0 %", "40.0 %", "−10.0 %"]
+    assert figures["weld-1-damage-modes"]["data"][0]["text"] == ["70.0 %", "40.0 %", "−20.0 %", "10.0 %"]
     np.testing.assert_allclose(values(figures["weld-1-damage-bands"]["data"][0]["y"]), [0.2, 0.9, -0.1], rtol=1e-6)
     np.testing.assert_allclose(values(figures["weld-1-track"]["data"][0]["y"]), [0.4, 0.8, 1.2, 1.6], rtol=1e-6)
     assert "bands" in figures
-    assert diagnosed_page.tables["weld-1-levers"][1][0] == "1"
+    assert figures["weld-1-damage-modes"]["layout"]["yaxis"]["ticktext"][-1] == "unit load tunnel"
+    assert diagnosed_page.tables["weld-1-levers"][0][0] == "mode or unit load"
+    assert [row[0] for row in diagnosed_page.tables["weld-1-levers"][1:]] == ["1", "tunnel"]
     assert "load −3.600 %" in diagnosed_page.words
 
 

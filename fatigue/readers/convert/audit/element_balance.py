@@ -47,7 +47,8 @@ def balance_row(results: FeResults, model: FeModel, force: NDArray[np.floating])
         return AuditRow(
             "element balance", "red", None, "no shell of the mesh has forces at all its nodes", REQUEST
         ), False
-    finding = f"worst of {count} shells: element {element} in mode {mode}, {worst:.2g} of its largest force or moment"
+    where = f"element {element} in {results.called(mode)}"
+    finding = f"worst of {count} shells: {where}, {worst:.2g} of its largest force or moment"
     if worst <= BALANCE_GREEN:
         return AuditRow("element balance", "green", worst, finding), False
     rest = _worst_balance(results, model, without_drilling(force, results, model))[0]

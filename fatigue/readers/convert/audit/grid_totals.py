@@ -96,8 +96,8 @@ def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
             "grid totals",
             "red" if convention == "on_element" else "amber",
             found.rest,
-            f"the solver states a rest of {found.rest:.2g} of the largest row at grid {found.rest_grid} in mode "
-            f"{found.rest_mode}: its forces on the elements do not balance loads and reactions",
+            f"the solver states a rest of {found.rest:.2g} of the largest row at grid {found.rest_grid} in "
+            f"{results.called(found.rest_mode)}: its forces on the elements do not balance loads and reactions",
             "Look for elements that write no forces, inertia relief, modes that have not converged, reduced degrees of "
             "freedom; in MYSTRAN for plates with offsets (ZOFFS), whose forces it recovers wrongly",
         )
@@ -117,7 +117,8 @@ def totals_row(results: FeResults, convention: Convention | None) -> AuditRow:
         "grid totals",
         "red",
         value,
-        f"the rows of grid {found.grid} in mode {found.mode} miss their stated total by {value:.2g} of the largest row",
+        f"the rows of grid {found.grid} in {results.called(found.mode)} miss their stated total by {value:.2g} of the "
+        "largest row",
         "Copy the file again or repeat the run: a number is damaged, or rows are missing",
     )
 

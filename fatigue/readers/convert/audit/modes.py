@@ -17,7 +17,10 @@ def interface_rows(results: FeResults, marked: set[int]) -> list[AuditRow]:
     if count:
         return [
             AuditRow(
-                "interface modes", "green", float(count), f"{count} of {results.mode.size} modes are interface modes"
+                "interface modes",
+                "green",
+                float(count),
+                f"{count} of {results.of_basis.sum()} modes are interface modes",
             )
         ]
     return [

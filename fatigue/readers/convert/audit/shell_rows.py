@@ -47,7 +47,7 @@ def elastic_modes(results: FeResults) -> NDArray[np.bool_]:
     """Modes that have more than the round-off of a rigid one, (m,); all of them if none has."""
     rows = np.flatnonzero(results.of_element)
     size = np.array([np.abs(force[rows]).max(initial=0.0) for force in results.force])
-    is_static = np.isin(results.mode, results.static_modes) | (results.analysis == "static")
+    is_static = results.is_static
     floor = _ROUND_OFF * size[~is_static].max(initial=0.0)
     found = np.asarray(is_static | (~(results.frequency <= LOWEST_HZ) & (size > floor)))
     return found if found.any() else np.ones(size.size, bool)

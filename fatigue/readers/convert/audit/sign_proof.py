@@ -124,7 +124,9 @@ def _by_work(results: FeResults, whole: NDArray[np.bool_], shells: NDArray[np.bo
         static = is_clear & np.isin(results.mode, results.static_modes)
         other = static & (np.sign(work) != np.sign(proof.value or 0.0))
         if other.any():
-            finding = f"{proof.finding}; the forces of mode {results.mode[other][0]} have the other sign"
+            finding = (
+                f"{proof.finding}; the forces of {results.called(int(results.mode[other][0]))} have the other sign"
+            )
             return SignProof(proof.value, None, finding)
         of_another = sure.have_both_signs() & (results.frequency >= results.frequency[usable].min())
         if of_another.any():

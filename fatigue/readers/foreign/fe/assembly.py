@@ -1,13 +1,13 @@
 """Blocks of a result file, one for each mode or subcase, joined into one FE run."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.foreign.fe.force_rows import common_rows
+from fatigue.readers.foreign.fe.force_rows import common_rows, unlike_rows
 from fatigue.readers.foreign.fe.results import (
     REQUEST,
     Eigenvalue,
@@ -17,6 +17,7 @@ from fatigue.readers.foreign.fe.results import (
     UnusableBlock,
     frequency_of,
 )
+from fatigue.readers.foreign.fe.static_case import APART, Heading, StaticCase
 from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _NOT_GIVEN = 1e-37
@@ -43,6 +44,7 @@ class FileBlocks:
     summary : the eigenvalue summaries of the file
     stated : eigenvalues beside shapes, reactions and forces, used for modes of a file without summary
     unusable : blocks that are refused if the choice falls on them
+    headings : how the static subcases are called
     """
 
     source: str
@@ -52,15 +54,20 @@ class FileBlocks:
     summary: list[Eigenvalue]
     stated: Mapping[Key, Sequence[float]]
     unusable: Collection[UnusableBlock] = ()
+    headings: Mapping[int, Heading] = field(default_factory=dict)
 
 
-def assemble(file: FileBlocks, subcase: int | None, interface: Collection[int] = ()) -> FeResults:
+def assemble(
+    file: FileBlocks, subcase: int | None, interface: Collection[int] = (), loads: Collection[int] | None = ()
+) -> FeResults:
     """FE run that the blocks of a file make.
 
     Parameters
     ----------
     subcase : the subcase to take from a file with several modal ones; None if there is only one
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
+    loads : static subcases that are loads beside the modes of a modal subcase, which may have the number of a mode;
+        None: all that are sound and have the rows of the modes
 
     Raises
     ------
@@ -70,9 +77,9 @@ def assemble(file: FileBlocks, subcase: int | None, interface: Collection[int] =
     source, stated = file.source, file.stated
     if not file.forces and not file.unusable:
         raise DataError(Problem("no_forces", source, "its table of grid point forces is empty", REQUEST))
-    chosen, warnings = _choose(source, file.forces, file.unusable, subcase, interface)
+    chosen, warnings = _choose(source, file.forces, file.unusable, subcase, interface, loads)
     modal = {block.subcase for block in chosen if block.mode > 0}
-    key = np.array([block.mode or block.subcase for block in chosen], np.int64)
+    key = _numbers(chosen)
     is_static = np.array([block.mode == 0 for block in chosen])
     known = _summary_of(file.summary, stated, modal)
     rows = common_rows(chosen)
@@ -133,6 +140,19 @@ def assemble(file: FileBlocks, subcase: int | None, interface: Collection[int] =
         shape=shape,
         warnings=tuple(warnings),
         static_modes=tuple(key[is_static].tolist()) if modal else (),
+        static_cases=tuple(
+            StaticCase(number, block.subcase, file.headings.get(block.subcase, Heading()), source)
+            for number, block in zip(key.tolist(), chosen, strict=True)
+            if block.mode == 0
+        ),
+    )
+
+
+def _numbers(blocks: Sequence[ForceBlock]) -> NDArray[np.int64]:
+    """Number of every block: of its mode, of its subcase, or one that no mode has."""
+    modes = {block.mode for block in blocks if block.mode}
+    return np.array(
+        [block.mode or block.subcase + (APART if block.subcase in modes else 0) for block in blocks], np.int64
     )
 
 
@@ -165,14 +185,16 @@ def _choose(
     unusable: Collection[UnusableBlock],
     subcase: int | None,
     interface: Collection[int],
+    loads: Collection[int] | None,
 ) -> tuple[list[ForceBlock], list[Problem]]:
     """Blocks of the run asked for: all static subcases, or the modes of one subcase and the static ones named."""
+    named = (*interface, *(loads or ()))
     usable = sorted({block.subcase for block in blocks})
     warnings = _superelements(source, unusable) if blocks else []
     if blocks:
         unusable = [other for other in unusable if other.problem.code != "superelement"]
     if subcase is not None:
-        blocks = [block for block in blocks if block.subcase == subcase or _is_named(block, interface)]
+        blocks = [block for block in blocks if block.subcase == subcase or _is_named(block, named)]
         unusable = [other for other in unusable if other.subcase == subcase]
     refuse(DataError, _unusable_problems(unusable, usable))
     if subcase is not None and not any(block.subcase == subcase for block in blocks):
@@ -187,7 +209,12 @@ def _choose(
     modes = {block.mode for block in modal}
     static = [block for block in blocks if block.mode == 0]
     beside = [block for block in static if _is_named(block, interface) and block.subcase not in modes]
+    beside += [block for block in static if block not in beside and _is_named(block, loads or ())]
     if modal:
+        if loads is None:
+            fit, unfit = _fit_beside(modal[0], [block for block in static if block not in beside])
+            warnings += unfit
+            static = beside = [*beside, *fit]
         warnings += _left_out(source, [block.subcase for block in static if block not in beside], modes)
     chosen = [*modal, *beside] if modal else static
     seen: set[Key] = set()
@@ -204,6 +231,26 @@ def _choose(
             )
         seen.add((block.subcase, block.mode))
     return chosen, warnings
+
+
+def _fit_beside(mode: ForceBlock, static: list[ForceBlock]) -> tuple[list[ForceBlock], list[Problem]]:
+    """Static blocks that can be loads beside a mode, and a warning about the others, which nobody asked for."""
+    fit, unfit = [], []
+    for block in static:
+        twice = sum(other.subcase == block.subcase for other in static) > 1
+        problem = unlike_rows(block, mode)
+        if twice:
+            unfit.append((block.subcase, "it is given more than once"))
+        elif problem is not None:
+            unfit.append((block.subcase, problem.what))
+        else:
+            fit.append(block)
+    if not unfit:
+        return fit, []
+    number, why = unfit[0]
+    what = f"{len(unfit)} static subcases cannot stand beside the modes and are left out; subcase {number}: {why}"
+    remedy = "Nothing, unless they are loads: then request the same GPFORCE set for them, or give them in a file of own"
+    return fit, [Problem("static_left_out", mode.where, what, remedy, len(unfit))]
 
 
 def _is_named(block: ForceBlock, interface: Collection[int]) -> bool:

@@ -69,6 +69,12 @@ def common_rows(blocks: list[ForceBlock]) -> CommonRows:
     )
 
 
+def unlike_rows(block: ForceBlock, modes: ForceBlock) -> Problem | None:
+    """Why the rows of a block cannot stand beside those of a mode; None if they can."""
+    pair = [_with_one_total(one) for one in (modes, block)]
+    return next(_problems(pair, [one.of_element for one in pair]), None)
+
+
 def _with_one_total(block: ForceBlock) -> ForceBlock:
     """Block whose totals all have the same name."""
     other = names_total(block.kind) & (block.kind != TOTALS)

@@ -1,5 +1,6 @@
 """Grid point forces and mode shapes of one FE run, the same for every solver and file format."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -7,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
+from fatigue.readers.foreign.fe.static_case import StaticCase
 
 SHELL_KINDS = frozenset(
     {"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "QUAD144", "QUAD4LC", "QUAD4K", "TRIA3K"}
@@ -42,6 +44,8 @@ class FeResults:
     shape : (m, n, 6) mode shapes, in the displacement frame of the node; zero for static modes without displacements
     warnings : met while reading
     static_modes : modes that are static subcases beside modes of vibration
+    static_cases : static subcases of the run, as far as their file tells of them
+    unit_loads : name of every static subcase that is a load beside the modal basis, by its number in ``mode``
     """
 
     source: str
@@ -58,11 +62,27 @@ class FeResults:
     shape: NDArray[np.floating]
     warnings: tuple[Problem, ...] = field(default=())
     static_modes: tuple[int, ...] = ()
+    static_cases: tuple[StaticCase, ...] = ()
+    unit_loads: Mapping[int, str] = field(default_factory=dict)
 
     @property
     def of_element(self) -> NDArray[np.bool_]:
         """(r,) rows that are the force of an element."""
         return (self.element > 0) & names_element(self.kind)
+
+    @property
+    def of_basis(self) -> NDArray[np.bool_]:
+        """(m,) modes of the basis: all but the unit loads."""
+        return np.isin(self.mode, list(self.unit_loads), invert=True)
+
+    @property
+    def is_static(self) -> NDArray[np.bool_]:
+        """(m,) modes that are static subcases."""
+        return np.isin(self.mode, self.static_modes) | (self.analysis == "static")
+
+    def called(self, mode: int) -> str:
+        """Name a mode or a unit load as messages do."""
+        return f"unit load {self.unit_loads[mode]}" if mode in self.unit_loads else f"mode {mode}"
 
     @property
     def of_total(self) -> NDArray[np.bool_]:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.joined import put_together, side_of, with_thickness
 from fatigue.verify.recount.anew.line import CORNER_DEG, Line, RecountLineStress, edges, kinks, line_stress
-from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes, column, flags
+from fatigue.verify.recount.inputs.case import RecountInputs, column, flags
+from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, forces_where
 from fatigue.verify.recount.inputs.register import WeldEntry
 from fatigue.verify.recount.inputs.tables import FORCE_COLUMNS, read_pieces, read_rows_where
 from fatigue.verify.recount.layout import Layout
@@ -50,12 +51,14 @@ def _unsplit(inputs: RecountInputs, welds: tuple[str, ...]) -> Layout:
     return Layout(welds, weld[ascending], np.ones(len(weld), dtype=np.int64), order[ascending])
 
 
-def solved_lines(inputs: RecountInputs, modes: RecountModes, welds: Sequence[str]) -> list[RecountLineStress]:
+def solved_lines(
+    inputs: RecountInputs, coordinates: RecountCoordinates, welds: Sequence[str]
+) -> list[RecountLineStress]:
     """Line parts of some welds, read and solved, in their order."""
     lines = _lines(inputs, welds)
     if "nodal_forces" in inputs.case["body"]:
-        return list(_with_nodal_forces(lines, inputs, modes))
-    return list(_with_element_forces(lines, inputs, modes))
+        return list(_with_nodal_forces(lines, inputs, coordinates))
+    return list(_with_element_forces(lines, inputs, coordinates))
 
 
 def closed_welds(inputs: RecountInputs, welds: Sequence[str]) -> set[str]:
@@ -103,27 +106,30 @@ def _line(rows: pd.DataFrame, weld: str, *, closed: bool, end_length: float | No
     )
 
 
-def _with_nodal_forces(lines: list[Line], inputs: RecountInputs, modes: RecountModes) -> Iterator[RecountLineStress]:
+def _with_nodal_forces(
+    lines: list[Line], inputs: RecountInputs, coordinates: RecountCoordinates
+) -> Iterator[RecountLineStress]:
     """Stress of lines whose forces are summed already; a kink is then no reason to split."""
     source = {line.weld: inputs.register.welds[line.weld].sources[0] for line in lines}
-    frame = read_rows_where(inputs.path("nodal_forces"), "weld", list(source.values()))
-    frame = frame[frame["mode"].isin(modes.mode)]
+    frame = forces_where(inputs, coordinates, "nodal_forces", "weld", list(source.values()))
     by_weld = dict(tuple(frame.groupby("weld")))
     for line in lines:
-        rows = by_weld[source[line.weld]].set_index(["node", "mode"])
-        wanted = pd.MultiIndex.from_product([line.node, modes.mode])
-        forces = rows.loc[wanted, FORCE_COLUMNS].to_numpy(dtype=float).reshape(len(line.node), len(modes.mode), 6)
-        yield line_stress(line, forces * modes.force_factor[:, None])
+        rows = by_weld[source[line.weld]].set_index(["node", "at"])
+        wanted = pd.MultiIndex.from_product([line.node, range(len(coordinates))])
+        forces = rows.loc[wanted, FORCE_COLUMNS].to_numpy(dtype=float).reshape(len(line.node), len(coordinates), 6)
+        yield line_stress(line, forces * coordinates.force_factor[:, None])
 
 
-def _with_element_forces(lines: list[Line], inputs: RecountInputs, modes: RecountModes) -> Iterator[RecountLineStress]:
+def _with_element_forces(
+    lines: list[Line], inputs: RecountInputs, coordinates: RecountCoordinates
+) -> Iterator[RecountLineStress]:
     """Stress of the parts of every line, each with the forces of the assessed side's elements summed for it."""
     entries = {line.weld: inputs.register.welds[line.weld] for line in lines}
     sources = [source for entry in entries.values() for source in entry.sources]
     sides = read_rows_where(inputs.path("weld_elements"), "weld", sources)
     of_lines = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", sources).groupby("weld")))
-    frame = read_rows_where(inputs.path("element_forces"), "element", sides["element"].unique().tolist())
-    frame = frame[frame["mode"].isin(modes.mode)].sort_values("mode")
+    elements = sides["element"].unique().tolist()
+    frame = forces_where(inputs, coordinates, "element_forces", "element", elements).sort_values("at")
     for line in lines:
         entry = entries[line.weld]
         own = [set(sides.loc[sides["weld"] == source, "element"].tolist()) for source in entry.sources]
@@ -133,7 +139,7 @@ def _with_element_forces(lines: list[Line], inputs: RecountInputs, modes: Recoun
             to_join = _source_lines(entry, of_lines)
             rows = rows[rows["element"].isin(side_of(own, to_join, put_together(to_join)[1], nodes))]
         corners: Corners = {
-            key: group[FORCE_COLUMNS].to_numpy(dtype=float) * modes.force_factor[:, None]
+            key: group[FORCE_COLUMNS].to_numpy(dtype=float) * coordinates.force_factor[:, None]
             for key, group in rows.groupby(["element", "node"])
         }
         for part, forces in _summed(split(line), corners):

@@ -1,7 +1,8 @@
 """The S-N curve of a weld once more, from the case text and from constants copied here a second time."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -79,6 +80,22 @@ class RecountCurve:
             total += float(np.exp(k * (np.log(scale) - log_s) - log_n) * gamma(a) * share)
             upper = lower
         return total
+
+    def bending_factor(self, r: Floats) -> Floats:
+        """Divisor of the range for each bending ratio."""
+        return ratio_factor(r) if self.on_equivalent else np.ones_like(r)
+
+    def convex_damage(self, x: Floats) -> Floats:
+        """Damage that is convex in the range and nowhere below that of the curve: its first slope for all ranges.
+
+        Where a slope is flatter than one before it, the largest damage of all slopes.
+        """
+        steepens = all(a <= b for a, b in pairwise(self.slopes))
+        straight = [
+            replace(self, slopes=(k,), points=(point,), knees=(), cutoff=0.0).damage(x)
+            for k, point in zip(self.slopes, self.points, strict=True)
+        ]
+        return straight[0] if steepens else np.max(straight, axis=0)
 
     def size_factor(self, thickness: float) -> float:
         """Factor of the plate thickness [mm] on the range."""

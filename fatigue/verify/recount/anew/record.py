@@ -1,6 +1,7 @@
 """The record of an event once more: what is kept, what is counted, how often it happens, and Welch's spectrum."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -8,12 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes
+from fatigue.verify.recount.anew.unit_load import between, factor_for, on_grid
+from fatigue.verify.recount.inputs.case import RecountInputs
+from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
+from fatigue.verify.recount.inputs.loads import RecountLoad, loads_of
 from fatigue.verify.recount.inputs.tables import read_pieces
 
 Floats = NDArray[np.float64]
 
 SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,14 +28,17 @@ class RecountRecord:
     Attributes
     ----------
     name : of the event
-    kept : (m, t) modal coordinates after the start-up
-    step, start : time step and file time of the first kept sample [s]
-    counted : (m, u) the kept record on the grid on which cycles are counted, ``fine_step`` apart [s]
+    kept : (c, t) coordinates after the start-up, without what is constant; as fine as the finest unit load
+    step, start : time step of these and file time of the first one [s]
+    counted : (c, u) the kept record on the grid on which cycles are counted, ``fine_step`` apart [s]
+    duration : of one pass [s]
+    offset : (c,) constants of unit loads, and the means of modes that are removed, negative
     recurs : whether the record is a block that repeats
     factor : on all stresses
     length_km : distance of one pass, None for an event counted by number
     passes_per_km : of the mission
-    peak : (m,) largest absolute value of each coordinate
+    peak : (c,) largest absolute value of each coordinate
+    has_spectrum : whether the samples are of one time; those of a static load case are not
     """
 
     name: str
@@ -39,16 +47,14 @@ class RecountRecord:
     start: float
     counted: Floats
     fine_step: float
+    duration: float
+    offset: Floats
     recurs: bool
     factor: float
     length_km: float | None
     passes_per_km: float
     peak: Floats
-
-    @property
-    def duration(self) -> float:
-        """Duration of one pass [s]."""
-        return float(self.kept.shape[1] * self.step)
+    has_spectrum: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,60 +65,107 @@ class SpectrumRules:
     upper_hz: float
 
 
-def spectrum_rules(case: Mapping[str, Any], modes: RecountModes, step: float) -> SpectrumRules:
+def spectrum_rules(case: Mapping[str, Any], coordinates: RecountCoordinates, step: float) -> SpectrumRules:
     """Rules of the case for a record with this time step [s]."""
     asked = case.get("spectrum", {})
-    upper = asked.get("upper_hz", min(0.4 / step, 1.5 * modes.highest_normal_hz))
+    upper = asked.get("upper_hz", min(0.4 / step, 1.5 * coordinates.highest_normal_hz))
     return SpectrumRules(asked.get("segment_s", 4.0), upper)
 
 
-def read_record(inputs: RecountInputs, event: Mapping[str, Any], modes: RecountModes, fastest: float) -> RecountRecord:
-    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s]."""
-    path = inputs.folder / event["history"]
-    time = np.concatenate([piece["time_s"].to_numpy(dtype=float) for piece in read_pieces(path, ["time_s"])])
-    samples, step = len(time), float((time[-1] - time[0]) / (len(time) - 1))
-    first = int(np.argmax(time - time[0] >= event.get("start_s", 0.0) - step / 2))
-    start = float(time[first])
-    del time  # as long as a mode
-    q = _coordinates(path, modes.mode.tolist(), samples)[:, first:]
+def read_record(
+    inputs: RecountInputs, event: Mapping[str, Any], coordinates: RecountCoordinates, fastest: float, recorded: int
+) -> RecountRecord:
+    """Record of an event without its start-up; ``fastest`` is the highest peak rate of all points [1/s].
 
+    Where there is no spectrum to have it from, the upsampling factor that the provenance has ``recorded`` is believed.
+    """
+    counting, loads = inputs.case.get("counting", {}), loads_of(inputs, event)
     by_number = "per_1000_km" in event
-    by_default = "half" if by_number else inputs.case.get("counting", {}).get("residue", "repeat")
-    recurs = event.get("residue", by_default) == "repeat"
-    upsample = _upsample(inputs.case.get("counting", {}).get("upsample", 1), step, fastest)
-    length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * q.shape[1] * step / 3600)
+    recurs = event.get("residue", "half" if by_number else counting.get("residue", "repeat")) == "repeat"
+    if "history" in event:
+        q, step, start = _history(inputs.folder / event["history"], event.get("start_s", 0.0), coordinates)
+        refined, upsample = factor_for(loads, step), counting.get("upsample", "auto")
+        if upsample == "auto":
+            segment = round(inputs.case.get("spectrum", {}).get("segment_s", 4.0) * refined / step)
+            has_spectrum = 4 <= segment <= q.shape[1] * refined
+            upsample = _upsample(step, fastest, q.shape[1]) if has_spectrum else recorded
+    else:
+        samples = max(len(load.samples) for load in loads if load.samples is not None)
+        q, step, start, refined, upsample = np.zeros((len(coordinates), samples)), 1.0, 0.0, 1, 1
+    duration, step = q.shape[1] * step, step / refined
+    kept, counted = _with_loads(q, loads, start, step, (refined, max(1, upsample // refined)), recurs=recurs)
+    is_removed = event.get("mean_of_q", counting.get("mean_of_q", "keep")) == "remove"
+    of_modes = kept[: len(coordinates.mode)]
+    offset = np.append(
+        -of_modes.mean(axis=1) if is_removed else 0.0 * of_modes[:, 0], [load.constant for load in loads]
+    )
+    length = None if by_number else event.get("length_km", event.get("speed_km_h", 0.0) * duration / 3600)
     return RecountRecord(
         name=event["name"],
-        kept=q,
+        kept=kept,
         step=step,
         start=start,
-        counted=finer(q, upsample, recurs=recurs),
-        fine_step=step / upsample,
+        counted=counted,
+        fine_step=step / max(1, upsample // refined),
+        duration=duration,
+        offset=offset,
         recurs=recurs,
         factor=event.get("stress_factor", 1.0),
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
-        peak=np.maximum(q.max(axis=1), -q.min(axis=1)),
+        peak=np.maximum(counted.max(axis=1), -counted.min(axis=1)),
+        has_spectrum="history" in event,
     )
 
 
-def _coordinates(path: Path, modes: list[int], samples: int) -> Floats:
-    """Coordinates (m, t) of a history, piece by piece: a frame of all of them would be as much again."""
-    q, first = np.empty((len(modes), samples)), 0
+def _history(path: Path, start_s: float, coordinates: RecountCoordinates) -> tuple[Floats, float, float]:
+    """Modal coordinates of the kept samples with empty rows for unit loads behind them (c, t), their step and start."""
+    time = np.concatenate([piece["time_s"].to_numpy(dtype=float) for piece in read_pieces(path, ["time_s"])])
+    samples, step = len(time), float((time[-1] - time[0]) / (len(time) - 1))
+    first = int(np.argmax(time - time[0] >= start_s - step / 2))
+    start = float(time[first])
+    del time  # as long as a mode
+    q, done = np.zeros((len(coordinates), samples)), 0
     for piece in read_pieces(path):
-        columns = {int(name[2:]): name for name in piece.columns if name.startswith("q_")}
-        for row, mode in zip(q, modes, strict=True):
-            row[first : first + len(piece)] = piece[columns[mode]].to_numpy(dtype=float)
-        first += len(piece)
-    return q
+        columns = {int(name[2:]): name for name in piece.columns if re.fullmatch(r"q_-?\d+", name)}
+        for row, mode in zip(q, coordinates.mode.tolist(), strict=False):
+            row[done : done + len(piece)] = piece[columns[mode]].to_numpy(dtype=float)
+        done += len(piece)
+    return q[:, first:], step, start
 
 
-def _upsample(asked: int | str, step: float, fastest: float) -> int:
-    """Upsampling factor as asked, or the power of 2 that gives the fastest point its samples per peak."""
-    if asked != "auto":
-        return int(asked)
+def _with_loads(
+    q: Floats, loads: Sequence[RecountLoad], start: float, step: float, factors: tuple[int, int], *, recurs: bool
+) -> tuple[Floats, Floats]:
+    """Kept coordinates on the grid ``step`` [s] that the loads ask for, and those that are counted.
+
+    ``factors`` tell how much finer these are than the file, and those of the kept ones. Samples of a load at the
+    instants of the file stand in its row as if it were a mode.
+    """
+    file_step, modes, samples = step * factors[0], len(q) - len(loads), q.shape[1]
+    others = []
+    for row, load in enumerate(loads, start=modes):
+        own = None if load.samples is None else on_grid(load, start, file_step, samples)
+        if own is not None:
+            q[row] = own
+        if load.times is not None and (load.is_linear or own is None):
+            others.append((row, load))
+    period = samples * file_step if recurs else None
+
+    def finer_by(factor: int, x: Floats, its_step: float) -> Floats:
+        fine = finer(x, factor, recurs=recurs)
+        for row, load in others:
+            fine[row] = between(load, start, its_step / factor, fine.shape[1], period)
+        return fine
+
+    kept = finer_by(factors[0], q, file_step)
+    return kept, kept if factors[1] == 1 else finer_by(factors[1], kept, step)
+
+
+def _upsample(step: float, fastest: float, samples: int) -> int:
+    """Power of 2 that gives the fastest point its samples per peak; 1 for load cases, which no signal is made of."""
     factor = 1
-    while factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+    while samples >= FEWEST_SAMPLES and factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
         factor *= 2
     return factor
 
@@ -121,19 +174,21 @@ def finer(q: Floats, factor: int, *, recurs: bool) -> Floats:
     """Fourier interpolation of each row; a single pass is interpolated by its mirror extension."""
     if factor == 1:
         return q
-    if not recurs:
-        there_and_back = np.concatenate([q, q[:, -2:0:-1]], axis=1)
-        return finer(there_and_back, factor, recurs=True)[:, : (q.shape[1] - 1) * factor + 1]
-    n = q.shape[1]
-    lines = np.fft.fft(q, axis=1)
-    padded = np.zeros((len(q), n * factor), dtype=complex)
-    half = (n + 1) // 2
-    padded[:, :half] = lines[:, :half]
-    padded[:, padded.shape[1] - (n - half) :] = lines[:, half:]
-    if n % 2 == 0:  # half the Nyquist line belongs to the positive frequency
-        padded[:, -(n // 2)] /= 2
-        padded[:, n // 2] = padded[:, -(n // 2)]
-    return np.fft.ifft(padded, axis=1).real * factor
+    kept = q.shape[1]
+    fine = np.empty((len(q), kept * factor if recurs else (kept - 1) * factor + 1))
+    for row, x in zip(fine, q, strict=True):  # transforms of all of them would take some times the record
+        row[:] = _finer_row(x if recurs else np.append(x, x[-2:0:-1]), factor)[: len(row)]
+    return fine
+
+
+def _finer_row(x: Floats, factor: int) -> Floats:
+    """Samples that repeat, on a grid so many times finer."""
+    n = len(x)
+    lines = np.zeros(n * factor // 2 + 1, dtype=complex)
+    lines[: n // 2 + 1] = np.fft.rfft(x)
+    if n % 2 == 0:  # half the Nyquist line belongs to the negative frequency
+        lines[n // 2] /= 2
+    return np.fft.irfft(lines, n * factor) * factor
 
 
 def welch_moments(stress: Floats, step: float, rules: SpectrumRules) -> tuple[Floats, Floats] | None:

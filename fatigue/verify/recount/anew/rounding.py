@@ -35,8 +35,9 @@ class Counted:
 
     Attributes
     ----------
-    delta : bound on the rounding of a stress [MPa]
-    stress : (u,) counted stress [MPa]
+    delta : bound on the rounding of a stress [MPa], and ``delta_level`` with what is constant
+    level : constant stress [MPa]
+    stress : (u,) counted stress, without it [MPa]
     deviation : standard deviation of the kept stress [MPa]
     parts : standard deviations of membrane and bending together [MPa]
     ranges, equivalent, same_ratio : (c,) of every cycle [MPa, dS, dS], and ``counts``
@@ -51,6 +52,8 @@ class Counted:
     """
 
     delta: float
+    delta_level: float
+    level: float
     stress: Floats
     deviation: float
     parts: float
@@ -78,23 +81,23 @@ def pass_bounds(of: Counted, values: Mapping[str, float], curve: RecountCurve) -
     """Bounds on the columns of one pass, by the names of its quantities."""
     rho, k = 2.0 * of.delta, curve.slopes[0]
     d_dS = _equivalent_bound(of, rho)
-    samples, noise = len(of.stress), _relative(of.delta, of.deviation)
+    samples, noise = len(of.stress), relative_bound(of.delta, of.deviation)
     of_band = _spectral_noise(of.delta, of.band, of.upper_hz)
     of_whole = _spectral_noise(of.delta, of.whole, of.half_rate_hz)
     dirlik, tb, tb_whole = (values[f"damage_{name}_per_pass"] for name in ("dirlik", "tb", "tb_whole"))
-    damage = _damage_bound(of.equivalent, of.counts, d_dS, samples, curve)
+    damage = damage_bound(of.equivalent, of.counts, d_dS, samples, curve)
     largest = of.ranges >= of.ranges.max(initial=0.0) - 2.0 * rho
     return {
         "damage_per_pass": damage,
-        "damage_same_ratio_per_pass": _damage_bound(of.same_ratio, of.counts, d_dS, samples, curve),
+        "damage_same_ratio_per_pass": damage_bound(of.same_ratio, of.counts, d_dS, samples, curve),
         "damage_dirlik_per_pass": _estimate_bound(of, dirlik, of_band, of.band, of.upper_hz, curve),
         "damage_tb_per_pass": _estimate_bound(of, tb, of_band, of.band, of.upper_hz, curve),
         "damage_tb_whole_per_pass": _estimate_bound(of, tb_whole, of_whole, of.whole, of.half_rate_hz, curve),
         "cycles_per_pass": float(of.counts[of.ranges <= 2.0 * rho].sum() + _standing(of.stress, rho)),
         "max_range_MPa": rho,
         "max_equivalent_range_dS": d_dS,
-        "bending_ratio": _lost(_relative(2.0 * of.delta, of.parts)),
-        "mean_stress_MPa": of.delta,
+        "bending_ratio": _lost(relative_bound(2.0 * of.delta, of.parts)),
+        "mean_stress_MPa": of.delta_level,
         "kurtosis": _lost(8.0 * noise) * values["kurtosis"] if noise < LOST else np.inf,
         "outside_share": _lost(2.0 * of_whole),
         "irregularity": _lost(4.0 * of_band),
@@ -102,7 +105,9 @@ def pass_bounds(of: Counted, values: Mapping[str, float], curve: RecountCurve) -
         "samples_per_peak": _times(_lost(4.0 * of_whole), values["samples_per_peak"]),
         "shear_ratio": _times(_lost(2.0 * noise), 1.0 + values["shear_ratio"]),
         "power_sum": float(of.counts @ ((of.ranges + rho) ** k - of.ranges**k) + samples * rho**k),
-        "R_largest": _ratio_bound(of.R[largest], values["R_largest"], _relative(rho, values["max_range_MPa"])),
+        "R_largest": ratio_bound(
+            of.R[largest], values["R_largest"], relative_bound(2.0 * of.delta_level, values["max_range_MPa"])
+        ),
         "with_mean_stress": _times(damage, 1.0 + values["with_mean_stress"] / max(values["damage_per_pass"], 1e-300)),
         "with_shear": _times(_lost(4.0 * k * noise), values["with_shear"]),
     }
@@ -148,9 +153,9 @@ def point_bounds(
     def of_governing(name: str) -> float:
         return np.inf if is_open else float(of[name][governing])
 
-    relative = _lost(_relative(damage, values["damage_per_km"]))
+    relative = _lost(relative_bound(damage, values["damage_per_km"]))
     estimates = {name: summed(f"damage_{name}_per_pass") for name in ("dirlik", "tb", "same_ratio")}
-    of_ratio = [_relative(estimates[name], per_km(name)) for name in ("dirlik", "same_ratio")]
+    of_ratio = [relative_bound(estimates[name], per_km(name)) for name in ("dirlik", "same_ratio")]
     lives = {f"life_km_{name}": bound / limit for name, bound in estimates.items()}
     margin = abs(per_km("tb") - (1.0 - NEARLY_ALL) * per_km("tb_whole"))
     if estimates["tb"] + summed("damage_tb_whole_per_pass") > margin:
@@ -175,7 +180,7 @@ def point_bounds(
         "R_largest_cycle": float(of["R_largest"].max()),
         "damage_factor_if_mean_stress": _times(2.0 * relative, values["damage_factor_if_mean_stress"]),
         "shear_ratio": of_governing("shear_ratio"),
-        "damage_factor_if_shear": _relative(summed("with_shear"), values["damage_per_km"])
+        "damage_factor_if_shear": relative_bound(summed("with_shear"), values["damage_per_km"])
         + _times(2.0 * relative, values["damage_factor_if_shear"]),
         "governing_event": np.inf if is_open else 0.0,
         "bending_ratio": of_governing("bending_ratio"),
@@ -193,6 +198,7 @@ def cycle_bounds(of: Counted, curve: RecountCurve) -> Bounds:
     top = np.array([of.equivalent.max(initial=0.0)])
     return {
         "delta": of.delta,
+        "delta_level": of.delta_level,
         "ties": float(np.count_nonzero(np.diff(np.sort(of.reversals)) <= rho)) if rho > 0.0 else 0.0,
         "range_MPa": rho,
         "equivalent_range_dS": d_dS,
@@ -207,17 +213,22 @@ def _standing(stress: Floats, rho: float) -> int:
 
 
 def _equivalent_bound(of: Counted, rho: float) -> float:
+    """Bound on the equivalent range of a pass."""
+    highest = float(max(of.stress.max() + of.level, -of.stress.min() - of.level))
+    return equivalent_bound(of.size, rho, max(rho, 2.0 * of.delta_level), highest if of.mean_stress else 0.0)
+
+
+def equivalent_bound(size: float, rho: float, rho_level: float, highest: float) -> float:
     """Bound on the equivalent range: the range, and in dS the bending ratio; and what f_M makes of the least cycle.
 
-    ``f_M = (1 - R)^(1/3.6)`` vanishes with the range of a cycle about a high mean: ``x / f_M`` of a range ``rho`` is
-    ``rho^(1 - 1/3.6) s_max^(1/3.6)``.
+    ``f_M = (1 - R)^(1/3.6)`` vanishes with the range of a cycle about a high mean: ``x / f_M`` of a range ``rho_level``
+    is ``rho_level^(1 - 1/3.6) s_max^(1/3.6)``; ``highest`` is that stress, 0 where the mean does not count.
     """
-    bound = MASTER_RATIO * of.size * rho
-    highest = float(max(of.stress.max(), -of.stress.min()))
-    return bound * (highest / rho) ** (1.0 / 3.6) if of.mean_stress and rho > 0.0 and highest > rho else bound
+    bound = MASTER_RATIO * size * rho
+    return bound * (highest / rho_level) ** (1.0 / 3.6) if rho > 0.0 and highest > rho_level else bound
 
 
-def _damage_bound(x: Floats, n: Floats, bound: float, samples: int, curve: RecountCurve) -> float:
+def damage_bound(x: Floats, n: Floats, bound: float, samples: int, curve: RecountCurve) -> float:
     """Damage of all cycles grown by the bound, and of as many cycles of nothing but rounding as there are samples."""
     if bound == 0.0:
         return 0.0
@@ -247,7 +258,7 @@ def _estimate_bound(
     return min(damage * noise * (4.0 * max(curve.slopes) + 20.0), most) if noise < LOST**2 else most
 
 
-def _ratio_bound(candidates: Floats, used: float, noise: float) -> float:
+def ratio_bound(candidates: Floats, used: float, noise: float) -> float:
     """Bound on the stress ratio of the largest cycle, of several equal ones whichever that is."""
     if noise >= LOST or not np.isfinite([used, *candidates]).all():
         return np.inf
@@ -259,7 +270,7 @@ def _root_bound(value: float, bound: float, power: float) -> float:
     return float(max((value + bound) ** power - value**power, value**power - max(value - bound, 0.0) ** power))
 
 
-def _relative(bound: float, value: float) -> float:
+def relative_bound(bound: float, value: float) -> float:
     """Bound relative to a value; nothing is lost of nothing."""
     if bound == 0.0:
         return 0.0

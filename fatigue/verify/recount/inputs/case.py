@@ -1,4 +1,4 @@
-"""The inputs of a result: found again, compared with the hashes in its provenance; the case and its modes."""
+"""The inputs of a result: found again, compared with the hashes in its provenance; the case, parsed."""
 
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -16,8 +16,6 @@ from fatigue.results import case_of, new_inputs
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 
-ROUND_OFF_HZ = 1e-3  # of a rigid mode
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountInputs:
@@ -34,22 +32,6 @@ class RecountInputs:
     def path(self, key: str) -> Path:
         """File of one table of the body."""
         return self.folder / str(self.case["body"][key])
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RecountModes:
-    """The modes that are used, by ascending id.
-
-    Attributes
-    ----------
-    mode : (m,) ids
-    force_factor : (m,) turns the forces in the file into those on the element per unit coordinate of the simulation
-    highest_normal_hz : highest frequency of a normal mode above round-off, infinite without one
-    """
-
-    mode: NDArray[np.int64]
-    force_factor: NDArray[np.float64]
-    highest_normal_hz: float
 
 
 def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None) -> RecountInputs:
@@ -111,18 +93,3 @@ def texts(frame: pd.DataFrame, name: str) -> list[str]:
     if name not in frame:
         return [""] * len(frame)
     return [str(text).strip() for text in frame[name].astype(object).where(frame[name].notna(), "")]
-
-
-def read_modes(inputs: RecountInputs) -> RecountModes:
-    """Modes that are not ignored."""
-    body = inputs.case["body"]
-    frame = inputs.frame("modes").sort_values("mode")
-    frame = frame[~frame["mode"].isin(body.get("ignore_modes", []))]
-    sign = {"on_element": 1.0, "on_node": -1.0}[body["force_convention"]]
-    hertz = frame["frequency_hz"].to_numpy(dtype=float)
-    normal = np.array([kind in ("", "normal") for kind in texts(frame, "kind")]) & (hertz > ROUND_OFF_HZ)
-    return RecountModes(
-        mode=frame["mode"].to_numpy(dtype=np.int64),
-        force_factor=sign * column(frame, "scale", 1.0),
-        highest_normal_hz=float(hertz[normal].max(initial=0.0)) or np.inf,
-    )

@@ -39,23 +39,30 @@ class RowPlaces:
         return column if self.row_of is None else column[self.row_of]
 
 
-def find_rows(folder: Path, table: str, body: Layout, labels: Labels) -> RowPlaces:
+def find_rows(folder: Path, table: str, body: Layout, labels: Labels, unit_loads: Sequence[str] = ()) -> RowPlaces:
     """Where the rows of a table are that has one for each station of a body and each combination of some labels.
+
+    ``unit_loads`` are further values of the last label, of rows in which that is missing: names in a column of theirs.
 
     Raises
     ------
     DataError : the folder holds no such table, or the file is damaged
     """
-    expected = len(body) * prod(len(known) for known in labels.values())
     names = ["weld", "part", "order", *labels]
     texts = {"weld": body.welds} | {name: known for name, known in labels.items() if isinstance(known[0], str)}
     numbers = [name for name in names if name not in texts]
+    alone, last = labels, names[-1]
+    if unit_loads:
+        texts, labels = texts | {"unit_load": unit_loads}, {**labels, last: [*labels[last], *unit_loads]}
+    expected = len(body) * prod(len(known) for known in labels.values())
     find, row_of, done = None, None, 0
     twice: list[int] = []
     strangers: list[int] = []
     for columns in number_groups(folder, table, numbers, texts):
         rows = len(columns["weld"])
-        places = [columns[name] if name in texts else _place(columns[name], labels[name]) for name in labels]
+        places = [columns[name] if name in texts else _place(columns[name], alone[name]) for name in labels]
+        if unit_loads:
+            places[-1] = _either(places[-1], columns["unit_load"], columns[last], len(alone[last]))
         stations = [columns["weld"], columns["part"], columns["order"]]
         if row_of is None and done + rows <= expected and _as_written(body, labels, done, stations, places):
             done += rows
@@ -119,6 +126,14 @@ def _place(values: NDArray[Any], known: Sequence[Any]) -> NDArray[np.int64]:
     """Place of numbers in an ascending list, -1 where they are not in it."""
     place = np.searchsorted(known, values).clip(max=len(known) - 1)
     return np.where(np.asarray(known)[place] == values, place, -1)
+
+
+def _either(
+    place: NDArray[np.int64], unit_load: NDArray[np.int64], number: NDArray[Any], numbers: int
+) -> NDArray[np.int64]:
+    """Place of a number or, where there is none, of a unit load behind them all; -1 where both are there."""
+    is_load = np.isnan(number) & (unit_load >= 0)
+    return np.where(is_load, numbers + unit_load, np.where(unit_load >= 0, -1, place))
 
 
 def _name(body: Layout, labels: Labels, key: int) -> tuple[Any, ...]:

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.curve import RecountCurve
 from fatigue.verify.recount.anew.line import RecountLineStress, edge_length, edges
-from fatigue.verify.recount.anew.point import OnePass, RecountEvent, Values
+from fatigue.verify.recount.anew.mission import RecountEvent
+from fatigue.verify.recount.anew.point import OnePass, Values
 from fatigue.verify.recount.anew.rounding import Bounds
+from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
 from fatigue.verify.recount.layout import Key
 from fatigue.verify.recount.stored.compare import TOLERANCE, Row
 
@@ -100,16 +102,18 @@ def damage_row(key: Key, event: RecountEvent, one: OnePass, found: Mapping[str, 
     return Row(f"{place(key)}, event '{event.name}'", found, values, scale, is_bound, bounds)
 
 
-def stress_rows(station: Station, modes: NDArray[np.int64], found: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
-    """Rows of the table of structural stress for one station, all modes."""
-    solved, line, at = station.solved, station.solved.line, station.at
-    for j, mode in enumerate(modes.tolist()):
+def stress_rows(station: Station, coordinates: RecountCoordinates, found: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
+    """Rows of the table of structural stress for one station: all coordinates."""
+    solved, line, at, modes = station.solved, station.solved.line, station.at, len(coordinates.mode)
+    for j, label in enumerate(coordinates.labels):
         expected: Values = {"node": int(line.node[at])}
+        if "unit_load" in found[j]:
+            expected["unit_load"] = coordinates.unit_loads[j - modes] if j >= modes else ""
         for c, name in enumerate(COMPONENTS):
             expected[f"{name}_MPa"] = float(solved.treated[at, j, c])
             expected[f"{name}_raw_MPa"] = float(solved.raw[at, j, c])
         size = float(max(np.abs(solved.treated[:, j]).max(), np.abs(solved.raw[:, j]).max()))
-        where = f"weld {line.weld}, part {line.part}, order {line.order[at]}, mode {mode}"
+        where = f"weld {line.weld}, part {line.part}, order {line.order[at]}, {label}"
         yield Row(where, found[j], expected, dict.fromkeys(expected, size))
 
 

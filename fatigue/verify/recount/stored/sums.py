@@ -13,7 +13,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_rows, read_table
-from fatigue.verify.recount.anew.point import RecountEvent
+from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.spectral import NEARLY_ALL
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged

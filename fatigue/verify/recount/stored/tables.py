@@ -11,7 +11,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
-from fatigue.verify.recount.inputs.case import RecountInputs, RecountModes
+from fatigue.verify.recount.inputs.case import RecountInputs
+from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
 from fatigue.verify.recount.layout import FACES, Layout, station_finder
 from fatigue.verify.recount.stored.compare import ColumnCheck, compare_keys
 from fatigue.verify.recount.stored.cycles import StoredCycles, find_cycles
@@ -42,7 +43,7 @@ class Stored:
         return checks if self.cycles.strangers.passed else [*checks, self.cycles.strangers]
 
 
-def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: RecountModes) -> Stored:
+def open_tables(folder: Path, body: Layout, events: Sequence[str], coordinates: RecountCoordinates) -> Stored:
     """Tables of a result with the places of their rows.
 
     Raises
@@ -56,7 +57,9 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], modes: Recoun
         body=body,
         nodes=find_rows(folder, "nodes", body, {"surface": FACES}),
         damage=find_rows(folder, "damage", body, {"surface": FACES, "event": events}),
-        stress=find_rows(folder, "structural_stress", body, {"mode": modes.mode.tolist()}),
+        stress=find_rows(
+            folder, "structural_stress", body, {"mode": coordinates.mode.tolist()}, coordinates.unit_loads
+        ),
         cycles=find_cycles(folder, body, events),
         welds=welds[is_assessed],
         left_out=welds[~is_assessed],
@@ -128,7 +131,7 @@ def with_cycles(stored: Stored, governing: NDArray[np.int64], record: Mapping[st
 def fastest_peaks(folder: Path, inputs: RecountInputs, events: Sequence[str]) -> list[float]:
     """Highest peak rate of all points in every event [1/s]; 0 where nobody asks for it or there is none."""
     highest = np.zeros(len(events))
-    if inputs.case.get("counting", {}).get("upsample") == "auto":
+    if inputs.case.get("counting", {}).get("upsample", "auto") == "auto":
         for columns in number_groups(folder, "damage", ["peaks_per_s"], {"event": events}):
             np.maximum.at(highest, columns["event"], np.nan_to_num(columns["peaks_per_s"]))
     return highest.tolist()

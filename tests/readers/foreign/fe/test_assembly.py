@@ -318,6 +318,7 @@ def test_coordinates_of_subcases_not_asked_for_remind_of_them(tmp_path):
         mesh=tmp_path / "tee.bdf",
         out=tmp_path / "body",
         coordinates=(tmp_path / "q.csv",),
+        static_subcases="leave_out",
     )
     with pytest.raises(DataError, match=r"modes 21, 22, 23 have .* 3 static subcases .*, name them with --interface"):
         convert(options)

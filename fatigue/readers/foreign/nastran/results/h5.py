@@ -14,6 +14,7 @@ from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.force_rows import sharing_rows
 from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.foreign.fe.results import REQUEST, Eigenvalue, FeResults, ForceBlock, ShapeBlock, UnusableBlock
+from fatigue.readers.foreign.fe.static_case import Heading, heading
 from fatigue.readers.foreign.nastran.frames import FrameCard, Frames
 from fatigue.readers.foreign.nastran.results.analysis import MODES, STATIC, wrong_analysis
 
@@ -27,13 +28,16 @@ _MOST_COMPRESSED = 1100  # deflate cannot do better; a larger claim is damage
 Rows = NDArray[Any]
 
 
-def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
+def read_h5(
+    path: Path, subcase: int | None = None, interface: Collection[int] = (), loads: Collection[int] | None = ()
+) -> FeResults:
     """Read the grid point forces of a real modal run or of static subcases, in double precision.
 
     Parameters
     ----------
     subcase : the one to read, where the file has several that cannot be read together
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
+    loads : static subcases that are loads beside them; None: all that can be
 
     Raises
     ------
@@ -80,7 +84,9 @@ def read_h5(path: Path, subcase: int | None = None, interface: Collection[int] =
             )
             for row in read("NASTRAN/RESULT/SUMMARY/EIGENVALUE", required=False)
         ]
-    return assemble(FileBlocks(str(path), "MSC Nastran", forces, shapes, summary, stated, unusable), subcase, interface)
+        headings = _headings(read("NASTRAN/INPUT/PARAMETER/CASECC/SUBCASE", required=False))
+    file = FileBlocks(str(path), "MSC Nastran", forces, shapes, summary, stated, unusable, headings)
+    return assemble(file, subcase, interface, loads)
 
 
 def read_h5_model(path: Path) -> FeModel:
@@ -198,6 +204,18 @@ def _by_domain(rows: Rows) -> Iterator[tuple[int, Rows]]:
 
 def _columns(rows: Rows, names: tuple[str, ...]) -> NDArray[np.float64]:
     return np.stack([rows[name] for name in names], axis=1)
+
+
+def _headings(rows: Rows) -> dict[int, Heading]:
+    """Heading of every subcase that the case control has."""
+    fields = ("TITLE", "SUBTITLE", "LABEL")
+    if not {"SID", *fields} <= set(rows.dtype.names or ()):
+        return {}
+    return {int(row["SID"]): heading(*(_text(row[name]) for name in fields)) for row in rows}
+
+
+def _text(raw: bytes) -> str:
+    return "".join(c if c.isprintable() else " " for c in raw.decode("latin-1"))
 
 
 def _key(domain: Any) -> tuple[int, int]:

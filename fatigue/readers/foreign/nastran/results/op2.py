@@ -25,6 +25,7 @@ from fatigue.readers.foreign.fe.results import (
     frequency_of,
     is_sound,
 )
+from fatigue.readers.foreign.fe.static_case import Heading
 from fatigue.readers.foreign.nastran.results.analysis import ANALYSES, BUCKLING, MODES, STATIC, wrong_analysis
 from fatigue.readers.foreign.nastran.results.op2_blocks import Identification, blocks, damaged, heads
 from fatigue.readers.foreign.nastran.results.op2_records import Op2File, Op2Table, Record, characters, read_records
@@ -39,7 +40,9 @@ _GRID_POINT_FORCE, _EIGENVECTOR, _DISPLACEMENT = 19, 7, 1
 _GRID = 1
 
 
-def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
+def read_op2(
+    path: Path, subcase: int | None = None, interface: Collection[int] = (), loads: Collection[int] | None = ()
+) -> FeResults:
     """Read the grid point forces of a real modal run or of static subcases.
 
     Both word sizes and both byte orders are read.
@@ -48,6 +51,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
     ----------
     subcase : the one to read, where the file has several that cannot be read together
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
+    loads : static subcases that are loads beside them; None: all that can be
 
     Raises
     ------
@@ -58,6 +62,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
     unusable: list[UnusableBlock] = []
     shapes: list[ShapeBlock] = []
     stated: defaultdict[tuple[int, int], list[float]] = defaultdict(list)
+    headings: dict[int, Heading] = {}
     for table in _tables(op2):
         if table.name in _FORCE_TABLES:
             for head, body in blocks(op2, table):
@@ -66,6 +71,7 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
                 else:
                     forces.append(sharing_rows(_force_block(op2, table, head, op2.record(body)), forces))
                     stated[head.key].append(_own_eigenvalue(head))
+                    headings[head.subcase] = head.heading
         elif table.name in _SHAPE_TABLES:
             shapes += [block for pair in blocks(op2, table) if (block := _shape_block(op2, table, *pair))]
         if _STATES_EIGENVALUE.match(table.name):
@@ -78,7 +84,8 @@ def read_op2(path: Path, subcase: int | None = None, interface: Collection[int] 
         summary = [line for t in tables for pair in blocks(op2, t) for line in _eigenvalues(op2, t, *pair)]
     if not forces and not unusable:
         raise _without_forces(op2)
-    results = assemble(FileBlocks(str(path), op2.label, forces, shapes, summary, stated, unusable), subcase, interface)
+    file = FileBlocks(str(path), op2.label, forces, shapes, summary, stated, unusable, headings)
+    results = assemble(file, subcase, interface, loads)
     return results if op2.is_closed else replace(results, warnings=(*results.warnings, _unclosed(op2)))
 
 

@@ -4,10 +4,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fatigue.errors import DataError, Problem
+from fatigue.readers.foreign.fe.static_case import Heading, heading
 from fatigue.readers.foreign.nastran.results.analysis import MODES
 from fatigue.readers.foreign.nastran.results.op2_records import Op2File, Op2Table, Record, characters, text_of
 
@@ -30,6 +28,7 @@ class Identification:
     eigenvalue: float  # word 6
     own: tuple[float, float]  # words 14 and 16, in force tables of MSC Nastran the eigenvalue and the frequency
     superelement: int
+    heading: Heading
 
     @property
     def key(self) -> tuple[int, int]:
@@ -84,6 +83,9 @@ def _identification(op2: Op2File, record: Record) -> Identification:
     """Decode an identification record."""
     raw = op2.record(record)
     words, reals = raw.view(f"{op2.order}i{op2.word}"), raw.view(f"{op2.order}f{op2.word}")
+    size = _FIELD_WORDS * op2.word
+    fields = [raw[at : at + size].tobytes() for at in range(raw.size - 3 * size, raw.size, size)]
+    texts = [text_of(field, op2.word) for field in fields]  # title, subtitle and label
     return Identification(
         approach=int(words[0]) // 10,  # the last digit is the device
         table_code=int(words[1]),
@@ -93,18 +95,16 @@ def _identification(op2: Op2File, record: Record) -> Identification:
         is_thermal=int(words[22]) == 1,
         eigenvalue=float(reals[5]),
         own=(float(reals[13]), float(reals[15])),
-        superelement=_superelement(op2, raw),
+        superelement=_superelement(op2, fields, texts),
+        heading=heading(*texts),
     )
 
 
-def _superelement(op2: Op2File, raw: NDArray[np.uint8]) -> int:
+def _superelement(op2: Op2File, fields: list[bytes], texts: list[str]) -> int:
     """Find the superelement's number behind the subtitle, 0: residual structure; a user's title may hold the word."""
-    size = _FIELD_WORDS * op2.word
-    fields = [raw[at : at + size].tobytes() for at in range(raw.size - 3 * size, raw.size, size)]
-    title, subtitle, label = (text_of(field, op2.word) for field in fields)
     if found := _SUPERELEMENT.match(characters(fields[1], op2.word)[_SUPERELEMENT_AT:].strip()):
         return int(found[1])
-    for text in (title, subtitle, label):
+    for text in texts:
         if found := _SUPERELEMENT.fullmatch(text):
             return int(found[1])
     return 0

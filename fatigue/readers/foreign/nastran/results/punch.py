@@ -10,6 +10,7 @@ import numpy as np
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults, ForceBlock
+from fatigue.readers.foreign.fe.static_case import Heading, heading
 from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _HEADING = "$GRID POINT FORCE BALANCE"
@@ -27,13 +28,16 @@ def is_punch(head: str) -> bool:
     return any(line.startswith(_STARTS) for line in head.splitlines()[:50])
 
 
-def read_punch(path: Path, subcase: int | None = None, interface: Collection[int] = ()) -> FeResults:
+def read_punch(
+    path: Path, subcase: int | None = None, interface: Collection[int] = (), loads: Collection[int] | None = ()
+) -> FeResults:
     """Read the grid point force balances of a punch file; it holds no mode shapes and no generalised masses.
 
     Parameters
     ----------
     subcase : the one to read, where the file has several that cannot be read together
     interface : static subcases that are modes of the basis, beside the modes of a modal subcase
+    loads : static subcases that are loads beside them; None: all that can be
 
     Raises
     ------
@@ -50,7 +54,8 @@ def read_punch(path: Path, subcase: int | None = None, interface: Collection[int
         raise _bad(path, stray, f"a row of forces stands in a block that does not begin with {_HEADING}")
     stated: dict[tuple[int, int], list[float]] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
-    results = assemble(FileBlocks(str(path), "", blocks, [], [], stated), subcase, interface)
+    headings = {block.subcase: _heading(lines, head) for block, head in zip(blocks, heads, strict=True)}
+    results = assemble(FileBlocks(str(path), "", blocks, [], [], stated, (), headings), subcase, interface, loads)
     highest = float(np.max(results.frequency, initial=0.0, where=results.frequency > LOWEST_HZ))
     if 0 < highest < _PERHAPS_BUCKLING_HZ:
         return replace(results, warnings=(*results.warnings, _perhaps_buckling(path, highest)))
@@ -117,6 +122,16 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         np.array(kind, np.str_),
         np.array(force, np.float64).reshape(-1, 6),
     )
+
+
+def _heading(lines: list[str], head: int) -> Heading:
+    """Title, subtitle and label, which stand above the heading of a balance."""
+    found = {"TITLE": "", "SUBTITLE": "", "LABEL": ""}
+    for line in lines[max(head - 5, 0) : head]:
+        word, _, text = line[:72].lstrip("$").partition("=")
+        if line.startswith("$") and word.strip() in found:
+            found[word.strip()] = text
+    return heading(*found.values())
 
 
 def _stray_row(lines: list[str]) -> int | None:

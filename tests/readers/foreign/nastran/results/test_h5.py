@@ -8,6 +8,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.readers.convert.audit.audit import audit
+from fatigue.readers.foreign.fe.static_case import Heading
 from fatigue.readers.foreign.nastran.deck.bdf import read_bdf
 from fatigue.readers.foreign.nastran.results.op2 import read_op2
 
@@ -180,15 +181,24 @@ def test_h5_unit_loads(h5):
 
 
 def test_h5_unit_loads_beside_a_mode(h5):
-    """Two static subcases and a mode: named as interface modes they are read with it."""
+    """Two static subcases and a mode: named as interface modes, or as loads beside it, they are read with it."""
     path, file = h5
     static_subcases(file)
+    name = "NASTRAN/INPUT/PARAMETER/CASECC/SUBCASE"
+    change(file, name, "SID", 11)
+    change(file, name, "SUBTITLE", b"PULL")
     change(file, "NASTRAN/RESULT/DOMAINS", "ANALYSIS", 2, 5)
     change(file, "NASTRAN/RESULT/DOMAINS", "MODE", 3, 5)
     file.close()
     assert read_h5(path).mode.tolist() == [3]
     assert read_h5(path, interface=(11, 12)).mode.tolist() == [3, 11, 12]
     assert read_h5(path, 11).analysis == "static"
+    beside = read_h5(path, loads=None)
+    assert beside.mode.tolist() == [3, 11, 12]
+    assert [(case.subcase, case.heading) for case in beside.static_cases] == [
+        (11, Heading(subtitle="PULL")),
+        (12, Heading()),
+    ]
 
 
 @pytest.mark.parametrize(

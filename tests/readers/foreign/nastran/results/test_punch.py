@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fatigue.errors import DataError
+from fatigue.readers.foreign.fe.static_case import Heading
 from fatigue.readers.foreign.nastran.results.punch import read_punch
 from tests.readers.tee_model import tee
 
@@ -83,7 +84,8 @@ def test_punch_unit_loads(tmp_path):
     """Static subcases with loads at grids of their own."""
     path = tmp_path / "a.pch"
     lines = []
-    for subcase, grid in ((3, 1), (8, 2)):
+    for subcase, grid, name in ((3, 1, "pull = 1"), (8, 2, "")):
+        lines += ["$TITLE   = A RUN", f"$SUBTITLE= {name}", "$LABEL   ="]
         lines += ["$GRID POINT FORCE BALANCE", "$REAL OUTPUT", f"$SUBCASE ID = {subcase:11d}"]
         for node, element, kind in ((grid, "", "APP-LOAD"), (1, 5, "QUAD4"), (2, 5, "QUAD4")):
             lines.append(f"{node:10d}{element:>18}        {kind:8s}")
@@ -93,6 +95,7 @@ def test_punch_unit_loads(tmp_path):
     assert (found.analysis, found.mode.tolist()) == ("static", [3, 8])
     assert found.element.tolist() == [5, 5, 0, 0]
     assert found.force[1, 0].tolist() == [8, 8, 8, 9, 9, 9]
+    assert [case.heading for case in found.static_cases] == [Heading("A RUN", "pull = 1"), Heading("A RUN")]
 
 
 @pytest.mark.parametrize("line", ["$TIME       =   1.0", "$FREQUENCY =   2.0", "$LOAD FACTOR =  0.5"])

@@ -1,0 +1,1 @@
+"""Parts of the data dictionary: what a column is, and the tables that ``fatigue.results.columns`` takes from here."""
