@@ -83,8 +83,8 @@ WRONG = [
         "unit_load[1].nodal_forces: nodal_forces and element_forces are both",
     ),
     (
-        PRESSURE + of_event("presure", constant=1.0),
-        "name: there is no unit load 'presure'. Write 'pressure'",
+        PRESSURE + of_event("pressur", constant=1.0),
+        "name: there is no unit load 'pressur'. Write 'pressure'",
     ),
     (of_event(constant=1.0), "unit_load[1].name: there is no unit load 'pressure'. Define it by a [[body.unit_load]]"),
     (PRESSURE + of_event(unit="Pa", constant=1.0), "unit_load[1].unit: 'Pa' is not the unit of unit load 'pressure'"),
@@ -120,7 +120,7 @@ WRONG = [
         PRESSURE + STATIC + "speed_km_h = 80.0\n" + of_event(values="[0, 1]"),
         "speed_km_h ('lift'): 80 is given for an event counted by number",
     ),
-    (PRESSURE + of_event(valeus="[1, 2]", constant=1.0), "unknown key with the value [1, 2]. Write 'values'"),
+    (PRESSURE + of_event(value="[1, 2]", constant=1.0), "unknown key with the value [1, 2]. Write 'values'"),
 ]
 
 

@@ -143,7 +143,7 @@ def test_a_finer_load_upsamples_its_event_alone(tmp_path):
     loads = {factor: event_load(body, event, factor) for factor in (1, 4, 8)}
     assert [load.counted.q.shape[1] for load in loads.values()] == [4 * 399 + 1, 4 * 399 + 1, 8 * 399 + 1]
     assert {round(load.duration, 9) for load in loads.values()} == {2.0}
-    assert [load.is_upsampled for load in loads.values()] == [False, False, True]
+    assert [load.upsample for load in loads.values()] == [4, 4, 8]
 
 
 def test_what_events_count(tmp_path):
