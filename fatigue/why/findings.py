@@ -13,9 +13,8 @@ from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.shown import shortened, visible
 from fatigue.why.attribute import Attribution
-from fatigue.why.evidence import Evidence
+from fatigue.why.evidence import Evidence, ids
 from fatigue.why.levers import SMALLER
-from fatigue.why.rows import ids
 
 LONGEST_LIFE_KM = 1e12
 WIDTH = 110
