@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fatigue.life.mission import Plan
 from fatigue.pipeline.solve.body import Body
+from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.why.attribute import Attribution
 from fatigue.why.levers import Levers
 from fatigue.why.verdicts import EventVerdicts
@@ -26,3 +30,11 @@ class Evidence:
     attribution: Attribution
     levers: Levers
     verdicts: tuple[EventVerdicts, ...]
+
+
+def ids(coordinates: Coordinates) -> tuple[NDArray[np.object_], NDArray[np.object_]]:
+    """Mode id and name of the unit load of every coordinate, (c,) each; None where it is the other."""
+    is_mode = coordinates.is_mode
+    mode, unit_load = np.array([coordinates.number, coordinates.unit_load], dtype=object)
+    mode[~is_mode] = unit_load[is_mode] = None
+    return mode, unit_load

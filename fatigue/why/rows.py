@@ -4,13 +4,12 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fatigue.life.mission import life_km
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.why.attribute import Attribution, EventAttribution
-from fatigue.why.evidence import Evidence
+from fatigue.why.evidence import Evidence, ids
 from fatigue.why.points import Points
 from fatigue.why.verdicts import EventVerdicts
 
@@ -131,14 +130,6 @@ def lever_rows(evidence: Evidence) -> dict[str, Any]:
         "life_km_counted": levers.life_counted.ravel(),
         "gain_km": levers.life_counted.ravel() - life,
     }
-
-
-def ids(coordinates: Coordinates) -> tuple[NDArray[np.object_], NDArray[np.object_]]:
-    """Mode id and name of the unit load of every coordinate, (c,) each; None where it is the other."""
-    is_mode = coordinates.is_mode
-    mode, unit_load = np.array([coordinates.number, coordinates.unit_load], dtype=object)
-    mode[~is_mode] = unit_load[is_mode] = None
-    return mode, unit_load
 
 
 def point_columns(points: Points, repeat: int) -> dict[str, Any]:

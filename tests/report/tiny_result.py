@@ -140,6 +140,8 @@ def _node_rows(recipe, cycles, per_km, passes, toes):
                 "z_mm": 2600.0,
                 "thickness_mm": THICKNESS,
                 "damage_per_km": damage,
+                "damage_per_km_transitions": np.nan,
+                "damage_per_km_transitions_bound": np.nan,
                 "life_km": _life(damage),
                 "life_years": _life(damage) / KM_PER_YEAR,
                 "utilisation": utilisation,
@@ -212,7 +214,9 @@ def _cycle_rows(recipe, cycles, w, s, f):
     for e, event in enumerate(recipe.events):
         counted = cycles[w, s, f, e]
         rows += [
-            {**_key(recipe, w, s, f), "event": event, **{name: values[i] for name, values in counted.items()}}
+            _key(recipe, w, s, f)
+            | {"event": event, "start_event": None, "end_event": None}
+            | {name: values[i] for name, values in counted.items()}
             for i in range(6)
         ]
     return rows
