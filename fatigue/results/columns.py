@@ -50,8 +50,18 @@ NODES = (
         "(sum n S^k / 2e6)^(1/k) over target_km, k the first slope: the constant structural stress range that does the "
         "same in 2e6 cycles on one slope, knees, mean stress and scatter of the bending ratio left out",
     ),
-    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress in the governing event"),
-    Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all events"),
+    Column(
+        "mean_stress_MPa",
+        "float",
+        "MPa",
+        "time mean of the structural stress in the governing event, constants included",
+    ),
+    Column(
+        "R_largest_cycle",
+        "float",
+        "-",
+        "minimum / maximum structural stress of the largest cycle of all events, constants included",
+    ),
     Column(
         "damage_factor_if_mean_stress",
         "float",
@@ -112,7 +122,7 @@ DAMAGE = (
         "largest equivalent range (MPa on curves in structural stress)",
     ),
     Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) over the kept samples"),
-    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress"),
+    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress, constants included"),
     Column("kurtosis", "float", "-", "Pearson kurtosis of the structural stress, 3 for a Gaussian record"),
     Column("irregularity", "float", "-", "alpha_2 = zero up-crossings / peaks, from the spectral moments"),
     Column("outside_share", "float", "-", "share of the variance of the spectrum that lies above upper_hz"),
@@ -137,7 +147,7 @@ CYCLES = (
     Column("start_s", "float", "s", "file time of the first reversal"),
     Column("end_s", "float", "s", "file time of the second reversal; before start_s: the cycle wraps past the end"),
     Column("range_MPa", "float", "MPa", "structural stress range"),
-    Column("mean_MPa", "float", "MPa", "mean of the two reversals"),
+    Column("mean_MPa", "float", "MPa", "mean of the two reversals, constants included"),
     Column("count", "float", "-", "1: cycle, 0.5: half cycle"),
     Column("membrane_range_MPa", "float", "MPa", "membrane stress range between the same two instants"),
     Column("bending_range_MPa", "float", "MPa", "bending stress range between the same two instants"),
