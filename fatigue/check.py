@@ -21,9 +21,11 @@ from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
+from fatigue.pipeline.forecast.upsampling_trial import foretold, upsampling_text
 from fatigue.pipeline.mission.counted import EventCount, event_counts, listed
 from fatigue.pipeline.mission.events import mean_levels
 from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
+from fatigue.pipeline.mission.in_words import sequence_texts
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
@@ -46,6 +48,7 @@ class CheckedCase:
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
     takes, ``gravity`` is what the mean of q of each event holds of the dead load, where the body has a gravity load;
     ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
+    ``sequences`` say which orders of events are counted.
     ``warnings`` are summed up as in an assessment.
     """
 
@@ -68,6 +71,7 @@ class CheckedCase:
     estimated_result_MB: float  # noqa: N815
     estimate: JobTime
     gravity: tuple[HeldGravity, ...]
+    sequences: tuple[str, ...]
     warnings: tuple[Problem, ...]
 
     @property
@@ -106,7 +110,9 @@ class CheckedCase:
                 *([f"  unit loads       {self.unit_loads}"] * (self.unit_loads > 0)),
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 *(f"    {line}" for line in listed(self.counts)),
+                *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
                 f"  stress samples   {2 * self.samples:.3g}",
+                f"  upsampling       {upsampling_text(self.estimate.upsample)}",
                 *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
                 f"  estimated time   {_time_text(self.estimate)}",
                 f"  estimated space  {self._space()}",
@@ -135,13 +141,14 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     parts = stations = 0
     stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
-        groups = weld_groups(body, Path(scratch))
+        groups, upsampled = weld_groups(body, Path(scratch)), foretold(body, plan, Path(scratch))
         for number in range(len(groups)):
             model = solve_group(groups, number)
             parts += len(model.lines)
             stations += len(model.stations)
             warnings.add(model.warnings)
             extents += model.extents
+            upsampled.add(model.stations.treated)
         warnings.add(load_warnings(body, extents))
         gravity: tuple[HeldGravity, ...] = ()
         if has_gravity(body):
@@ -150,9 +157,10 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
-        estimate = job_time(plan, sample, stations, read_s, Path(scratch))
+        factors = upsampled.factors(case.counting.upsample, plan)
+        estimate = job_time(plan, sample, stations, factors, read_s, Path(scratch))
         warnings.add(band_warnings(sample, plan, Path(scratch)))
-    needs = job_needs(job_size(body, plan, factors=(estimate.upsample,) * len(plan.passes)))
+    needs = job_needs(job_size(body, plan, factors=estimate.upsample))
     warnings.add(tuple(shortage_warnings(needs, case.path.parent)))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
@@ -175,6 +183,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         estimated_result_MB=round(needs.result / 1e6, 1),
         estimate=estimate,
         gravity=gravity,
+        sequences=tuple(sequence_texts(plan)),
         warnings=warnings.listed(),
     )
 

@@ -16,7 +16,8 @@ from fatigue.files.hashes import sha256
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.unit_load import LoadSource
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
-from fatigue.readers.neutral.event.event_record import EventFiles, column_names, read_event
+from fatigue.readers.neutral.event.event_record import EventFiles, read_event
+from fatigue.readers.neutral.event.load_units import column_names
 from fatigue.readers.neutral.long_history import is_long
 from fatigue.readers.neutral.register.weld_register import REGISTER
 from fatigue.results import case_of

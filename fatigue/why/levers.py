@@ -10,6 +10,7 @@ from fatigue.life.mission import Plan, life_km
 from fatigue.life.records.history import stress_record
 from fatigue.life.records.spool import Samples
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.why.across_events import loop_damages
 from fatigue.why.attribute import Attribution, count_credit
 from fatigue.why.long_record import Row, is_long, long_damage
 from fatigue.why.points import Points
@@ -52,6 +53,9 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
         for w in range(len(point)):
             counted = _damages(points.of(slice(w, w + 1)), scale[w], q, load)
             damage[w] += one_pass.passes_per_km * np.array(counted)
+    for w in range(len(point)):
+        scale = np.where(mode[w][:, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
+        damage[w] += loop_damages(points.of(slice(w, w + 1)), scale, loads, plan)
     life = life_km(attribution.damage[point], plan.damage_limit)
     return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, life_km(damage, plan.damage_limit))
 
@@ -63,9 +67,10 @@ def _damages(point: Points, scale: Floats, q: Samples, load: EventLoad) -> list[
     offset = (membrane + side * bending) @ load.offset
     if is_long(q):
         stress = stress_record(np.stack([membrane, bending], axis=1).reshape(-1, q.shape[0]), q)
-        return [long_damage(stress, Row(2 * i, side, size, rule, offset[i]), residue) for i in range(len(scale))]
+        rows = [Row(2 * i, side, size, rule, offset[i]) for i in range(len(scale))]
+        return [long_damage(stress, row, residue, vertex=load.vertex) for row in rows]
     sigma_m, sigma_b = membrane @ np.asarray(q), bending @ np.asarray(q)
     return [
-        count_credit(m, b, side, size, rule, residue, constant).damage
+        count_credit(m, b, side, size, rule, residue, constant, vertex=load.vertex).damage
         for m, b, constant in zip(sigma_m, sigma_b, offset, strict=True)
     ]

@@ -10,11 +10,15 @@ when it is smaller than the one before it and not larger than the one after it: 
 it is a cycle wherever counting begins. The rest is turned so that it begins at its largest reversal, and closes
 entirely. Every cycle is the same as in whole rows. Only where the largest or smallest stress of a block that recurs
 occurs several times, exactly equal, other instants of it may be paired: same ranges, but perhaps other bending ratios.
+
+Reversals that are read at their vertices are moved there when they are found. For that a chunk brings the sample before
+its first column, and a block that recurs what follows its first sample. Where the residue of the pass is wanted, open
+ranges of a single pass wait to its end as well, and what waits behind the last chunk is the residue.
 """
 
 import math
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +27,7 @@ from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.factors import Trials, no_trials, tally_trials
 from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.residue import BlockResidue, residue_places
 from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles
 from fatigue.life.counting.tally import (
     CompiledRule,
@@ -35,9 +40,11 @@ from fatigue.life.counting.tally import (
     refuse_not_finite,
     tally,
 )
+from fatigue.life.counting.vertex import at_shift, shift_of
 from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
+Three: TypeAlias = tuple[float, float, float]  # a sample between its neighbours
 
 POINTS = 128  # counted at a time
 CHUNK = 8192  # samples recovered at a time
@@ -49,7 +56,9 @@ class _State(NamedTuple):
 
     ``first`` (n, 2) is the first sample. ``first_step`` and ``step`` are the directions of the first step and of the
     last one, 0 before there is any; ``plateau`` (n, 2, 2) is the sample before the first step. The first ``waiting`` of
-    the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``moments`` (n, 2, 5) are number, mean, and sums of
+    the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``earlier`` (n, 2) is the sample before the last one;
+    ``alone`` (n, 2) says whether the first plateau is the first sample alone, ``after`` (n, 2, 2) what follows it then.
+    ``moments`` (n, 2, 5) are number, mean, and sums of
     the 2nd, 3rd and 4th power of the deviations from it, of the samples so far.
     """
 
@@ -61,6 +70,9 @@ class _State(NamedTuple):
     m: Floats
     b: Floats
     moments: Floats
+    earlier: Floats
+    alone: NDArray[np.int64]
+    after: Floats
 
 
 class _Block(NamedTuple):
@@ -76,22 +88,31 @@ class _Block(NamedTuple):
 
 
 class _Room(NamedTuple):
-    """Work space of one row: stress of a chunk, and membrane, bending and structural stress of its reversals."""
+    """Work space of one row: stress of a chunk, and membrane, bending and structural stress of its reversals.
+
+    ``kept`` (2, r) are membrane and bending stress of the residue, in the end.
+    """
 
     stress: Floats
     m: Floats
     b: Floats
     s: Floats
+    kept: Floats
     buffers: Buffers
 
 
 class _Stage(NamedTuple):
-    """Samples of a chunk, whether the record ends with it and whether it recurs, and the steps between its columns."""
+    """Samples of a chunk, whether the record ends with it and whether it recurs, and the steps between its columns.
+
+    ``keeps``: whether the residue is wanted; ``vertex``: reversals are read at their vertices.
+    """
 
     samples: int
     ends: bool
     recurs: bool
     steps: int
+    keeps: bool
+    vertex: bool
 
 
 def count_chunks(
@@ -108,6 +129,15 @@ def count_chunks(
     return block_count(*counted, rule, stress.level)
 
 
+def count_chunks_and_residue(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK
+) -> tuple[BlockCount, BlockResidue]:
+    """Count a block as ``count_chunks`` does, and keep the residue of every point."""
+    counted = nothing_counted(len(stress), rule.law)
+    residues = _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk, keeps=True)
+    return block_count(*counted, rule, stress.level), BlockResidue.joined(residues)
+
+
 def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
     """Add the damage of one pass of a block under factors on its stress to the trials."""
     _count_points(stress, record, rule, (*nothing_counted(len(stress), rule.law), tried), chunk)
@@ -119,19 +149,35 @@ def _count_points(
     rule: CycleRule,
     counted: tuple[NDArray[np.void], Floats, Trials],
     chunk: int,
-) -> None:
-    """Count a block some points at a time."""
+    *,
+    keeps: bool = False,
+) -> list[BlockResidue]:
+    """Count a block some points at a time; returns their residues where they are to be kept."""
     totals, histogram, trials = counted
     shear_factor, offset = own_of(stress)
+    residues = []
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
         own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factor[some], offset[some]
         block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
-        _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_rule(rule), chunk)
+        parts = plain(stress.membrane)[some], plain(stress.bending)[some]
+        state = _count(*parts, record, block, compiled_rule(rule), chunk, keeps=keeps)
+        if keeps:
+            residues.append(BlockResidue.of_padded(state.m, state.b, state.waiting))
+    return residues
 
 
-def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule: CompiledRule, chunk: int) -> None:
-    """Count some points, chunk by chunk."""
+def _count(
+    S_m: Floats,
+    S_b: Floats,
+    record: CountedRecord,
+    block: _Block,
+    rule: CompiledRule,
+    chunk: int,
+    *,
+    keeps: bool,
+) -> _State:
+    """Count some points, chunk by chunk; returns the state behind the last one."""
     modal_stress = np.concatenate([S_m, S_b])
     points, t = len(S_m), record.q.shape[1]
     edges = np.linspace(0, t, -(-t // chunk) + 1).astype(int).tolist()
@@ -149,7 +195,8 @@ def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule:
             state.first[:] = stress[:, 1].reshape(2, points).T
         if ends and record.recurs:
             stress[:, samples + 1] = state.first.T.ravel()
-        stage = _Stage(samples, ends, record.recurs, samples + int(ends and record.recurs))
+        steps = samples + int(ends and record.recurs)
+        stage = _Stage(samples, ends, record.recurs, steps, keeps, record.vertex)
         at = count_chunk(stress, stage, 0, state, block, rule, room)
         while at < 2 * points:  # more reversals wait than there is room for
             left, room_before = int(state.waiting.ravel()[at]), room
@@ -158,6 +205,7 @@ def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule:
             for rows, kept in ((state.m, room_before.m), (state.b, room_before.b)):
                 rows.reshape(2 * points, -1)[at, :left] = kept[:left]
             at = count_chunk(stress, stage, at + 1, state, block, rule, room)
+        state.earlier[:] = stress[:, samples - 1].reshape(2, points).T
         stress[:, 0] = stress[:, samples]
     moments = state.moments
     _, mean, second, _, fourth = np.moveaxis(moments, 2, 0)
@@ -165,6 +213,7 @@ def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule:
     block.totals["mean"] = mean if t else math.nan
     block.totals["kurtosis"] = np.where(flat, math.nan, fourth * t / np.where(flat, 1.0, second * second))
     block.totals["r_largest"][block.totals["max_range"] == 0.0] = math.nan
+    return state
 
 
 def _fresh_state(points: int) -> _State:
@@ -173,7 +222,17 @@ def _fresh_state(points: int) -> _State:
     steps = (np.zeros(one, np.int64) for _ in range(3))
     first_step, step, waiting = steps
     return _State(
-        np.zeros(one), first_step, step, np.zeros(pair), waiting, np.zeros(rows), np.zeros(rows), np.zeros((*one, 5))
+        np.zeros(one),
+        first_step,
+        step,
+        np.zeros(pair),
+        waiting,
+        np.zeros(rows),
+        np.zeros(rows),
+        np.zeros((*one, 5)),
+        earlier=np.zeros(one),
+        alone=np.zeros(one, np.int64),
+        after=np.zeros(pair),
     )
 
 
@@ -187,7 +246,7 @@ def _room_for(steps: int, waiting: int) -> _Room:
     """Work space for the reversals of so many steps behind those that wait: once, and once more to turn them."""
     reversals = steps + waiting + 2
     m, b, s = (np.empty(2 * reversals + 1) for _ in range(3))
-    return _Room(np.empty(steps + 1), m, b, s, buffers_for(reversals))
+    return _Room(np.empty(steps + 1), m, b, s, np.empty((2, reversals + 2)), buffers_for(reversals))
 
 
 @compiled()
@@ -230,10 +289,23 @@ def append(m: float, b: float, side: float, n: int, room: _Room) -> int:
 
 
 @compiled()
-def append_reversals(m: Floats, b: Floats, side: float, steps: int, step: int, n: int, room: _Room) -> tuple[int, int]:
+def append_vertex(m: Three, b: Three, side: float, n: int, room: _Room) -> int:
+    """Append a reversal between its neighbours, read at its vertex, and return how many there are."""
+    s = (m[0] + side * b[0], m[1] + side * b[1], m[2] + side * b[2])
+    p = shift_of(s[0], s[1], s[2])
+    if p == 0.0:
+        return append(m[1], b[1], side, n, room)
+    return append(at_shift(m[0], m[1], m[2], p), at_shift(b[0], b[1], b[2], p), side, n, room)
+
+
+@compiled()
+def append_reversals(
+    m: Floats, b: Floats, earlier: Floats, vertex: bool, side: float, steps: int, step: int, n: int, room: _Room
+) -> tuple[int, int]:
     """Append the reversals among the first columns of a row, the last samples of their plateaus.
 
-    ``step`` is the direction before. Returns how many reversals there are, and the direction behind them.
+    ``earlier`` (2,) is the sample before the first column, ``step`` the direction before. Returns how many reversals
+    there are, and the direction behind them.
     """
     s, signs, at = room.stress, room.buffers.step, room.buffers.reversal
     for i in range(steps):
@@ -244,7 +316,12 @@ def append_reversals(m: Floats, b: Floats, side: float, steps: int, step: int, n
         reversals += int(signs[i] * step < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
         step = signs[i] if signs[i] != 0 else step
     for k in range(reversals):
-        n = append(m[at[k]], b[at[k]], side, n, room)
+        i = at[k]
+        if vertex:
+            m_before, b_before = (m[i - 1], b[i - 1]) if i > 0 else (earlier[0], earlier[1])
+            n = append_vertex((m_before, m[i], m[i + 1]), (b_before, b[i], b[i + 1]), side, n, room)
+        else:
+            n = append(m[i], b[i], side, n, room)
     return n, step
 
 
@@ -325,15 +402,46 @@ def gather_reversals(m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, s
             return 0
         state.first_step[at] = step
         state.plateau[at][0], state.plateau[at][1] = m[i - 1], b[i - 1]
+        state.after[at][0], state.after[at][1] = m[i], b[i]
+        before = state.moments[at][0] - stage.samples  # of this chunk; its column 1 is the next sample
+        state.alone[at] = int(before + i == 2)
         if not stage.recurs:  # a single pass turns at its first sample
             n = append(state.first[row, 0], state.first[row, 1], side, n, room)
-    n, step = append_reversals(m, b, side, stage.steps, step, n, room)
+    n, step = append_reversals(m, b, state.earlier[row], stage.vertex, side, stage.steps, step, n, room)
     state.step[at] = step
     if stage.ends and not stage.recurs:
         n = append(m[stage.samples], b[stage.samples], side, n, room)
     elif stage.ends and step != state.first_step[at]:  # a block that recurs turns where its first plateau ends
-        n = append(state.plateau[at][0], state.plateau[at][1], side, n, room)
+        first, after = state.plateau[at], state.after[at]
+        if stage.vertex and state.alone[at]:
+            last = stage.samples
+            n = append_vertex((m[last], first[0], after[0]), (b[last], first[1], after[1]), side, n, room)
+        else:
+            n = append(first[0], first[1], side, n, room)
     return n
+
+
+@compiled()
+def keep_residue(m: Floats, b: Floats, at: tuple[int, int], n: int, stage: _Stage, state: _State, room: _Room) -> int:
+    """Copy the residue of a record that ends, n reversals wait, to ``room.kept`` and return how many it has.
+
+    A block that recurs turns at its first and its last sample as well, where another pass comes before or behind it. At
+    its first plateau, the last of its reversals, only its own next pass turns.
+    """
+    side, s, place = 1.0 - 2.0 * at[1], room.s[n:], room.buffers.start
+    if stage.recurs:
+        n -= int(n > 0 and state.step[at] != state.first_step[at])
+    kept_m, kept_b = room.kept
+    kept_m[0], kept_b[0] = state.first[at[0], 0], state.first[at[0], 1]
+    for i in range(n):
+        kept_m[1 + i], kept_b[1 + i] = room.m[i], room.b[i]
+    kept_m[1 + n], kept_b[1 + n] = m[stage.samples], b[stage.samples]
+    for i in range(n + 2):
+        s[i] = kept_m[i] + side * kept_b[i]
+    length = residue_places(s, n + 2, place)
+    for k in range(length):
+        kept_m[k], kept_b[k] = kept_m[place[k]], kept_b[place[k]]
+    return length
 
 
 @compiled()
@@ -355,9 +463,11 @@ def count_chunk(
 
         n = gather_reversals(m, b, (row, surface), stage, state, room)
         if stage.ends:
-            cycles, left = close_all(n, stage.recurs, room), 0
+            left = keep_residue(m, b, (row, surface), n, stage, state, room) if stage.keeps else 0
+            cycles = close_all(n, stage.recurs, room)
         else:
-            cycles, left = close_open(room.s, state.waiting[row, surface], n, stage.recurs, room.buffers)
+            waits = stage.recurs or stage.keeps
+            cycles, left = close_open(room.s, state.waiting[row, surface], n, waits, room.buffers)
         own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
         point = Surface(room.m, room.b, side, own[0], own[1], own[2], block.offset[row, surface])
         if block.trials.damage.shape[2] > 0:
@@ -368,7 +478,10 @@ def count_chunk(
 
         state.waiting[row, surface] = left
         for k in range(left):
-            room.m[k], room.b[k] = room.m[room.buffers.reversal[k]], room.b[room.buffers.reversal[k]]
+            if stage.ends:
+                room.m[k], room.b[k] = room.kept[0, k], room.kept[1, k]
+            else:
+                room.m[k], room.b[k] = room.m[room.buffers.reversal[k]], room.b[room.buffers.reversal[k]]
         if left > state.m.shape[2]:
             return number
         for k in range(left):

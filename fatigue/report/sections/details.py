@@ -105,7 +105,7 @@ def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> No
 
 
 def _welds(result: ShownResult) -> dict[str, _DetailedWeld]:
-    governing = result.assessed.set_index("weld")["governing_event"]
+    governing = _leading_events(result)
     welds = {}
     for name, (stations, modal_stress) in result.modal_stress(list(COMPONENTS.values())).items():
         components = dict(zip(COMPONENTS, modal_stress, strict=True))
@@ -115,10 +115,23 @@ def _welds(result: ShownResult) -> dict[str, _DetailedWeld]:
         welds[name] = _DetailedWeld(
             worst=components["membrane"][at] + sign * components["bending"][at],
             stations=components,
-            governing_event=None if pd.isna(governing[name]) else governing[name],
+            governing_event=governing[name],
             largest=_largest(result.cycles(name, _OF_LARGEST), governing[name]),
         )
     return {name: welds[name] for name in result.detailed}
+
+
+def _leading_events(result: ShownResult) -> dict[str, str | None]:
+    """Governing event of each weld; the event with the most damage where a sequence governs, which has no record."""
+    known = {event["event"] for event in result.events}
+    found: dict[str, str | None] = {}
+    for weld, name in result.assessed.set_index("weld")["governing_event"].items():
+        found[str(weld)] = None if pd.isna(name) else str(name)
+        if not pd.isna(name) and name not in known:
+            of_weld = result.damage[(result.damage["weld"] == weld) & result.damage["event"].isin(known)]
+            weighted = of_weld["damage_per_pass"] * of_weld["event"].map(result.passes_per_km)
+            found[str(weld)] = None if weighted.empty else str(of_weld.loc[weighted.idxmax(), "event"])
+    return found
 
 
 def _largest(cycles: pd.DataFrame, event: str | None) -> tuple[float, float] | None:

@@ -58,11 +58,13 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85")
             for words in _unique(chosen["residue"].values())
         ),
+        Rule("Cycles across events", _across_events(record), "case file: mission.sequence"),
         Rule(
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
         *_level_rule(chosen),
         Rule("Upsampling before counting", _upsampling(chosen), "case file: counting.upsample"),
+        Rule("Reversals", _reversals(chosen), "case file: counting.reversals"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(
             "Mission",
@@ -115,10 +117,23 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         *((rule.subject, rule.choice) for rule in _level_rule(chosen)),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
         ("Upsampling", _upsampling(chosen)),
+        *([("Cycles across events", _across_events(record))] if mission.get("sequences") else []),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
+
+
+def _across_events(record: Mapping[str, Any]) -> str:
+    """Whether cycles across events are counted, and in which order."""
+    loops = record["mission"].get("sequences", [])
+    said = str(record["rules"].get("events", "every event follows on itself"))
+    if not loops:
+        return said
+    orders = "; ".join(
+        f"{' – '.join(loop['order'])} {number(1000.0 * loop['runs_per_km'])} in 1000 km" for loop in loops
+    )
+    return f"{said}: {orders}"
 
 
 def _level_rule(chosen: Mapping[str, Any]) -> list[Rule]:
@@ -174,8 +189,16 @@ def _upsampling(chosen: Mapping[str, Any]) -> str:
     for event, factor in chosen.get("upsampled", {}).items():
         events.setdefault(factor, []).append(f'"{event}"')
     done = [f"{'none' if factor == 1 else f'{factor} times'}: {few(events[factor])}" for factor in sorted(events)]
-    asked = "as much as gives 20 samples per peak" if chosen["upsample"] == "auto" else str(chosen["upsample"])
+    enough = 8 if chosen.get("reversals") == "vertex" else 20
+    asked = f"as much as gives {enough} samples per peak" if chosen["upsample"] == "auto" else str(chosen["upsample"])
     return "; ".join([asked, *done])
+
+
+def _reversals(chosen: Mapping[str, Any]) -> str:
+    """Where reversals are read, in words."""
+    if chosen.get("reversals") == "vertex":
+        return "at the vertex of the parabola through three samples, membrane and bending at the same instant"
+    return "at the samples"
 
 
 def _screening(screening: Mapping[str, Any]) -> str:
