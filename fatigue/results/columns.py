@@ -56,7 +56,7 @@ NODES = (
         "mean_stress_MPa",
         "float",
         "MPa",
-        "time mean of the structural stress in the governing event; empty where a sequence governs",
+        "time mean of the structural stress in the governing event, constants included; empty where a sequence governs",
     ),
     Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all"),
     Column(
@@ -159,7 +159,7 @@ DAMAGE = (
         "largest equivalent range (MPa on curves in structural stress)",
     ),
     Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) over the kept samples"),
-    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress"),
+    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress, constants included"),
     Column("kurtosis", "float", "-", "Pearson kurtosis of the structural stress, 3 for a Gaussian record"),
     Column("irregularity", "float", "-", "alpha_2 = zero up-crossings / peaks, from the spectral moments"),
     Column("outside_share", "float", "-", "share of the variance of the spectrum that lies above upper_hz"),
@@ -186,7 +186,7 @@ CYCLES = (
     Column("start_s", "float", "s", "file time of the first reversal"),
     Column("end_s", "float", "s", "file time of the second reversal; before start_s: the cycle wraps past the end"),
     Column("range_MPa", "float", "MPa", "structural stress range"),
-    Column("mean_MPa", "float", "MPa", "mean of the two reversals"),
+    Column("mean_MPa", "float", "MPa", "mean of the two reversals, constants included"),
     Column(
         "count",
         "float",
