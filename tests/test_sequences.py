@@ -1,5 +1,6 @@
 """Sequences from the case to the tables: rows that add up, load factors that meet the target, bounds that hold."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -214,3 +215,47 @@ def test_levers_count_the_loop_again(diagnosed: dict[str, pd.DataFrame]) -> None
     levers = diagnosed["levers"]
     first = levers[levers["rank"] == 1]
     assert first["life_km_counted"].to_numpy() == pytest.approx(first["life_km_estimated"].to_numpy(), rel=0.03)
+
+
+def test_unknown_order_that_matters_is_one_warning(tmp_path: Path) -> None:
+    """It names the events, the worst welds and what to do; below 5 % of the damage nothing is said."""
+    case = empty_and_laden()
+    for event, stints in zip(case.events, (100.0, 1.5, 100.0, 1.5), strict=True):
+        event["stints_per_1000_km"] = stints
+    case.events[0]["share"], case.events[2]["share"] = 0.1, 0.9
+    loud, _ = assessed(case, tmp_path / "loud")
+    (warning,) = [problem for problem in loud.warnings if problem.code == "transitions_matter"]
+    assert "the order of 4 events (sine, load, laden and 1 more) is not known" in warning.what
+    assert warning.what.count("node") == 2
+    for event in case.events:
+        event["stints_per_1000_km"] = 1e-3
+    quiet, _ = assessed(case, tmp_path / "quiet")
+    assert "transitions_matter" not in {problem.code for problem in quiet.warnings}
+
+
+def test_single_precision_and_long_records_join_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same loop counted by every counter: transitions agree to what single precision leaves of a residue."""
+    case = empty_and_laden()
+    case.extra = LOOP
+    nodes = assessed(case, tmp_path / "rows")[1]["nodes"]
+    monkeypatch.setattr("fatigue.life.counting.count.LONGEST_ROW", 100)
+    in_chunks = assessed(case, tmp_path / "chunks")[1]["nodes"]
+    monkeypatch.setattr("fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES", 1.0)
+    single = assessed(case, tmp_path / "single", share=0.0)[1]["nodes"]
+    for other, tolerance in ((in_chunks, 1e-11), (single, 2e-6)):
+        for name in ("damage_per_km_transitions", "damage_per_km", "max_range_MPa"):
+            assert other[name].to_numpy() == pytest.approx(nodes[name].to_numpy(), rel=tolerance)
+
+
+def test_workers_and_an_interrupted_run_give_the_same_bytes(tmp_path: Path) -> None:
+    """Loops travel with the arrays of a group: through orders, and through what an interrupted run left."""
+    case = small_case(pairs=8)
+    case.counting = {"upsample": 1}
+    case.extra = '[[mission.sequence]]\norder = ["sine", "noise"]\nper_1000_km = 3.0\n'
+    path = case.write(tmp_path / "case")
+    assess(path, tmp_path / "threads", threads=2, report=False)
+    with ThreadPoolExecutor(2) as workers:
+        assess(path, tmp_path / "orders", executor=workers, report=False)
+    for name in ("nodes", "damage", "cycles", "welds"):
+        files = [tmp_path / folder / f"{name}.parquet" for folder in ("threads", "orders")]
+        assert files[0].read_bytes() == files[1].read_bytes()

@@ -138,14 +138,18 @@ def seen_from_end(s: NDArray[np.floating], n: int, place: NDArray[np.integer], k
     behind, up = n - 1, 0  # the chain grows backwards from the end of ``place``, which has room for it
     place[behind] = n - 1
     highest = lowest = s[n - 1]
-    for i in range(n - 2, last - 1, -1):
-        if highest >= s[i] >= lowest:
+    for end in range(n - 1, last, -AT_ONCE):
+        begin = max(end - AT_ONCE, last)
+        if not any_beyond(s, begin, end, lowest, highest):
             continue
-        direction = 1 if s[i] > highest else -1
-        behind -= int(direction != up)
-        place[behind] = i
-        up = direction
-        highest, lowest = max(highest, s[i]), min(lowest, s[i])
+        for i in range(end - 1, begin - 1, -1):
+            if highest >= s[i] >= lowest:
+                continue
+            direction = 1 if s[i] > highest else -1
+            behind -= int(direction != up)
+            place[behind] = i
+            up = direction
+            highest, lowest = max(highest, s[i]), min(lowest, s[i])
     for k in range(behind, n):  # the first of these is ``last`` itself
         place[kept - 1 + k - behind] = place[k]
     return int(kept - 1 + n - behind)

@@ -274,19 +274,27 @@ def keep_residue(at: tuple[int, int], n: int, recurs: bool, state: State, room: 
     """
     known = state.sides[at]
     side = np.float32(1 - 2 * at[1])
-    z, zm, s, m, place = room.numbers[0], room.numbers[1], room.numbers[4], room.numbers[5], room.marks[0]
-    m[0], m[n + 1] = state.ends[at[0], 0, 0], state.ends[at[0], 1, 0]
+    z, zm, s, place = room.numbers[0], room.numbers[1], room.numbers[4], room.marks[0]
     s[0] = state.ends[at[0], 0, 0] + side * state.ends[at[0], 0, 1]
     s[n + 1] = state.ends[at[0], 1, 0] + side * state.ends[at[0], 1, 1]
     sign = np.float32(1 if (known.first_up == 1) == recurs else -1)  # a block that recurs begins behind its first step
-    for i in range(n):
-        s[1 + i], m[1 + i] = sign * z[i], sign * zm[i]
-        sign = -sign
+    for i in range(0, n, 2):
+        s[1 + i] = sign * z[i]
+    for i in range(1, n, 2):
+        s[1 + i] = -sign * z[i]
     known.kept = residue_places(s, n + 2, place)
     known.crowded |= known.kept > state.residue.shape[3]
     if not known.crowded:
+        stresses, members = state.residue[at[0], at[1], 0], state.residue[at[0], at[1], 1]
         for k in range(known.kept):
-            state.residue[at[0], at[1], 0, k], state.residue[at[0], at[1], 1, k] = s[place[k]], m[place[k]]
+            i = place[k] - 1
+            stresses[k] = s[i + 1]
+            if i < 0:
+                members[k] = state.ends[at[0], 0, 0]
+            elif i == n:
+                members[k] = state.ends[at[0], 1, 0]
+            else:
+                members[k] = sign * zm[i] if i % 2 == 0 else -sign * zm[i]
 
 
 @compiled()
