@@ -1,5 +1,6 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
@@ -301,9 +302,9 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its parts, "
-        "each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line force "
-        "and moment; thickness_rule: the plate through the rule",
+        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its "
+        "parts, each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line "
+        "force and moment; thickness_rule: the plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
     Column("unit_load", "text", "-", "name of the unit load, for kind unit_load"),
@@ -410,7 +411,13 @@ LEVERS = (
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )
 
+<<<<<<< HEAD
 
+NOT_IN_OLDER = ("unit_load",)
+"""Columns of texts that tables of older versions lack."""
+
+=======
+>>>>>>> 693c91985c340783a9a79b6ca434307d36377407
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,
@@ -425,4 +432,4 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "levers": LEVERS,
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
-TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

@@ -49,8 +49,8 @@ def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> go.Fi
     parts = 100.0 * damage / damage.sum() if damage.sum() > 0.0 else damage
     return figure(
         [
-            _matrix(ranges, means, count, "x", "cycles in 1e6 km [-]", 0.44),
-            _matrix(ranges, means, parts, "x2", "share of the damage [%]", 1.0),
+            counts_matrix(ranges, means, count, "x", "cycles in 1e6 km [-]", 0.44),
+            counts_matrix(ranges, means, parts, "x2", "share of the damage [%]", 1.0),
         ],
         height=330,
         margin={"l": 70, "r": 16, "t": 10, "b": 50},
@@ -60,9 +60,10 @@ def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> go.Fi
     )
 
 
-def _matrix(
+def counts_matrix(
     ranges: NDArray[np.float64], means: NDArray[np.float64], values: NDArray[np.float64], x: str, title: str, bar: float
 ) -> Trace:
+    """Heat map of counts (row, column) between edges, by the logarithm; ``x`` names its axis, ``bar`` is its place."""
     logs = np.log10(values, out=np.full_like(values, np.nan), where=values > 0.0)
     high = float(np.ceil(np.nanmax(logs, initial=-9.0)))
     decades = np.arange(high - DECADES_SHOWN, high + 1)
