@@ -83,6 +83,7 @@ def written(folder: Path, load: pd.DataFrame, mission: str, counting: dict, curv
     made.counting, made.curve = {"upsample": 1, **counting}, {**made.curve, **curve}
     for name, level in (("sine", 40.0), ("noise", 90.0)):
         made.histories[name]["q_1"] += level
+    made.histories["sine"]["q_1"] *= 1.0 + 0.01 * made.histories["sine"]["time_s"]  # of equal peaks any may be paired
     made.events[0]["mean_of_q"] = "remove"
     rng = np.random.default_rng(11)
     of_mode = made.nodal_forces[made.nodal_forces["mode"] == 1].drop(columns="mode")

@@ -99,7 +99,7 @@ def read_record(
     duration, step = q.shape[1] * step, step / refined
     kept, counted = _with_loads(q, loads, start, step, (refined, max(1, upsample // refined)), recurs=recurs)
     is_removed = event.get("mean_of_q", counting.get("mean_of_q", "keep")) == "remove"
-    of_modes = kept[: len(coordinates.mode)]
+    of_modes = kept[: len(coordinates.mode), ::refined]  # at the samples of the file
     offset = np.append(
         -of_modes.mean(axis=1) if is_removed else 0.0 * of_modes[:, 0], [load.constant for load in loads]
     )
