@@ -411,13 +411,10 @@ LEVERS = (
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )
 
-<<<<<<< HEAD
 
 NOT_IN_OLDER = ("unit_load",)
 """Columns of texts that tables of older versions lack."""
 
-=======
->>>>>>> 693c91985c340783a9a79b6ca434307d36377407
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,

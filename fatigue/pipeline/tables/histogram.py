@@ -15,11 +15,7 @@ from fatigue.life.counting.block import BlockStress
 from fatigue.life.counting.count import count_histograms
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
-<<<<<<< HEAD
 from fatigue.pipeline.tables.cycle_rows import KeptPoint
-=======
-from fatigue.pipeline.tables.cycles import KeptPoint
->>>>>>> 693c91985c340783a9a79b6ca434307d36377407
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
 from fatigue.side_by_side import in_order
@@ -88,19 +84,9 @@ def _filled(
     rated = some[0].rated
     membrane = load.stress_factor * np.stack([point.membrane for point in some])
     bending = load.stress_factor * np.stack([point.bending for point in some])
-<<<<<<< HEAD
-    block = BlockStress(
-        membrane=membrane,
-        bending=bending,
-        size=rated.size(np.array([point.thickness for point in some])),
-        same_ratio=np.zeros((len(some), 2)),
-        offset=face_offset(membrane, bending, load),
-    )
-=======
     size = rated.size(np.array([point.thickness for point in some]))
     offset = face_offset(membrane, bending, load)
     block = BlockStress(membrane, bending, size, np.zeros((len(some), 2)), offset=offset)
->>>>>>> 693c91985c340783a9a79b6ca434307d36377407
     histogram = count_histograms(block, load.record, rated.rule)
     of_face = histogram[np.arange(len(some)), [point.face for point in some]]
     at, kind, bin_ = np.nonzero(of_face[..., 0])
