@@ -107,8 +107,8 @@ def assessed(folder: Path, load: pd.DataFrame, mission: str, counting: dict, cur
 CASES = {
     "load at the instants of the event": (pressure(0.005, 480), PASSING.format(event="", load=""), {}, {}),
     "finer, asme, a loop": (pressure(0.002, 1210), PASSING.format(event="", load="") + LOOP, {}, BENT),
-    "coarser, one period, upsampled, half": (
-        pressure(0.016, 150),
+    "coarser, upsampled, half": (
+        pressure(0.016, 152),
         PASSING.format(event='residue = "repeat"', load="") + PAYLOAD,
         {"upsample": 4, "residue": "half"},
         {},
