@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.results import TABLES
-from fatigue.verify.recount.anew.loop import bound_per_km, loop_pass
+from fatigue.verify.recount.anew.across_events.loop import bound_per_km, loop_pass
 from fatigue.verify.recount.anew.mean_stress import MeanStress
 from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values, one_pass, point_of
