@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.results import TABLES
-from fatigue.verify.recount.anew.loop import bound_per_km, loop_pass
+from fatigue.verify.recount.anew.across_events.loop import bound_per_km, loop_pass
 from fatigue.verify.recount.anew.mean_stress import MeanStress
 from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values, one_pass, point_of
@@ -22,7 +22,7 @@ from fatigue.verify.recount.stored.rows import Station, cycle_row
 from fatigue.verify.recount.stored.tables import Stored
 
 HISTOGRAM_COLUMNS = ["kind", "bin", "count_per_pass", "power_sum_per_pass"]
-CYCLE_COLUMNS = [column.name for column in TABLES["cycles"] if column.type == "float"]
+CYCLE_COLUMNS = [c.name for c in TABLES["cycles"] if c.type == "float" or c.name in ("start_event", "end_event")]
 
 
 @dataclass(slots=True, eq=False)
@@ -106,8 +106,9 @@ def _count_loops(
         for name, loop in zip(loop_names(inputs), case.get("sequence", []), strict=True)
     ]
     some = [point for point in stations if point in cycles_of]
-    columns = [*CYCLE_COLUMNS, "start_event", "end_event"]
-    there = [stored.cycles.of_event(event, some, columns) for event in range(len(number), len(number) + len(loops))]
+    there = [
+        stored.cycles.of_event(event, some, CYCLE_COLUMNS) for event in range(len(number), len(number) + len(loops))
+    ]
     for point, station in stations.items():
         key, of = stored.body.key(point), counted[point]
         passes, raw = list(of.treated), list(of.raw)

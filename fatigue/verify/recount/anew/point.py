@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.verify.recount.anew.across_events.turns import Turns, of_places, turning_points
 from fatigue.verify.recount.anew.curve import RecountCurve
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
 from fatigue.verify.recount.anew.mean_stress import MeanStress, stress_ratio, stress_ratios
@@ -20,7 +21,6 @@ from fatigue.verify.recount.anew.rounding import (
     stress_bound,
 )
 from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
-from fatigue.verify.recount.anew.turns import Turns, of_places, turning_points
 from fatigue.verify.recount.anew.vertex import Vertices, vertices
 
 Floats = NDArray[np.float64]

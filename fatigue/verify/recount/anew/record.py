@@ -17,7 +17,7 @@ from fatigue.verify.recount.inputs.tables import read_pieces
 
 Floats = NDArray[np.float64]
 
-SAMPLES_PER_PEAK = {"samples": 20.0, "vertex": 8.0}  # what upsample = "auto" reaches for, as reversals are read
+SAMPLES_PER_PEAK = {"samples": 20.0, "vertex": 8.0}  # what upsample = "auto" reaches for
 LARGEST_UPSAMPLE = 64  # where it ends
 FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
@@ -99,7 +99,7 @@ def read_record(
     duration, step = q.shape[1] * step, step / refined
     kept, counted = _with_loads(q, loads, start, step, (refined, max(1, upsample // refined)), recurs=recurs)
     is_removed = event.get("mean_of_q", counting.get("mean_of_q", "keep")) == "remove"
-    of_modes = kept[: len(coordinates.mode)]
+    of_modes = kept[: len(coordinates.mode), ::refined]  # at the samples of the file
     offset = np.append(
         -of_modes.mean(axis=1) if is_removed else 0.0 * of_modes[:, 0], [load.constant for load in loads]
     )

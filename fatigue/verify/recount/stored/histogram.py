@@ -28,7 +28,9 @@ def histogram_rows(key: Key, event: RecountEvent, one: OnePass, k: float, found:
     where, n = f"{place(key)}, event '{event.name}'", one.rows["count"]
     numbers = found["bin"].to_numpy(dtype=float)
     is_class = found["kind"].isin(KINDS).to_numpy() & (numbers >= 0) & (numbers < CLASSES)
-    yield Row(f"{where}, rows of no class", {"bin": float(np.count_nonzero(~is_class))}, {"bin": 0.0}, {"bin": 1.0})
+    if not is_class.all():
+        astray = {"bin": float(np.count_nonzero(~is_class))}
+        yield Row(f"{where}, rows of no class", astray, {"bin": 0.0}, {"bin": 1.0})
     for kind, name in KINDS.items():
         own = found[is_class & (found["kind"] == kind).to_numpy()]
         stored = [_sums(own["bin"].to_numpy(dtype=np.int64), own[column].to_numpy(dtype=float)) for column in COLUMNS]

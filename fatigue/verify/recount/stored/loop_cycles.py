@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.verify.recount.anew.across_events.sequence import Net
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import OnePass
-from fatigue.verify.recount.anew.sequence import Net
 from fatigue.verify.recount.layout import Key
 from fatigue.verify.recount.stored.compare import Row
 from fatigue.verify.recount.stored.rows import NEGLIGIBLE, SMALL, place

@@ -126,7 +126,9 @@ def cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) 
     if 2.0 * one.cycle_bounds["delta"] > NEGLIGIBLE * one.quantities["max_range_MPa"]:
         return _largest_cycle_row(key, event, one, found)
     our_ranges, their_ranges = one.rows["range_MPa"], found["range_MPa"].to_numpy()
-    expected, stored, scale = {}, {}, {}
+    expected: Values = {}
+    stored: Values = {}
+    scale = {}
     for name, column in one.rows.items():
         least = our_ranges.max(initial=0.0) * (SMALL if name == "bending_ratio" else NEGLIGIBLE)
         a, b = np.sort(column[our_ranges > least]), np.sort(found[name].to_numpy()[their_ranges > least])
@@ -138,6 +140,8 @@ def cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) 
         expected[name], stored[name], scale[name] = float(a[worst]), float(b[worst]), float(np.abs(a).max())
     if "mean_MPa" in scale:
         scale["mean_MPa"] = max(scale["mean_MPa"], scale["range_MPa"])
+    for name in ("start_event", "end_event"):  # of cycles across events only
+        expected[name], stored[name] = "", next((text for text in found[name].dropna().tolist() if text), "")
     bounds = dict.fromkeys(("start_s", "end_s"), np.inf if one.cycle_bounds["ties"] else one.cycle_bounds["instant"])
     return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale, bounds=bounds)
 

@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.chain_rounding import Chained, chain_bounds, chain_cycle_bounds
+from fatigue.verify.recount.anew.across_events.chain_rounding import Chained, chain_bounds, chain_cycle_bounds
+from fatigue.verify.recount.anew.across_events.sequence import Net, net_cycles
+from fatigue.verify.recount.anew.across_events.turns import Turns
+from fatigue.verify.recount.anew.across_events.unknown_order import open_and_closed, paired
 from fatigue.verify.recount.anew.curve import RecountCurve
 from fatigue.verify.recount.anew.mean_stress import MeanStress, stress_ratio, stress_ratios
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values
-from fatigue.verify.recount.anew.sequence import Net, net_cycles
-from fatigue.verify.recount.anew.turns import Turns
-from fatigue.verify.recount.anew.unknown_order import open_and_closed, paired
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.verify.recount.anew.across_events.turns import Turns
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
-from fatigue.verify.recount.anew.turns import Turns
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.verify.recount.anew.across_events.turns import Turns
+from fatigue.verify.recount.anew.across_events.unknown_order import open_and_closed
 from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
-from fatigue.verify.recount.anew.turns import Turns
-from fatigue.verify.recount.anew.unknown_order import open_and_closed
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fatigue.verify.recount.anew import sequence
+from fatigue.verify.recount.anew.across_events import sequence
+from fatigue.verify.recount.anew.across_events.loop import cycles_between
+from fatigue.verify.recount.anew.across_events.sequence import net_cycles
+from fatigue.verify.recount.anew.across_events.turns import Turns, of_places, turning_points
+from fatigue.verify.recount.anew.across_events.unknown_order import open_and_closed, paired
 from fatigue.verify.recount.anew.curve import RecountCurve, curve_named
 from fatigue.verify.recount.anew.cycles import count_cycles
-from fatigue.verify.recount.anew.loop import cycles_between
-from fatigue.verify.recount.anew.sequence import net_cycles
-from fatigue.verify.recount.anew.turns import Turns, of_places, turning_points
-from fatigue.verify.recount.anew.unknown_order import open_and_closed, paired
 
 EMPTY = [-2, 1, -3, 5, -1, 3, -4, 4, -2]
 LOADED = [32, 16, 40, 30, 43, 21, 41, 22, 38, 21, 45, 26, 40, 30, 43, 30]
