@@ -2,14 +2,14 @@
 
 Every event is counted as if it followed on itself. Where another event follows, some of its cycles do not close, and
 others close across events. All of them are cycles of residues (``counting.residue``), so that one run of a loop of
-stints ``e_1 ... e_n`` adds (Eq. 14a)
+stints ``e_1 ... e_n`` adds
 
     T = rep( res(e_1) res(e_2) ... res(e_n) ) - sum_j own(e_j),     own(e) = rep(res(e)), or half(res(e)) if e is half,
 
 however many passes a stint has. T may be negative: [5, -5] and [-5, 5] are one cycle in turn, and two apart.
 
 Where only the number w_e of stints is known, the highest peak of all residues is paired with the lowest valley, each as
-often as it occurs, and so on (Eq. 14b): sorted pairs cross every interval of stress at least as often as any order of
+often as it occurs, and so on: sorted pairs cross every interval of stress at least as often as any order of
 these reversals, so their damage is no lower for a damage d_1 that is convex.
 """
 
@@ -247,7 +247,7 @@ def _steepens(law: DamageLaw) -> bool:
 
 
 def unknown_order(residues: Residues, stints: Floats, size: Floats, rule: CycleRule) -> Floats:
-    """Bound of what any order of the events adds in so many ``stints`` (e,), (n, 2) of each surface (Eq. 14b)."""
+    """Bound of what any order of the events adds in so many ``stints`` (e,), (n, 2) of each surface."""
     found = np.zeros((len(size), 2))
     if not len(size):
         return found

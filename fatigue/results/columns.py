@@ -301,9 +301,9 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its parts, "
-        "each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line force "
-        "and moment; thickness_rule: the plate through the rule",
+        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its "
+        "parts, each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line "
+        "force and moment; thickness_rule: the plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
     Column("unit_load", "text", "-", "name of the unit load, for kind unit_load"),

@@ -2,7 +2,7 @@
 
 With b(e) a bound of the damage of a pass of e, b_1(e) the same with the first slope of the curve extended, R a range
 that no two stresses of the events exceed, and d_1 the damage of one cycle on that slope, pure membrane, one run of n
-stints, h of them ``half``, adds no more than (Eq. 22a)
+stints, h of them ``half``, adds no more than
 
     sum_j (b_1(e_j) - b(e_j)) + (n + h/2) d_1(R),
 
