@@ -5,6 +5,7 @@ refused here. What is there is added up to numbers of welds, stations and stress
 counted under a chunk of one record, and from its time follows the time of the whole job.
 """
 
+import math
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -20,6 +21,7 @@ from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
 from fatigue.pipeline.forecast.trial import JobTime, job_time
+from fatigue.pipeline.forecast.upsampling_trial import foretold, upsampling_text
 from fatigue.pipeline.mission.counted import EventCount, event_counts, listed
 from fatigue.pipeline.mission.events import mean_levels
 from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
@@ -110,6 +112,7 @@ class CheckedCase:
                 *(f"    {line}" for line in listed(self.counts)),
                 *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
                 f"  stress samples   {2 * self.samples:.3g}",
+                f"  upsampling       {upsampling_text(self.estimate.upsample)}",
                 *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
                 f"  estimated time   {_time_text(self.estimate)}",
                 f"  estimated space  {self._space()}",
@@ -138,13 +141,14 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     parts = stations = 0
     stage("solving the weld lines")
     with TemporaryDirectory() as scratch:
-        groups = weld_groups(body, Path(scratch))
+        groups, upsampled = weld_groups(body, Path(scratch)), foretold(body, plan, Path(scratch))
         for number in range(len(groups)):
             model = solve_group(groups, number)
             parts += len(model.lines)
             stations += len(model.stations)
             warnings.add(model.warnings)
             extents += model.extents
+            upsampled.add(model.stations.treated)
         warnings.add(load_warnings(body, extents))
         gravity: tuple[HeldGravity, ...] = ()
         if has_gravity(body):
@@ -153,9 +157,10 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         stage("timing a small piece")
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
-        estimate = job_time(plan, sample, stations, read_s, Path(scratch))
+        factors = upsampled.factors(case.counting.upsample, plan)
+        estimate = job_time(plan, sample, stations, factors, read_s, Path(scratch))
         warnings.add(band_warnings(sample, plan, Path(scratch)))
-    needs = job_needs(job_size(body, plan, factors=(estimate.upsample,) * len(plan.passes)))
+    needs = job_needs(job_size(body, plan, factors=estimate.upsample))
     warnings.add(tuple(shortage_warnings(needs, case.path.parent)))
     samples = stations * sum(p.samples for p in plan.passes)
     return CheckedCase(
@@ -187,8 +192,17 @@ def _gravity_lines(gravity: Sequence[HeldGravity]) -> Iterator[tuple[str, str]]:
     """What the mean of q of the events holds of the dead load, verdict by verdict, in words."""
     verdicts = dict.fromkeys(one.in_words for one in gravity)
     for number, words in enumerate(verdicts):
-        events = few([f"'{one.event}'" for one in gravity if one.in_words == words])
-        yield "" if number else "dead load", f"{words}: {events}"
+        alike = [one for one in gravity if one.in_words == words]
+        told = f"beta {_span([one.beta for one in alike])}, cosine {_span([one.cos for one in alike])}"
+        events = [f"'{one.event}'" for one in alike]
+        yield "" if number else "dead load", f"{words} ({told}): {few(events)}"
+
+
+def _span(numbers: Sequence[float]) -> str:
+    """The smallest and the largest of some numbers, one where they are shown alike; a dash where none is known."""
+    known = [number for number in numbers if not math.isnan(number)]
+    shown = list(dict.fromkeys(f"{number:.3g}" for number in (min(known), max(known)))) if known else ["-"]
+    return " to ".join(shown)
 
 
 def _time_text(needed: JobTime) -> str:

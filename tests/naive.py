@@ -111,3 +111,24 @@ def surface_count(
         if total["max_range"] < S and not isclose(S, total["max_range"], rel_tol=1e-14):
             total["max_range"], total["r_largest"] = S, low / high if high != 0 else nan
     return total
+
+
+def at_vertices(
+    membrane: ArrayLike, bending: ArrayLike, side: float, residue: str
+) -> tuple[list[float], list[float], list[float]]:
+    """Membrane and bending stress with each reversal at its vertex, and its shift: by the parabola as it is fitted."""
+    m, b = (np.asarray(x, dtype=float) for x in (membrane, bending))
+    s, t = m + side * b, len(m)
+    moved_m, moved_b, shifts = m.tolist(), b.tolist(), [0.0] * t
+    inner = range(t) if residue == "repeat" else range(1, t - 1)
+    for i in inner:
+        three = [(i - 1) % t, i, (i + 1) % t]
+        before, here, after = s[three]
+        if not (here > max(before, after) or here < min(before, after)):
+            continue
+        second, first, _ = np.polyfit([-1.0, 0.0, 1.0], s[three], 2)
+        p = -first / (2.0 * second)
+        shifts[i] = p
+        moved_m[i] = float(np.polyval(np.polyfit([-1.0, 0.0, 1.0], m[three], 2), p))
+        moved_b[i] = float(np.polyval(np.polyfit([-1.0, 0.0, 1.0], b[three], 2), p))
+    return moved_m, moved_b, shifts

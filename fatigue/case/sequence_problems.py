@@ -24,6 +24,12 @@ def sequence_problems(raw: dict[str, Any]) -> Iterator[Problem]:
             where = f"mission.event[{position}].stints_per_1000_km" + (f" ({name!r})" if isinstance(name, str) else "")
             what = "the key is for an order that is not known, and [[mission.sequence]] gives one"
             yield Problem("contradiction", where, what, "Keep one of them; a second case may have the other")
+    counting = raw.get("counting")
+    at_vertices = isinstance(counting, dict) and counting.get("reversals") == "vertex"
+    if at_vertices and (sequences or any(event.get("stints_per_1000_km") is not None for event in events)):
+        what = "'vertex' is for events that are counted alone, and a reversal at the end of a pass has no third sample"
+        remedy = "Set reversals = 'samples', with upsample = 'auto', or take sequences and stints out"
+        yield Problem("contradiction", "counting.reversals", what, remedy)
     for position, sequence in enumerate(sequences, 1):
         order = sequence.get("order")
         for place, name in enumerate(order if isinstance(order, list) else [], 1):

@@ -11,6 +11,11 @@ Every sensitivity follows from it by the chain rule: the range, the bending rati
 cycle all move. It is exact where no two reversals tie and no cycle sits on a knee or a cut-off. Across a tie cycles
 trade instants: their ranges do not jump, but their bending ratios do, so that damage itself has small steps (parts in
 a thousand) which no gradient sees. Nor does it see the cycles that cross a cut-off.
+
+Where reversals are read at their vertices (``fatigue.life.counting.vertex``), their parts are laid on the three samples
+that each is read from: s at a vertex is a sum of these, and so is q. The parts still add up. The gradient takes the
+instants of the vertices as they are; that is exact for the range, which is stationary there, and leaves out of the
+bending ratio what a shift of the instant does to it.
 """
 
 from dataclasses import dataclass
@@ -19,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.rainflow import Cycles
+from fatigue.life.counting.vertex import spread
 from fatigue.life.rule import (
     M_SS,
     CycleRule,
@@ -133,6 +139,7 @@ def credit(
     size: float,
     rule: CycleRule,
     offset: float = 0.0,
+    shift: Floats | None = None,
 ) -> Credit:
     """Lay the damage of every cycle on its two instants (Eq. 23).
 
@@ -141,6 +148,7 @@ def credit(
     cycles : of ``membrane + side * bending``, ranges above 0; one across the end of the record has two instants, too
     membrane, bending : (t,) membrane stress, and bending stress of the top face [MPa]
     side, size, rule, offset : as of ``cycle_credit``
+    shift : (t,) where the stresses are those of a ``VertexHistory``, its shifts
     """
     start, end, samples = cycles.start, cycles.end, len(membrane)
     both = np.stack([start, end])
@@ -151,12 +159,15 @@ def credit(
     if of.by_ratio is not None:
         by_membrane = by_membrane - _on_instants(start, end, of.by_ratio[0], samples)
         by_bending = by_bending + _on_instants(start, end, of.by_ratio[1], samples)
+    share = _on_instants(start, end, of.share, samples)
+    if shift is not None:
+        share, by_membrane, by_bending = (spread(laid, shift) for laid in (share, by_membrane, by_bending))
     half = 0.5 * of.damage
     return Credit(
         damage=float(of.damage.sum()),
         top_cycle=float(of.damage.max(initial=0.0)),
         slope=float(of.slope.sum()),
-        share=_on_instants(start, end, of.share, samples),
+        share=share,
         place=np.asarray(np.bincount(start, half, samples) + np.bincount(end, half, samples), np.float64),
         by_membrane=by_membrane,
         by_bending=by_bending,

@@ -1,5 +1,6 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
@@ -411,6 +412,9 @@ LEVERS = (
 )
 
 
+NOT_IN_OLDER = ("unit_load",)
+"""Columns of texts that tables of older versions lack."""
+
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,
@@ -425,4 +429,4 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "levers": LEVERS,
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
-TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.attribution import Credit, credit
 from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.vertex import vertex_history
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import Residue
 from fatigue.life.rule import CycleRule
@@ -201,7 +202,8 @@ def _blocks(
         modal_s = modal_m + some.side[:, None] * modal_b
         of_points = zip(sigma_m, sigma_b, some.side, some.size, some.rule, modal_s @ load.offset, strict=True)
         counted = [
-            count_credit(m, b, side, size, rule, residue, offset) for m, b, side, size, rule, offset in of_points
+            count_credit(m, b, side, size, rule, residue, offset, vertex=load.vertex)
+            for m, b, side, size, rule, offset in of_points
         ]
         share = coefficients(np.stack([c.share for c in counted]), residue)
         by_m, by_b = np.stack([c.by_membrane for c in counted]), np.stack([c.by_bending for c in counted])
@@ -235,11 +237,18 @@ def count_credit(
     rule: CycleRule,
     residue: Residue,
     offset: float = 0.0,
+    *,
+    vertex: bool,
 ) -> Credit:
     """Damage of one face of one station, side +1 or -1, counted and laid on the instants of its cycles.
 
-    ``offset`` is the constant stress of the face beside the samples [MPa].
+    ``offset`` is the constant stress of the face beside the samples [MPa]. With ``vertex`` each reversal is read at its
+    vertex.
     """
+    if vertex:
+        moved = vertex_history(sigma_m, sigma_b, side, recurs=residue == "repeat")
+        cycles = rainflow(moved.membrane + side * moved.bending, residue)
+        return credit(cycles, moved.membrane, moved.bending, side, size, rule, offset, moved.shift)
     cycles = rainflow(sigma_m + side * sigma_b, residue)
     return credit(cycles, sigma_m, sigma_b, side, size, rule, offset)
 

@@ -276,6 +276,11 @@ def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
             )
         if np.isnan(event.place_km).any():
             yield f"event '{event.event}' is counted by number, so its damage has an instant but no place on the track"
+    if loops := len(body.case.mission.sequence):
+        yield (
+            f"the mission has {loops} sequence{'s' * (loops > 1)} of events: cycles across events are not shared out, "
+            "and the lives here are without them"
+        )
     if any(rated.rule.law.cutoff > 0.0 for rated in body.curves.values()):
         yield (
             "a curve with a cut-off: damage jumps there, and life exponents do not see cycles that cross it; the lives "

@@ -67,9 +67,10 @@ def _damages(point: Points, scale: Floats, q: Samples, load: EventLoad) -> list[
     offset = (membrane + side * bending) @ load.offset
     if is_long(q):
         stress = stress_record(np.stack([membrane, bending], axis=1).reshape(-1, q.shape[0]), q)
-        return [long_damage(stress, Row(2 * i, side, size, rule, offset[i]), residue) for i in range(len(scale))]
+        rows = [Row(2 * i, side, size, rule, offset[i]) for i in range(len(scale))]
+        return [long_damage(stress, row, residue, vertex=load.vertex) for row in rows]
     sigma_m, sigma_b = membrane @ np.asarray(q), bending @ np.asarray(q)
     return [
-        count_credit(m, b, side, size, rule, residue, constant).damage
+        count_credit(m, b, side, size, rule, residue, constant, vertex=load.vertex).damage
         for m, b, constant in zip(sigma_m, sigma_b, offset, strict=True)
     ]

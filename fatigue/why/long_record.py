@@ -113,12 +113,12 @@ def long_blocks(
         q.path.with_name(name).unlink(missing_ok=True)
 
 
-def long_damage(stress: Samples, row: Row, residue: Residue) -> float:
+def long_damage(stress: Samples, row: Row, residue: Residue, *, vertex: bool) -> float:
     """Miner sum of one point in one pass."""
-    return float(sum(of.damage.sum() for _, of in _credits(stress, row, residue)))
+    return float(sum(of.damage.sum() for _, of in _credits(stress, row, residue, vertex=vertex)))
 
 
-def _credits(stress: Samples, row: Row, residue: Residue) -> Iterator[tuple[Piece, CycleCredit]]:
+def _credits(stress: Samples, row: Row, residue: Residue, *, vertex: bool) -> Iterator[tuple[Piece, CycleCredit]]:
     """Cycles of one point, some at a time, and their damage."""
 
     def chunks() -> Iterator[tuple[Floats, Floats]]:
@@ -126,7 +126,7 @@ def _credits(stress: Samples, row: Row, residue: Residue) -> Iterator[tuple[Piec
             membrane, bending = stress[row.first : row.first + 2, first : first + COUNTED_AT_ONCE]
             yield membrane, bending
 
-    for piece in long_cycles(chunks, row.side, residue):
+    for piece in long_cycles(chunks, row.side, residue, vertex=vertex):
         own = row.side, row.size, row.rule, row.offset
         yield piece, cycle_credit(piece.membrane.T, piece.bending.T, piece.weight, *own)
 
@@ -135,7 +135,7 @@ def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, pl
     """Lay the damage of a point on three rows of samples: share, derivatives by membrane and by bending stress."""
     damage = top_cycle = load_slope = thickness_slope = by_offset = 0.0
     place = np.zeros(len(place_s) - 1)
-    for piece, of in _credits(stress, row, load.residue):
+    for piece, of in _credits(stress, row, load.residue, vertex=load.vertex):
         by_stress = of.by_range[:, None] * _SIGNS
         by_stress[np.arange(len(by_stress)), of.peak_at_end.astype(np.intp)] += of.by_peak
         by_membrane, by_bending = by_stress, row.side * by_stress
@@ -143,7 +143,7 @@ def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, pl
             by_membrane = by_membrane - of.by_ratio[0][:, None] * _SIGNS
             by_bending = by_bending + of.by_ratio[1][:, None] * _SIGNS
         laying = np.stack([(of.share[:, None] * _SIGNS).ravel(), by_membrane.ravel(), by_bending.ravel()])
-        _add(laid, slice(first, first + 3), piece.at.ravel(), laying)
+        _add_reversals(laid, slice(first, first + 3), piece, laying, vertex=load.vertex)
         time = load.counted.start + load.counted.step * piece.at.ravel()
         bins = np.clip(np.searchsorted(place_s, time, side="right") - 1, 0, len(place) - 1)
         place += np.bincount(bins, np.repeat(0.5 * of.damage, 2), len(place))
@@ -153,6 +153,16 @@ def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, pl
         by_offset += float(of.by_peak.sum())
         thickness_slope -= float(np.sum(by_membrane * piece.membrane) + 2.0 * np.sum(by_bending * piece.bending))
     return _Sums(damage, top_cycle, load_slope, thickness_slope, by_offset, place)
+
+
+def _add_reversals(laid: Spool, rows: slice, piece: Piece, values: Floats, *, vertex: bool) -> None:
+    """Add values (n, 2 c) at the two reversals of each cycle, those at vertices to the samples they are read from."""
+    at, p = piece.at.ravel(), piece.shift.ravel()
+    if not vertex:
+        _add(laid, rows, at, values)
+        return
+    for away, part in ((-1, 0.5 * p * (p - 1.0)), (0, 1.0 - p**2), (1, 0.5 * p * (p + 1.0))):
+        _add(laid, rows, (at + away) % laid.shape[1], values * part)  # ends that have no neighbour do not move
 
 
 def _add(laid: Spool, rows: slice, at: NDArray[np.int64], values: Floats) -> None:

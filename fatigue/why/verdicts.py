@@ -160,7 +160,7 @@ def _split(load: EventLoad, points: Points, size: Floats, assessed: pd.DataFrame
     def damage_rate(surrogate: ModalHistory) -> Floats:
         nothing = np.zeros(surrogate.q.shape[1])  # with one bending ratio only the sum of membrane and bending counts
         counted = [
-            count_credit(s, nothing, 1.0, factor, rule, "repeat")
+            count_credit(s, nothing, 1.0, factor, rule, "repeat", vertex=load.vertex)
             for s, factor, rule in zip(np.asarray(surrogate.q), size, rules, strict=True)
         ]
         return np.array([c.damage for c in counted]) / surrogate.duration

@@ -10,8 +10,8 @@ from tests.small_case import small_case
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        ("x = " + "[" * 1000 + "]" * 1000, "line 32: tables or lists lie in one another without end"),
-        ("x = " + "{a = " * 5000 + "1" + "}" * 5000, "line 32: tables or lists lie in one another without end"),
+        ("x = " + "[" * 1000 + "]" * 1000, "line 33: tables or lists lie in one another without end"),
+        ("x = " + "{a = " * 5000 + "1" + "}" * 5000, "line 33: tables or lists lie in one another without end"),
         ("[" + ".".join("a" * 1000) + "]", "tables or lists lie in one another without end"),
         ("x = " + "[" * 40 + "]" * 40, "tables or lists lie in one another without end"),
         ("x = " + "9" * 5000, "line 32: an integer of 5000 digits is none of TOML"),

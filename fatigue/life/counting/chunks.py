@@ -11,13 +11,14 @@ it is a cycle wherever counting begins. The rest is turned so that it begins at 
 entirely. Every cycle is the same as in whole rows. Only where the largest or smallest stress of a block that recurs
 occurs several times, exactly equal, other instants of it may be paired: same ranges, but perhaps other bending ratios.
 
-Where the residue of the pass is wanted, open ranges of a single pass wait to its end as well, and what waits behind the
-last chunk is the residue.
+Reversals that are read at their vertices are moved there when they are found. For that a chunk brings the sample before
+its first column, and a block that recurs what follows its first sample. Where the residue of the pass is wanted, open
+ranges of a single pass wait to its end as well, and what waits behind the last chunk is the residue.
 """
 
 import math
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,9 +40,11 @@ from fatigue.life.counting.tally import (
     refuse_not_finite,
     tally,
 )
+from fatigue.life.counting.vertex import at_shift, shift_of
 from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
+Three: TypeAlias = tuple[float, float, float]  # a sample between its neighbours
 
 POINTS = 128  # counted at a time
 CHUNK = 8192  # samples recovered at a time
@@ -53,7 +56,9 @@ class _State(NamedTuple):
 
     ``first`` (n, 2) is the first sample. ``first_step`` and ``step`` are the directions of the first step and of the
     last one, 0 before there is any; ``plateau`` (n, 2, 2) is the sample before the first step. The first ``waiting`` of
-    the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``moments`` (n, 2, 5) are number, mean, and sums of
+    the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``earlier`` (n, 2) is the sample before the last one;
+    ``alone`` (n, 2) says whether the first plateau is the first sample alone, ``after`` (n, 2, 2) what follows it then.
+    ``moments`` (n, 2, 5) are number, mean, and sums of
     the 2nd, 3rd and 4th power of the deviations from it, of the samples so far.
     """
 
@@ -65,6 +70,9 @@ class _State(NamedTuple):
     m: Floats
     b: Floats
     moments: Floats
+    earlier: Floats
+    alone: NDArray[np.int64]
+    after: Floats
 
 
 class _Block(NamedTuple):
@@ -96,7 +104,7 @@ class _Room(NamedTuple):
 class _Stage(NamedTuple):
     """Samples of a chunk, whether the record ends with it and whether it recurs, and the steps between its columns.
 
-    ``keeps``: whether the residue is wanted.
+    ``keeps``: whether the residue is wanted; ``vertex``: reversals are read at their vertices.
     """
 
     samples: int
@@ -104,6 +112,7 @@ class _Stage(NamedTuple):
     recurs: bool
     steps: int
     keeps: bool
+    vertex: bool
 
 
 def count_chunks(
@@ -186,7 +195,8 @@ def _count(
             state.first[:] = stress[:, 1].reshape(2, points).T
         if ends and record.recurs:
             stress[:, samples + 1] = state.first.T.ravel()
-        stage = _Stage(samples, ends, record.recurs, samples + int(ends and record.recurs), keeps)
+        steps = samples + int(ends and record.recurs)
+        stage = _Stage(samples, ends, record.recurs, steps, keeps, record.vertex)
         at = count_chunk(stress, stage, 0, state, block, rule, room)
         while at < 2 * points:  # more reversals wait than there is room for
             left, room_before = int(state.waiting.ravel()[at]), room
@@ -195,6 +205,7 @@ def _count(
             for rows, kept in ((state.m, room_before.m), (state.b, room_before.b)):
                 rows.reshape(2 * points, -1)[at, :left] = kept[:left]
             at = count_chunk(stress, stage, at + 1, state, block, rule, room)
+        state.earlier[:] = stress[:, samples - 1].reshape(2, points).T
         stress[:, 0] = stress[:, samples]
     moments = state.moments
     _, mean, second, _, fourth = np.moveaxis(moments, 2, 0)
@@ -211,7 +222,17 @@ def _fresh_state(points: int) -> _State:
     steps = (np.zeros(one, np.int64) for _ in range(3))
     first_step, step, waiting = steps
     return _State(
-        np.zeros(one), first_step, step, np.zeros(pair), waiting, np.zeros(rows), np.zeros(rows), np.zeros((*one, 5))
+        np.zeros(one),
+        first_step,
+        step,
+        np.zeros(pair),
+        waiting,
+        np.zeros(rows),
+        np.zeros(rows),
+        np.zeros((*one, 5)),
+        earlier=np.zeros(one),
+        alone=np.zeros(one, np.int64),
+        after=np.zeros(pair),
     )
 
 
@@ -268,10 +289,23 @@ def append(m: float, b: float, side: float, n: int, room: _Room) -> int:
 
 
 @compiled()
-def append_reversals(m: Floats, b: Floats, side: float, steps: int, step: int, n: int, room: _Room) -> tuple[int, int]:
+def append_vertex(m: Three, b: Three, side: float, n: int, room: _Room) -> int:
+    """Append a reversal between its neighbours, read at its vertex, and return how many there are."""
+    s = (m[0] + side * b[0], m[1] + side * b[1], m[2] + side * b[2])
+    p = shift_of(s[0], s[1], s[2])
+    if p == 0.0:
+        return append(m[1], b[1], side, n, room)
+    return append(at_shift(m[0], m[1], m[2], p), at_shift(b[0], b[1], b[2], p), side, n, room)
+
+
+@compiled()
+def append_reversals(
+    m: Floats, b: Floats, earlier: Floats, vertex: bool, side: float, steps: int, step: int, n: int, room: _Room
+) -> tuple[int, int]:
     """Append the reversals among the first columns of a row, the last samples of their plateaus.
 
-    ``step`` is the direction before. Returns how many reversals there are, and the direction behind them.
+    ``earlier`` (2,) is the sample before the first column, ``step`` the direction before. Returns how many reversals
+    there are, and the direction behind them.
     """
     s, signs, at = room.stress, room.buffers.step, room.buffers.reversal
     for i in range(steps):
@@ -282,7 +316,12 @@ def append_reversals(m: Floats, b: Floats, side: float, steps: int, step: int, n
         reversals += int(signs[i] * step < 0)  # adding 0 or 1 is cheaper than a branch nobody can predict
         step = signs[i] if signs[i] != 0 else step
     for k in range(reversals):
-        n = append(m[at[k]], b[at[k]], side, n, room)
+        i = at[k]
+        if vertex:
+            m_before, b_before = (m[i - 1], b[i - 1]) if i > 0 else (earlier[0], earlier[1])
+            n = append_vertex((m_before, m[i], m[i + 1]), (b_before, b[i], b[i + 1]), side, n, room)
+        else:
+            n = append(m[i], b[i], side, n, room)
     return n, step
 
 
@@ -363,14 +402,22 @@ def gather_reversals(m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, s
             return 0
         state.first_step[at] = step
         state.plateau[at][0], state.plateau[at][1] = m[i - 1], b[i - 1]
+        state.after[at][0], state.after[at][1] = m[i], b[i]
+        before = state.moments[at][0] - stage.samples  # of this chunk; its column 1 is the next sample
+        state.alone[at] = int(before + i == 2)
         if not stage.recurs:  # a single pass turns at its first sample
             n = append(state.first[row, 0], state.first[row, 1], side, n, room)
-    n, step = append_reversals(m, b, side, stage.steps, step, n, room)
+    n, step = append_reversals(m, b, state.earlier[row], stage.vertex, side, stage.steps, step, n, room)
     state.step[at] = step
     if stage.ends and not stage.recurs:
         n = append(m[stage.samples], b[stage.samples], side, n, room)
     elif stage.ends and step != state.first_step[at]:  # a block that recurs turns where its first plateau ends
-        n = append(state.plateau[at][0], state.plateau[at][1], side, n, room)
+        first, after = state.plateau[at], state.after[at]
+        if stage.vertex and state.alone[at]:
+            last = stage.samples
+            n = append_vertex((m[last], first[0], after[0]), (b[last], first[1], after[1]), side, n, room)
+        else:
+            n = append(first[0], first[1], side, n, room)
     return n
 
 

@@ -2,37 +2,43 @@
 
 The stress comes in chunks of time. Of a block that recurs the largest sample is found first; counting begins there,
 goes to the end of the record and on from its first sample. Between two chunks only the reversals wait that are open,
-with their membrane and bending stress, so that memory does not grow with the record.
+with their membrane and bending stress, so that memory does not grow with the record. Where reversals are read at their
+vertices the chunks are moved as they come (``long_vertices``), with one sample held back for its neighbour.
 """
 
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
+from fatigue.life.counting.long_vertices import moved
 from fatigue.life.records.history import Residue
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-Chunks = Callable[[], Iterator[tuple[Floats, Floats]]]
+Chunks = Callable[[], Iterator[tuple[Floats, ...]]]  # membrane and bending stress, and shifts where there are any
 
 FEWEST = 1 << 16  # cycles of a piece, but for the last one
 
 
 class Piece(NamedTuple):
-    """Some cycles: sample indices (c, 2) of start and end, stresses there (c, 2) [MPa], and weight (c,), 1 or 0.5."""
+    """Some cycles: sample indices (c, 2) of start and end, stresses there (c, 2) [MPa], and weight (c,), 1 or 0.5.
+
+    ``shift`` (c, 2) is how far from the samples they were read [steps].
+    """
 
     at: Indices
     stress: Floats
     membrane: Floats
     bending: Floats
     weight: Floats
+    shift: Floats
 
 
 class _Open(NamedTuple):
-    """Reversals that are open, a stack: stresses (r, 3), structural, membrane and bending; sample indices (r,)."""
+    """Reversals that are open, a stack: structural, membrane, bending stress and shift (r, 4); sample indices (r,)."""
 
     values: Floats
     at: Indices
@@ -42,7 +48,7 @@ class _Now(NamedTuple):
     """Where counting stands.
 
     ``places`` (3,) are bottom and top of the stack, and the direction of the last step, 0 before there is any;
-    ``last`` (3,) are the stresses of the last sample, ``last_at`` (1,) is its index.
+    ``last`` (4,) are the stresses and the shift of the last sample, ``last_at`` (1,) is its index.
     """
 
     places: Indices
@@ -50,19 +56,24 @@ class _Now(NamedTuple):
     last_at: Indices
 
 
-def long_cycles(chunks: Chunks, side: float, residue: Residue) -> Iterator[Piece]:
-    """Cycles of ``membrane + side * bending``; ``chunks()`` gives both (t,), chunk of time after chunk, anew."""
+def long_cycles(chunks: Chunks, side: float, residue: Residue, *, vertex: bool = False) -> Iterator[Piece]:
+    """Cycles of ``membrane + side * bending``; ``chunks()`` gives both (t,), chunk of time after chunk, anew.
+
+    With ``vertex`` each reversal is read at its vertex.
+    """
     recurs = residue == "repeat"
+    chunks = moved(chunks, side, recurs=recurs) if vertex else chunks
     first = _largest_sample(chunks, side) if recurs else 0
-    stack = _Open(np.empty((64, 3)), np.empty(64, np.int64))
-    now = _Now(np.array([0, -1, 0]), np.empty(3), np.full(1, -1))
+    stack = _Open(np.empty((64, 4)), np.empty(64, np.int64))
+    now = _Now(np.array([0, -1, 0]), np.empty(4), np.full(1, -1))
     held: list[Piece] = []
-    for begin, membrane, bending in _turned(chunks, first, again=recurs):
+    for begin, membrane, bending, *shifts in _turned(chunks, first, again=recurs):
         stress = membrane + side * bending
+        shift = shifts[0] if shifts else np.zeros(len(stress))
         depth = int(now.places[1] - now.places[0]) + 1
         stack = _with_room(stack, depth + len(stress) + 2)
         found = _room_for(depth + len(stress) + 2)
-        held.append(_some(found, take_samples(stress, membrane, bending, begin, stack, now, recurs, found)))
+        held.append(_some(found, take_samples(stress, membrane, bending, shift, begin, stack, now, recurs, found)))
         if sum(len(piece.weight) for piece in held) >= FEWEST:
             yield _joined(held)
             held = []
@@ -72,29 +83,29 @@ def long_cycles(chunks: Chunks, side: float, residue: Residue) -> Iterator[Piece
     yield _joined(held)
 
 
-def _turned(chunks: Chunks, first: int, *, again: bool) -> Iterator[tuple[int, Floats, Floats]]:
+def _turned(chunks: Chunks, first: int, *, again: bool) -> Iterator[tuple[Any, ...]]:
     """Chunks, with the index of their first sample, from a sample to the end and on to that sample, ``again``."""
     begin = 0
-    for membrane, bending in chunks():
-        skipped = min(max(0, first - begin), len(membrane))
-        if skipped < len(membrane):
-            yield begin + skipped, membrane[skipped:], bending[skipped:]
-        begin += len(membrane)
+    for chunk in chunks():
+        skipped = min(max(0, first - begin), len(chunk[0]))
+        if skipped < len(chunk[0]):
+            yield begin + skipped, *(part[skipped:] for part in chunk)
+        begin += len(chunk[0])
     if not again:
         return
     begin = 0
-    for membrane, bending in chunks():
-        some = min(len(membrane), first + 1 - begin)
+    for chunk in chunks():
+        some = min(len(chunk[0]), first + 1 - begin)
         if some <= 0:
             return
-        yield begin, membrane[:some], bending[:some]
-        begin += len(membrane)
+        yield begin, *(part[:some] for part in chunk)
+        begin += len(chunk[0])
 
 
 def _largest_sample(chunks: Chunks, side: float) -> int:
     """Index of the first largest sample, of a plateau the last one of it."""
     largest, at, begin = -np.inf, 0, 0
-    for membrane, bending in chunks():
+    for membrane, bending, *_ in chunks():
         largest, at = find_largest(membrane + side * bending, begin, largest, at)
         begin += len(membrane)
     return int(at)
@@ -110,7 +121,8 @@ def _with_room(stack: _Open, reversals: int) -> _Open:
 
 def _room_for(cycles: int) -> Piece:
     pair = (cycles, 2)
-    return Piece(np.empty(pair, np.int64), np.empty(pair), np.empty(pair), np.empty(pair), np.empty(cycles))
+    s, m, b, shift = (np.empty(pair) for _ in range(4))
+    return Piece(np.empty(pair, np.int64), s, m, b, np.empty(cycles), shift)
 
 
 def _some(found: Piece, cycles: int) -> Piece:
@@ -162,11 +174,12 @@ def put_cycle(stack: _Open, k: int, cycle: int, found: Piece) -> None:
         found.stress[cycle, j] = stack.values[k + j, 0]
         found.membrane[cycle, j] = stack.values[k + j, 1]
         found.bending[cycle, j] = stack.values[k + j, 2]
+        found.shift[cycle, j] = stack.values[k + j, 3]
 
 
 @compiled()
 def take_samples(
-    s: Floats, m: Floats, b: Floats, begin: int, stack: _Open, now: _Now, recurs: bool, found: Piece
+    s: Floats, m: Floats, b: Floats, shift: Floats, begin: int, stack: _Open, now: _Now, recurs: bool, found: Piece
 ) -> int:
     """Count some more samples, of which the first has the index ``begin``, and return how many cycles closed."""
     places, last = now.places, now.last
@@ -181,7 +194,7 @@ def take_samples(
             if step * places[2] < 0:
                 cycles = close_last(stack, now, recurs, cycles, found)
             places[2] = step if step != 0 else places[2]
-        last[0], last[1], last[2] = s[i], m[i], b[i]
+        last[0], last[1], last[2], last[3] = s[i], m[i], b[i], shift[i]
         now.last_at[0] = begin + i
         if places[1] < 0:  # the first sample is a reversal
             close_last(stack, now, recurs, 0, found)

@@ -38,11 +38,13 @@ class CountedRecord:
     q : (m, t) modal coordinates, in memory or on disk
     residue : whether the pass recurs, or what does not close is half cycles
     single : the same prepared for the counter in single precision; None: double precision counts
+    vertex : whether reversals are read at their vertices, see ``fatigue.life.counting.vertex``
     """
 
     q: Samples
     residue: Residue
     single: SingleRecord | None = None
+    vertex: bool = False
 
     @property
     def recurs(self) -> bool:

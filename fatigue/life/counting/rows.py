@@ -30,6 +30,7 @@ from fatigue.life.counting.tally import (
     refuse_not_finite,
     tally,
 )
+from fatigue.life.counting.vertex import move, shifts
 from fatigue.life.records.history import Residue, stress_history
 from fatigue.life.rule import CycleRule
 
@@ -54,8 +55,8 @@ class _Histories(NamedTuple):
 
 def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, *, ranges: bool = False) -> BlockCount:
     """Count a block as ``count`` does: the histories of a few points at a time; ``ranges``: see ``nothing_counted``."""
-    histories = _histories(stress, record)
-    return _joined([_count_some(some, both, record.recurs, rule, ranges=ranges) for some, both in histories])
+    histories, how = _histories(stress, record), (record.recurs, record.vertex)
+    return _joined([_count_some(some, both, how, rule, ranges=ranges) for some, both in histories])
 
 
 def count_rows_and_residue(
@@ -64,7 +65,7 @@ def count_rows_and_residue(
     """Count a block as ``count_rows`` does, and keep the residue of every point."""
     counts, residues = [], []
     for some, both in _histories(stress, record):
-        counts.append(_count_some(some, both, record.recurs, rule))
+        counts.append(_count_some(some, both, (record.recurs, False), rule))
         residues.append(residue_of_rows(*both))
     return _joined(counts), BlockResidue.joined(residues)
 
@@ -80,7 +81,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
         trials = Trials(*(part[at] for part in tried))
         block = _Histories(*of_points, totals, histogram, trials)
-        _count(block, record.recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
+        _count(block, record.recurs, record.vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
 
 
 def _histories(stress: BlockStress, record: CountedRecord) -> Iterator[tuple[BlockStress, tuple[Floats, Floats]]]:
@@ -110,40 +111,61 @@ def count_histories(
     ------
     NumericalError : a sample is not finite
     """
-    return _count_some(BlockStress(membrane, bending, size, same_ratio), (membrane, bending), residue == "repeat", rule)
+    return _count_some(
+        BlockStress(membrane, bending, size, same_ratio), (membrane, bending), (residue == "repeat", False), rule
+    )
 
 
 def _count_some(
-    some: BlockStress, histories: tuple[Floats, Floats], recurs: bool, rule: CycleRule, *, ranges: bool = False
+    some: BlockStress,
+    histories: tuple[Floats, Floats],
+    how: tuple[bool, bool],
+    rule: CycleRule,
+    *,
+    ranges: bool = False,
 ) -> BlockCount:
-    """Count some points, of which membrane and bending stress over time are given."""
+    """Count some points, of which membrane and bending stress over time are given.
+
+    ``how``: whether the record recurs, and whether reversals are read at their vertices.
+    """
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
     totals, histogram = nothing_counted(len(membrane), rule.law, ranges=ranges)
     of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
-    _count(block, recurs, compiled_rule(rule), buffers_for(membrane.shape[1]))
+    _count(block, *how, compiled_rule(rule), buffers_for(membrane.shape[1]))
     return block_count(totals, histogram, rule, some.level)
 
 
 @compiled()
-def _count(block: _Histories, recurs: bool, rule: CompiledRule, buffers: Buffers) -> None:
+def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, buffers: Buffers) -> None:
     """Count both surfaces of every row of the block."""
     s = np.empty(block.membrane.shape[1])
+    room = np.empty((3, s.size if vertex else 0))  # membrane, bending and shifts of a history of vertices
     for row in range(block.membrane.shape[0]):
         for surface in range(2):
             side = 1.0 - 2.0 * surface
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]
             total, histogram = block.totals[row, surface], block.histogram[row, surface]
+            tries = block.trials.damage.shape[2] > 0
+            if not tries:
+                total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
+            membrane, bending = block.membrane[row], block.bending[row]
+            if vertex:
+                shifts(s, recurs, room[2])
+                move(membrane, room[2], room[0])
+                move(bending, room[2], room[1])
+                membrane, bending = room[0], room[1]
+                for i in range(s.size):
+                    s[i] = membrane[i] + side * bending[i]
             at = row, surface
             own = block.size[row], block.same_ratio[at], block.shear_factor[at], block.offset[at]
-            point = Surface(block.membrane[row], block.bending[row], side, own[0], own[1], own[2], own[3])
+            point = Surface(membrane, bending, side, own[0], own[1], own[2], own[3])
             cycles = find_cycles(s, recurs, buffers)
-            if block.trials.damage.shape[2] > 0:
+            if tries:
                 first, step = block.trials.first[row, surface], block.trials.step[row, surface]
                 tally_trials(point, first, step, block.trials.damage[row, surface], rule, buffers, cycles)
                 continue
-            total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
             total["r_largest"] = math.nan
             tally(point, total, histogram, rule, buffers, cycles)

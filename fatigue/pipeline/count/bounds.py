@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.bounds.screening import ModalExtent, PowerSums, damage_bound, may_need_mean_stress
+from fatigue.life.bounds.vertex_bound import vertex_bound
 from fatigue.life.counting.block import BlockCount
 from fatigue.life.counting.record import SingleRecord
 from fatigue.life.curves import DamageLaw
@@ -164,9 +165,10 @@ def event_bound(
     """Bound of one pass at some ``rows`` of a block, from bounds of range and sum n S^q, (n, 2) each, of its record.
 
     ``found`` does not contain the stress factor of the event. ``mean`` (n, 2) is the time mean of the stress [MPa].
-    Where the damage contains the mean-stress factor, stations that may need the factor have no bound.
+    Where the damage contains the mean-stress factor, stations that may need the factor have no bound. Bounds of the
+    samples become bounds of the vertices here where reversals are read there.
     """
-    stress_range, power_sums = _with_stress_factor(found, load)
+    stress_range, power_sums = _with_stress_factor(vertex_bound(*found) if load.vertex else found, load)
     damage, largest = damage_bound(stress_range, power_sums, stress.size[rows, None], stress.rule)
     yield_MPa = stress.rule.yield_of_damage
     if yield_MPa is not None:

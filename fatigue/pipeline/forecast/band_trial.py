@@ -1,5 +1,6 @@
 """Whether the spectra of a case would miss too much of its stress: seen on few welds and the beginnings of records."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from fatigue.pipeline.count.estimate import estimate_event, member_variances
 from fatigue.pipeline.count.outside_band import OutsideBand, Spectral
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import load_of, shortened_record
+from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import modal_stress
 from fatigue.spectrum.outside import missed_damage
@@ -28,13 +30,11 @@ def band_warnings(model: Model, plan: Plan, scratch: Path) -> list[Problem]:
     """
     spectra: dict[str, Spectral] = {}
     upper_hz: dict[str, float] = {}
-    with threadpool_limits(limits=1, user_api="blas"):
-        for number in _looked_at(model, plan):
-            load = _beginning(model, number, scratch)
-            if load.moments is not None:
-                one = plan.passes[number]
-                spectra[one.event] = _spectral(model, load, one.passes_per_km * one.samples / load.counted.q.shape[1])
-                upper_hz[one.event] = load.moments.upper_hz
+    for number, load in beginnings(model.body, plan, scratch):
+        if load.moments is not None:
+            one = plan.passes[number]
+            spectra[one.event] = _spectral(model, load, one.passes_per_km * one.samples / load.counted.q.shape[1])
+            upper_hz[one.event] = load.moments.upper_hz
     if not spectra:
         return []
     band, whole = (sum(of.weight * getattr(of, name) for of in spectra.values()) for name in ("band", "whole"))
@@ -45,17 +45,25 @@ def band_warnings(model: Model, plan: Plan, scratch: Path) -> list[Problem]:
     return found.warnings(upper_hz, "toe points looked at")
 
 
-def _looked_at(model: Model, plan: Plan) -> list[int]:
+def beginnings(body: Body, plan: Plan, scratch: Path) -> Iterator[tuple[int, EventLoad]]:
+    """Numbers of the events that are looked at, and each of them by the first samples of its record."""
+    for number in _looked_at(body, plan):
+        with threadpool_limits(limits=1, user_api="blas"):
+            load = _beginning(body, number, scratch)
+        yield number, load
+
+
+def _looked_at(body: Body, plan: Plan) -> list[int]:
     """Numbers of the events that are looked at: the longest, and the shortest of the others."""
-    numbers = len(model.body.coordinates) * np.array([one.samples for one in plan.passes])
+    numbers = len(body.coordinates) * np.array([one.samples for one in plan.passes])
     *others, longest = np.argsort(numbers, kind="stable").tolist()
     cheap = np.cumsum(numbers[others]) <= READ_AT_MOST
     return sorted([longest, *np.array(others, dtype=int)[cheap].tolist()])
 
 
-def _beginning(model: Model, number: int, scratch: Path) -> EventLoad:
+def _beginning(body: Body, number: int, scratch: Path) -> EventLoad:
     """An event by the first samples of its record."""
-    body, event = model.body, model.case.mission.event[number]
+    event = body.case.mission.event[number]
     history = shortened_record(body, event, BEGINNING, scratch)
     return load_of(body, event, history, 1, single=False)
 

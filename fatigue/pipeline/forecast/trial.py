@@ -1,7 +1,7 @@
 """What a job will take: its own pipeline, timed on one group of its welds under the first chunk of one record."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -9,9 +9,7 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fatigue.case import Event
 from fatigue.life.mission import Pass, Plan
-from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import histogram_points, worst_points
@@ -22,9 +20,7 @@ from fatigue.pipeline.mission.events import (
     load_of,
     shortened_record,
 )
-from fatigue.pipeline.mission.upsampling import factor_for, peak_forms
 from fatigue.pipeline.run.work import SHARE, screening_of
-from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import Stations
 from fatigue.results.columns import TABLES
@@ -51,8 +47,8 @@ class JobTime:
 
     ``start``: imports, reading and checking; ``events``: records prepared; ``counting``: all events at all stations,
     ``counting_exact`` with ``--exact``, and once more at the points of histograms; ``tables`` and ``report``: written.
-    ``screened`` says whether bounds settle
-    points by default, ``upsample`` is the factor by which records are upsampled, found at the longest one.
+    ``screened`` says whether bounds settle points by default, ``upsample`` are the factors by which the records of the
+    events are upsampled.
     """
 
     start: float
@@ -62,7 +58,7 @@ class JobTime:
     tables: float
     report: float
     screened: bool
-    upsample: int
+    upsample: tuple[int, ...]
 
     @property
     def total(self) -> float:
@@ -100,7 +96,7 @@ class _Trial:
         return replace(self.plan, passes=(alone,), loops=())
 
 
-def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Path) -> JobTime:
+def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], read_s: float, scratch: Path) -> JobTime:
     """Processor time of ``fatigue assess`` with its default options, as estimated; compiling is left out.
 
     Parameters
@@ -108,6 +104,7 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     plan : the mission of the job
     model : one group of the welds of its body, solved
     stations : of all welds
+    factors : by which the records of the events are upsampled
     read_s : processor time that reading and checking the case took [s]
     scratch : a folder for what memory cannot hold
     """
@@ -119,9 +116,9 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
     with threadpool_limits(limits=1, user_api="blas"):
         trial = _Trial(model, one, plan)
-        finer = _factor(body, event, record, trial, one.refined)
-        factor = finer * max(1, one.refined)
-        upsampled = sum(p.factor(factor) * p.samples for p in plan.passes)
+        factor = factors[longest]
+        finer = factor // max(1, one.refined)
+        upsampled = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
         prepare_s, load = _timed(lambda: load_of(body, event, record, finer, single=single))
         _, short = _timed(lambda: load_of(body, event, less, finer, single=single))
@@ -135,7 +132,8 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
-    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * upsampled / n
+    passes = factor * sum(p.samples for p in plan.passes) / n  # cycles are as many, however finely they are sampled
+    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * passes
     worst = worst_points(model.stations, result)
     binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
     alone, each = PER_STRESS_SAMPLE[False]
@@ -148,20 +146,8 @@ def job_time(plan: Plan, model: Model, stations: int, read_s: float, scratch: Pa
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=single,
-        upsample=factor,
+        upsample=tuple(factors),
     )
-
-
-def _factor(body: Body, event: Event, record: ModalHistory, trial: _Trial, refined: int) -> int:
-    """Factor by which the record is upsampled; where that is automatic, what it needs at these welds.
-
-    It is ``refined`` already for a unit load of the event; 0: it is not upsampled.
-    """
-    factor = body.case.counting.upsample
-    if factor != "auto" or not refined:
-        return max(1, int(factor) // refined) if factor != "auto" and refined else 1
-    forms = peak_forms(load_of(body, event, record, 1, single=False))
-    return factor_for(forms.fastest(trial.model.stations.treated), record.step)
 
 
 def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:

@@ -34,6 +34,7 @@ class EventLoad:
     offset : (c,) constant of each coordinate, carried beside the samples so that ranges keep their last bit
     covariance : (c, c) covariance of q over the kept samples
     moments, trust : moment matrices of q and what judging needs; None for a record shorter than one segment
+    vertex : whether reversals are read at the vertices of parabolas through their samples
     upsample : how many samples one has become; mean and covariance are of the samples as they were
     moment_pairs : matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations; empty without a spectrum
     pairs_above : the same of what lies above the band of the spectrum; empty where nothing does
@@ -48,6 +49,7 @@ class EventLoad:
     mean: NDArray[np.float64]
     offset: NDArray[np.float64]
     covariance: NDArray[np.float64]
+    vertex: bool
     upsample: int
     moments: MomentMatrices | None
     moment_pairs: tuple[FormPair, ...]
@@ -63,7 +65,7 @@ class EventLoad:
     @property
     def record(self) -> CountedRecord:
         """The record as it is counted."""
-        return CountedRecord(self.counted.q, self.residue, self.single)
+        return CountedRecord(self.counted.q, self.residue, self.single, self.vertex)
 
     @property
     def is_upsampled(self) -> bool:
@@ -80,8 +82,8 @@ class EventLoad:
 class HowCounted:
     """How the record of an event is to be counted.
 
-    ``residue`` and ``stress_factor`` are the same as of ``EventLoad``; ``upsample`` is how many samples one of the file
-    becomes; ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
+    ``residue``, ``stress_factor`` and ``vertex`` are the same as of ``EventLoad``; ``upsample`` is how many samples one
+    of the file becomes; ``single``: by the kernel in single precision, its copy ``held`` in memory or not.
     """
 
     residue: Residue
@@ -89,6 +91,7 @@ class HowCounted:
     upsample: int = 1
     single: bool = False
     held: bool = True
+    vertex: bool = False
 
 
 def prepare_event(
@@ -117,6 +120,7 @@ def of_samples(record: EventRecord, how: HowCounted, spectra: Spectra | None, to
         mean=mean,
         offset=np.zeros(len(mean)),
         covariance=covariance,
+        vertex=how.vertex,
         upsample=1,
         moments=moments,
         moment_pairs=() if moments is None else form_pairs(moments),

@@ -56,7 +56,8 @@ def event_loads(
         factors = _factors(groups, plan, [load for load, _ in loads], threads)
     samples = [f * p.samples for f, p in zip(factors, plan.passes, strict=True)]
     single = 2 * int(body.lines.begin[-1]) * sum(samples) > DOUBLE_PRECISION_SAMPLES
-    log.info("cycles are counted in %s precision", "single" if single else "double")
+    is_fast = single and body.case.counting.reversals == "samples"
+    log.info("cycles are counted in %s precision", "single" if is_fast else "double")
     for event, upsample in zip(events, factors, strict=True):
         if upsample > 1:
             log.info("event '%s' is counted on a record upsampled %d times", event.name, upsample)
@@ -112,7 +113,8 @@ def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, s
 
 def how_counted(body: Body, event: Event, upsample: int = 1, *, single: bool = False, held: bool = True) -> HowCounted:
     """How the case has the record of an event counted."""
-    return HowCounted(body.case.residue(event), event.stress_factor, upsample, single, held)
+    vertex = body.case.counting.reversals == "vertex"
+    return HowCounted(body.case.residue(event), event.stress_factor, upsample, single, held, vertex)
 
 
 def _of_samples(body: Body, event: Event, record: EventRecord, how: HowCounted) -> EventLoad:

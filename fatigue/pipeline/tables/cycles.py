@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fatigue.life.counting.long_rainflow import long_cycles
 from fatigue.life.counting.rainflow import Cycles, rainflow
 from fatigue.life.counting.signal import middle
+from fatigue.life.counting.vertex import vertex_history
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -74,21 +75,26 @@ def _long_rows(point: KeptPoint, load: EventLoad) -> Iterator[dict[str, Any]]:
     def chunks() -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         return ((membrane, bending) for membrane, bending in stress_chunks(modal, load.counted.q))
 
-    for piece in long_cycles(chunks, 1.0 if point.face == 0 else -1.0, load.residue):
+    for piece in long_cycles(chunks, 1.0 if point.face == 0 else -1.0, load.residue, vertex=load.vertex):
         (start, end), (s_i, s_j) = piece.at.T, piece.stress.T
         cycles = Cycles(np.abs(s_j - s_i), middle(s_i, s_j), piece.weight, start, end)
         dm, db = (np.abs(np.diff(part, axis=1)[:, 0]) for part in (piece.membrane, piece.bending))
-        yield _rows_of(point, load, cycles, dm, db, np.minimum(s_i, s_j))
+        yield _rows_of(point, load, cycles, dm, db, np.minimum(s_i, s_j), piece.at.astype(np.float64) + piece.shift)
 
 
 def _cycle_rows(
     point: KeptPoint, load: EventLoad, membrane: NDArray[np.float64], bending: NDArray[np.float64]
 ) -> dict[str, Any]:
     """Rows of one point with these stress histories (t,) [MPa]."""
-    stress = membrane + bending if point.face == 0 else membrane - bending
+    side, shift = 1.0 if point.face == 0 else -1.0, np.zeros(membrane.size if load.vertex else 0)
+    if load.vertex:
+        membrane, bending, shift = vertex_history(membrane, bending, side, recurs=load.record.recurs)
+    stress = membrane + side * bending
     cycles = rainflow(stress, load.residue)
+    at = np.stack([cycles.start, cycles.end], axis=1).astype(np.float64)
+    at += shift[at.astype(np.intp)] if load.vertex else 0.0
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
-    return _rows_of(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]))
+    return _rows_of(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]), at)
 
 
 def _rows_of(
@@ -98,12 +104,16 @@ def _rows_of(
     dm: NDArray[np.float64],
     db: NDArray[np.float64],
     minimum: NDArray[np.float64],
+    at: NDArray[np.float64],
 ) -> dict[str, Any]:
-    """Rows of some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa]."""
+    """Rows of some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa].
+
+    ``at`` (c, 2) are their two instants, in steps from the first sample.
+    """
     modal = load.stress_factor * np.stack([point.membrane, point.bending])
     of_faces = face_offset(modal[:1], modal[1:], load)
     offset = 0.0 if of_faces is None else float(of_faces[0, point.face])
     step, start = load.counted.step, load.counted.start
-    times = start + step * cycles.start, start + step * cycles.end
+    times = start + step * at[:, 0], start + step * at[:, 1]
     parts = CycleParts(cycles.range, cycles.mean + offset, cycles.count, dm, db, minimum + offset, *times)
     return cycle_rows(point, load.counted.event, parts)

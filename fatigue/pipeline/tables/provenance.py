@@ -76,7 +76,7 @@ def provenance_record(
             "upsample": case.counting.upsample,
             "upsampled": {load.counted.event: load.upsample for load in work.loads},
             "reversals": case.counting.reversals,
-            "precision": "double" if work.loads[0].single is None else "single, doubtful points in double",
+            "precision": _precision(work),
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,
             "histogram": _HISTOGRAM_RULES[work.histogram],
@@ -120,6 +120,12 @@ def _joining_rule(plan: Plan) -> str:
     if plan.joins_events:
         return "every event follows on itself; what another order of the stints adds at most is stated beside it"
     return "every event follows on itself: cycles across events are not counted"
+
+
+def _precision(work: Work) -> str:
+    """Precision of the counter."""
+    first = work.loads[0]
+    return "double" if first.single is None or first.vertex else "single, doubtful points in double"
 
 
 def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]:

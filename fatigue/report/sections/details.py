@@ -68,8 +68,10 @@ def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, De
     with TemporaryDirectory(prefix="fatigue-") as scratch:
         for event in inputs.case.mission.event:
             history = inputs.history(event, Path(scratch) / "record")
-            removed = np.full(len(history.mode), inputs.case.mean_of_q(event) == "remove")
-            record = stress.event_record(history, event.stress_factor, removed=removed)
+            constants = inputs.constants(event)
+            removed = np.full(len(constants), inputs.case.mean_of_q(event) == "remove")
+            removed[len(inputs.modes) :] = False  # what the case gives over time stays
+            record = stress.event_record(history, event.stress_factor, constants, removed)
             steps[event.name] = record.history.step
             upper = upper_hz(result, inputs, record.history.step)
             for name, weld in welds.items():

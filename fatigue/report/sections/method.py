@@ -64,6 +64,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
         ),
         *_level_rule(chosen),
         Rule("Upsampling before counting", _upsampling(chosen), "case file: counting.upsample"),
+        Rule("Reversals", _reversals(chosen), "case file: counting.reversals"),
         Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
         Rule(
             "Mission",
@@ -188,8 +189,16 @@ def _upsampling(chosen: Mapping[str, Any]) -> str:
     for event, factor in chosen.get("upsampled", {}).items():
         events.setdefault(factor, []).append(f'"{event}"')
     done = [f"{'none' if factor == 1 else f'{factor} times'}: {few(events[factor])}" for factor in sorted(events)]
-    asked = "as much as gives 20 samples per peak" if chosen["upsample"] == "auto" else str(chosen["upsample"])
+    enough = 8 if chosen.get("reversals") == "vertex" else 20
+    asked = f"as much as gives {enough} samples per peak" if chosen["upsample"] == "auto" else str(chosen["upsample"])
     return "; ".join([asked, *done])
+
+
+def _reversals(chosen: Mapping[str, Any]) -> str:
+    """Where reversals are read, in words."""
+    if chosen.get("reversals") == "vertex":
+        return "at the vertex of the parabola through three samples, membrane and bending at the same instant"
+    return "at the samples"
 
 
 def _screening(screening: Mapping[str, Any]) -> str:

@@ -7,6 +7,7 @@ import pytest
 
 from fatigue.case import load_case
 from fatigue.pipeline.forecast.trial import CELL, CYCLE, DETAIL, PAGE, START, job_time
+from fatigue.pipeline.forecast.upsampling_trial import foretold
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
@@ -21,7 +22,10 @@ def needed(case, folder, stations=None):
     plan, _ = mission_plan(body)
     with TemporaryDirectory() as scratch:
         model = solve_group(weld_groups(body, Path(scratch)), 0)
-        return job_time(plan, model, stations or len(model.stations), 0.5, Path(scratch))
+        upsampled = foretold(body, plan, Path(scratch))
+        upsampled.add(model.stations.treated)
+        factors = upsampled.factors(body.case.counting.upsample, plan)
+        return job_time(plan, model, stations or len(model.stations), factors, 0.5, Path(scratch))
 
 
 def test_the_parts_add_up(tmp_path):

@@ -69,9 +69,13 @@ class _Normalised(NamedTuple):
 
 
 def is_single(record: CountedRecord, rule: CycleRule) -> bool:
-    """Whether this counter serves: a law of one slope, not too steep, and a record prepared for it, not too short."""
+    """Whether this counter serves: a law of one slope, not too steep, and a record prepared for it, not too short.
+
+    Reversals at vertices are not for it: whether ranges close is then no question of two samples, which is what its
+    doubts are about.
+    """
     straight = rule.law.is_straight and float(rule.law.slopes[0]) <= STEEPEST
-    return record.single is not None and straight and record.q.shape[1] >= SHORTEST
+    return record.single is not None and not record.vertex and straight and record.q.shape[1] >= SHORTEST
 
 
 def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:

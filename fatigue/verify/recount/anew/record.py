@@ -17,7 +17,8 @@ from fatigue.verify.recount.inputs.tables import read_pieces
 
 Floats = NDArray[np.float64]
 
-SAMPLES_PER_PEAK, LARGEST_UPSAMPLE = 20.0, 64  # what upsample = "auto" reaches for, and where it ends
+SAMPLES_PER_PEAK = {"samples": 20.0, "vertex": 8.0}  # what upsample = "auto" reaches for, as reversals are read
+LARGEST_UPSAMPLE = 64  # where it ends
 FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
 
@@ -38,6 +39,7 @@ class RecountRecord:
     length_km : distance of one pass, None for an event counted by number
     passes_per_km : of the mission
     peak : (c,) largest absolute value of each coordinate
+    vertex : whether reversals are read at the vertices of parabolas through their samples
     has_spectrum : whether the samples are of one time; those of a static load case are not
     """
 
@@ -54,6 +56,7 @@ class RecountRecord:
     length_km: float | None
     passes_per_km: float
     peak: Floats
+    vertex: bool
     has_spectrum: bool
 
 
@@ -86,9 +89,10 @@ def read_record(
         q, step, start = _history(inputs.folder / event["history"], event.get("start_s", 0.0), coordinates)
         refined, upsample = factor_for(loads, step), counting.get("upsample", "auto")
         if upsample == "auto":
+            enough = SAMPLES_PER_PEAK[counting.get("reversals", "samples")]
             segment = round(inputs.case.get("spectrum", {}).get("segment_s", 4.0) * refined / step)
             has_spectrum = 4 <= segment <= q.shape[1] * refined
-            upsample = _upsample(step, fastest, q.shape[1]) if has_spectrum else recorded
+            upsample = _upsample(step, enough * fastest, q.shape[1]) if has_spectrum else recorded
     else:
         samples = max(len(load.samples) for load in loads if load.samples is not None)
         q, step, start, refined, upsample = np.zeros((len(coordinates), samples)), 1.0, 0.0, 1, 1
@@ -114,6 +118,7 @@ def read_record(
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
         peak=np.maximum(counted.max(axis=1), -counted.min(axis=1)),
+        vertex=counting.get("reversals", "samples") == "vertex",
         has_spectrum="history" in event,
     )
 
@@ -162,10 +167,10 @@ def _with_loads(
     return kept, kept if factors[1] == 1 else finer_by(factors[1], kept, step)
 
 
-def _upsample(step: float, fastest: float, samples: int) -> int:
+def _upsample(step: float, samples_per_s: float, samples: int) -> int:
     """Power of 2 that gives the fastest point its samples per peak; 1 for load cases, which no signal is made of."""
     factor = 1
-    while samples >= FEWEST_SAMPLES and factor / step < SAMPLES_PER_PEAK * fastest and factor < LARGEST_UPSAMPLE:
+    while samples >= FEWEST_SAMPLES and factor / step < samples_per_s and factor < LARGEST_UPSAMPLE:
         factor *= 2
     return factor
 
