@@ -291,7 +291,7 @@ def test_nothing_moves_at_all(tmp_path):
 
 @pytest.mark.parametrize("counting", [{"upsample": 2}, {"upsample": 1, "reversals": "vertex"}], ids=["fine", "vertex"])
 def test_factors_and_sampling_are_those_of_the_assessment(tmp_path, counting):
-    """At finer samples or vertices, with a stress factor, a knee and an event of half cycles: damage and ranges stay those of the tables."""
+    """Finer samples or vertices, a factor, a knee, half cycles: damage and ranges stay those of the tables."""
     case = small_case(seconds=4.0)
     case.counting = counting
     case.curve = {"name": "master-aluminium", "extension": "haibach", "knee_cycles": 1e6}
