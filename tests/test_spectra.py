@@ -289,10 +289,11 @@ def test_nothing_moves_at_all(tmp_path):
     assert (rows["count_per_km"] == 0.0).all()
 
 
-def test_factors_and_upsampling_are_those_of_the_assessment(tmp_path):
-    """A stress factor, upsampling, a knee and an event of half cycles: damage and ranges stay those of the tables."""
+@pytest.mark.parametrize("counting", [{"upsample": 2}, {"upsample": 1, "reversals": "vertex"}], ids=["fine", "vertex"])
+def test_factors_and_sampling_are_those_of_the_assessment(tmp_path, counting):
+    """Finer samples or vertices, a factor, a knee, half cycles: damage and ranges stay those of the tables."""
     case = small_case(seconds=4.0)
-    case.counting = {"upsample": 2}
+    case.counting = counting
     case.curve = {"name": "master-aluminium", "extension": "haibach", "knee_cycles": 1e6}
     case.events[1] |= {"stress_factor": 1.3, "residue": "half"}
     assess(load_case(case.write(tmp_path / "case")), tmp_path / "result", threads=1, report=False)

@@ -97,6 +97,8 @@ def _cycles(recipe, w, s, f, e):
     r = np.array([0.9, 0.8, 0.7, 0.9, 0.5, 0.2])
     dS = ranges * THICKNESS ** (1.6 / 7.2) / ratio_factor(r)
     return {
+        "start_event": [None] * 6,
+        "end_event": [None] * 6,
         "start_s": 1.0 + 0.5 * np.arange(6),
         "end_s": 1.2 + 0.5 * np.arange(6),
         "range_MPa": ranges,
