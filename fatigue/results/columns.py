@@ -269,7 +269,7 @@ WELDS = (
 
 HISTOGRAM = (
     *_POINT,
-    Column("event", "text", "-", "event of the mission"),
+    Column("event", "text", "-", "event of the mission, or (sequence 1): cycles across events, those replaced below 0"),
     Column("kind", "text", "-", "of which range: S, structural stress; dS, equivalent range, the one of the damage"),
     Column(
         "bin",
@@ -411,13 +411,10 @@ LEVERS = (
     Column("gain_km", "float", "km", "life_km_counted - life_km"),
 )
 
-<<<<<<< HEAD
 
 NOT_IN_OLDER = ("unit_load",)
 """Columns of texts that tables of older versions lack."""
 
-=======
->>>>>>> 693c91985c340783a9a79b6ca434307d36377407
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,

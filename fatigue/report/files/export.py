@@ -183,11 +183,7 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
 
 
 def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
-<<<<<<< HEAD
     """Write points, events, cycles, welds and, where they are, ranges, spectra and bench programmes as CSV files.
-=======
-    """Write tables of points, events, cycles, welds and, where they are, ranges, load spectra, bench programmes as CSV.
->>>>>>> 693c91985c340783a9a79b6ca434307d36377407
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
     that a spreadsheet would take for a formula gets an apostrophe before it. ``into`` is another folder to write to,

@@ -1,8 +1,4 @@
-<<<<<<< HEAD
 """Columns of the block programmes of a test bench."""
-=======
-"""Columns of bench programmes: cycles of every block, what they achieve at every point, and one cycle of each."""
->>>>>>> 693c91985c340783a9a79b6ca434307d36377407
 
 from fatigue.results.dictionary.column import POINT, Column
 
