@@ -300,7 +300,7 @@ def write_tables(
     wants_histograms = work.histogram != "none"
     with result_tables(folder, key, [*ASSESSED, *["histogram"] * wants_histograms]) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
-        histograms = HistogramWriter(tables["histogram"], work.loads, threads) if wants_histograms else None
+        histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
         for group in assessed:
             worst = write_group(tables, group, work)
             cycles.add(points_kept_of(worst, group, work))

@@ -269,7 +269,7 @@ WELDS = (
 
 HISTOGRAM = (
     *_POINT,
-    Column("event", "text", "-", "event of the mission"),
+    Column("event", "text", "-", "event of the mission, or (sequence 1): cycles across events, those replaced below 0"),
     Column("kind", "text", "-", "of which range: S, structural stress; dS, equivalent range, the one of the damage"),
     Column(
         "bin",

@@ -2,7 +2,8 @@
 
 A point that was counted is counted again in double precision, and its cycles are sorted into 64 classes per decade,
 once by the range S and once by the equivalent range dS, so that other curves and other loads need no records any more.
-Points wait until there are enough of them to read a record for. Only classes with cycles make rows.
+Points wait until there are enough of them to read a record for. Only classes with cycles make rows. Of the cycles
+across events those that close count as they are, and those that they replace below 0.
 """
 
 from collections.abc import Sequence
@@ -11,18 +12,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.counting.block import BlockStress
+from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockStress
 from fatigue.life.counting.count import count_histograms
+from fatigue.life.mission import Plan
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.tables.cycle_rows import KeptPoint
 from fatigue.pipeline.tables.rows import FACES
+from fatigue.pipeline.tables.sequence_cycles import sequence_rows
 from fatigue.results import TableWriter, coded
 from fatigue.side_by_side import in_order
 
 KINDS = ("S", "dS")
 POINTS_AT_ONCE = 512  # that wait for each other
 _POINTS = 128  # counted at a time by one thread,
+_POINTS_OF_LOOPS = 32  # whose residues one thread finds at a time
 _SAMPLES = 1_000_000  # or fewer, with so many samples of stress in all: 16 MB
 
 _ROW = np.dtype(
@@ -33,8 +37,8 @@ _ROW = np.dtype(
 class HistogramWriter:
     """Writes the histograms of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
 
-    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], threads: int | None) -> None:
-        self._table, self._loads, self._threads = table, loads, threads
+    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], plan: Plan, threads: int | None) -> None:
+        self._table, self._loads, self._plan, self._threads = table, loads, plan, threads
         self._waiting: list[KeptPoint] = []
 
     def add(self, points: Sequence[KeptPoint]) -> None:
@@ -58,9 +62,12 @@ class HistogramWriter:
             for first in range(0, len(of_curve), _at_once(load))
         ]
         found = in_order(lambda job: _filled(points, self._loads, *job), jobs, self._threads)
+        if self._plan.loops:
+            pieces = range(0, len(points), _POINTS_OF_LOOPS)
+            found += in_order(lambda first: _of_loops(points, self._loads, self._plan, first), pieces, self._threads)
         rows = np.concatenate(found)
         rows = rows[np.lexsort([rows[name] for name in ("bin", "kind", "event", "point")])]
-        self._table.write(_columns(rows, points, [load.counted.event for load in self._loads]))
+        self._table.write(_columns(rows, points, self._plan.names))
 
 
 def _by_curve(points: Sequence[KeptPoint]) -> list[list[int]]:
@@ -94,6 +101,24 @@ def _filled(
     rows["point"], rows["event"], rows["kind"], rows["bin"] = np.asarray(places)[at], event, kind, bin_
     rows["count"], rows["power_sum"] = of_face[at, kind, bin_].T
     return rows
+
+
+def _of_loops(points: Sequence[KeptPoint], loads: Sequence[EventLoad], plan: Plan, first: int) -> NDArray[np.void]:
+    """Classes of the cycles across events, loop by loop, at some points from the place ``first`` on."""
+    some, found = points[first : first + _POINTS_OF_LOOPS], [np.empty(0, _ROW)]
+    for number, cycles in enumerate(sequence_rows(some, loads, plan)):  # all points of a loop, then those of the next
+        loop, place = divmod(number, len(some))
+        k = float(some[place].rated.rule.law.slopes[0])
+        for kind, x in enumerate((cycles["range_MPa"], cycles["equivalent_range_dS"])):
+            decades = np.log10(np.maximum(x, 1e-3)) + 3.0
+            bins = np.minimum((decades * BINS_PER_DECADE).astype(np.intp), HISTOGRAM_BINS - 1)
+            used = np.unique(bins)
+            rows = np.empty(len(used), _ROW)
+            rows["point"], rows["event"], rows["kind"], rows["bin"] = first + place, len(loads) + loop, kind, used
+            rows["count"] = np.bincount(bins, cycles["count"], HISTOGRAM_BINS)[used]
+            rows["power_sum"] = np.bincount(bins, cycles["count"] * x**k, HISTOGRAM_BINS)[used]
+            found.append(rows[(rows["count"] != 0.0) | (rows["power_sum"] != 0.0)])
+    return np.concatenate(found)
 
 
 def _columns(rows: NDArray[np.void], points: Sequence[KeptPoint], events: Sequence[str]) -> dict[str, Any]:

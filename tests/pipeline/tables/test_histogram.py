@@ -23,6 +23,7 @@ from fatigue.pipeline.tables import histogram
 from fatigue.results import read_provenance, read_table, strangers
 from tests import naive
 from tests.small_case import sine_only, small_case
+from tests.test_sequences import LOOP, empty_and_laden
 
 POINT = ["weld", "part", "order", "surface"]
 STRAIGHT = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "none", 1e7)
@@ -231,6 +232,23 @@ def test_mean_stress_is_in_the_equivalent_ranges(tmp_path, mean_of_q):
     assert (tenser.max() > 5.0) == (
         mean_of_q == "keep"
     )  # the factor of the thickness over I(r) is 1.3, to the power 3.6
+
+
+def test_cycles_across_events_are_in_classes_too(tmp_path, monkeypatch):
+    """The classes of a loop add up to its row in the damage table: net cycles, net damage, some classes below 0."""
+    case = empty_and_laden(mean_stress="asme", yield_MPa=150.0)
+    case.extra = LOOP
+    monkeypatch.setattr(histogram, "_POINTS_OF_LOOPS", 3)
+    folder = assessed(tmp_path, case)
+    rows = sums_of(folder)
+    assert sorted(set(rows.index.get_level_values("event"))) == ["(sequence 1)", "laden", "load", "sine", "unload"]
+    np.testing.assert_allclose(rows.count_per_pass_dS, rows.cycles_per_pass, rtol=1e-9, atol=1e-9)
+    damage = rows.power_sum_per_pass_dS / np.exp(STRAIGHT.log_constants[0])
+    np.testing.assert_allclose(damage, rows.damage_per_pass, rtol=1e-9)
+    bins = read_table(folder, "histogram").to_pandas()
+    assert (bins.count_per_pass[bins.event == "(sequence 1)"] < 0.0).any()
+    assert (bins.count_per_pass[bins.event != "(sequence 1)"] > 0.0).all()
+    assert (rows.count_per_pass_S > 0.0).sum() > 4 * 2
 
 
 def test_other_points_are_refused(tmp_path):
