@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.counting.long_rainflow import long_cycles
 from fatigue.life.counting.rainflow import rainflow
+from fatigue.life.counting.vertex import as_read
 from fatigue.life.load_spectrum import LoadCycles
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
@@ -49,7 +50,9 @@ def recounted(points: Points, load: EventLoad) -> Iterator[tuple[int, Counted]]:
 
 def _counted(points: Points, i: int, load: EventLoad, membrane: Floats, bending: Floats) -> Counted:
     """Cycles of a point with these stress histories (t,) [MPa]."""
-    stress = membrane + bending if points.face[i] == 0 else membrane - bending
+    side = float(points.side[i])
+    membrane, bending = as_read(membrane, bending, side, load.record)
+    stress = membrane + side * bending
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
     first, second = stress[cycles.start], stress[cycles.end]
@@ -63,7 +66,7 @@ def _long(points: Points, i: int, load: EventLoad) -> Iterator[Counted]:
     def chunks() -> Iterator[tuple[Floats, Floats]]:
         return ((membrane, bending) for membrane, bending in stress_chunks(modal, load.counted.q))
 
-    for piece in long_cycles(chunks, float(points.side[i]), load.residue):
+    for piece in long_cycles(chunks, float(points.side[i]), load.residue, vertex=load.vertex):
         first, second = piece.stress.T
         dm, db = (np.abs(np.diff(part, axis=1)[:, 0]) for part in (piece.membrane, piece.bending))
         yield _judged(points, i, load, (first, second, np.abs(second - first), piece.weight), (dm, db))
@@ -94,6 +97,7 @@ def signal_cycles(load: EventLoad, coordinate: int) -> Iterator[LoadCycles]:
     q, row = load.counted.q, slice(coordinate, coordinate + 1)
     if q.shape[1] <= _SAMPLES_AT_ONCE:
         signal = np.asarray(q[row, :], dtype=np.float64)[0]
+        signal, _ = as_read(signal, np.zeros_like(signal), 1.0, load.record)
         found = rainflow(signal, load.residue)
         yield LoadCycles(signal[found.start], signal[found.end], found.range, found.count)
         return
@@ -103,6 +107,6 @@ def signal_cycles(load: EventLoad, coordinate: int) -> Iterator[LoadCycles]:
     def chunks() -> Iterator[tuple[Floats, Floats]]:
         return ((signal, np.zeros_like(signal)) for (signal,) in stress_chunks(only, q))
 
-    for piece in long_cycles(chunks, 1.0, load.residue):
+    for piece in long_cycles(chunks, 1.0, load.residue, vertex=load.vertex):
         first, second = piece.stress.T
         yield LoadCycles(first, second, np.abs(second - first), piece.weight)

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
+from fatigue.life.counting.record import CountedRecord
 
 Floats = NDArray[np.float64]
 
@@ -41,6 +42,18 @@ def vertex_history(membrane: Floats, bending: Floats, side: float, *, recurs: bo
     move(np.ascontiguousarray(membrane), moved.shift, moved.membrane)
     move(np.ascontiguousarray(bending), moved.shift, moved.bending)
     return moved
+
+
+def as_read(membrane: Floats, bending: Floats, side: float, record: CountedRecord) -> tuple[Floats, Floats]:
+    """Membrane and bending stress (t,) in which the reversals are those that a record is counted by.
+
+    Whoever wants the reversals of a point (structural, membrane and bending stress) finds them here: the reversals of
+    ``membrane + side * bending`` of what is returned, at the same samples for either way of reading them.
+    """
+    if not record.vertex:
+        return membrane, bending
+    moved = vertex_history(membrane, bending, side, recurs=record.recurs)
+    return moved.membrane, moved.bending
 
 
 def spread(laid: Floats, shift: Floats) -> Floats:
