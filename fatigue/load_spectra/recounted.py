@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.counting.long_rainflow import long_cycles
 from fatigue.life.counting.rainflow import rainflow
-from fatigue.life.counting.vertex import as_read
+from fatigue.life.counting.vertex import vertex_history
 from fatigue.life.load_spectrum import LoadCycles
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
@@ -51,7 +51,8 @@ def recounted(points: Points, load: EventLoad) -> Iterator[tuple[int, Counted]]:
 def _counted(points: Points, i: int, load: EventLoad, membrane: Floats, bending: Floats) -> Counted:
     """Cycles of a point with these stress histories (t,) [MPa]."""
     side = float(points.side[i])
-    membrane, bending = as_read(membrane, bending, side, load.record)
+    if load.vertex:
+        membrane, bending, _ = vertex_history(membrane, bending, side, recurs=load.record.recurs)
     stress = membrane + side * bending
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
@@ -97,7 +98,8 @@ def signal_cycles(load: EventLoad, coordinate: int) -> Iterator[LoadCycles]:
     q, row = load.counted.q, slice(coordinate, coordinate + 1)
     if q.shape[1] <= _SAMPLES_AT_ONCE:
         signal = np.asarray(q[row, :], dtype=np.float64)[0]
-        signal, _ = as_read(signal, np.zeros_like(signal), 1.0, load.record)
+        if load.vertex:
+            signal = vertex_history(signal, np.zeros_like(signal), 1.0, recurs=load.record.recurs).membrane
         found = rainflow(signal, load.residue)
         yield LoadCycles(signal[found.start], signal[found.end], found.range, found.count)
         return

@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.record import CountedRecord
 
 Floats = NDArray[np.float64]
 
@@ -36,24 +35,16 @@ class VertexHistory(NamedTuple):
 
 
 def vertex_history(membrane: Floats, bending: Floats, side: float, *, recurs: bool) -> VertexHistory:
-    """Histories (t,) in which each reversal of ``membrane + side * bending`` is replaced by its vertex."""
+    """Histories (t,) in which each reversal of ``membrane + side * bending`` is replaced by its vertex.
+
+    Whoever wants the reversals of a point as they are counted (structural, membrane and bending stress) finds them in
+    these histories, at the same samples as before.
+    """
     moved = VertexHistory(membrane.copy(), bending.copy(), np.zeros(len(membrane)))
     shifts(membrane + side * bending, recurs, moved.shift)
     move(np.ascontiguousarray(membrane), moved.shift, moved.membrane)
     move(np.ascontiguousarray(bending), moved.shift, moved.bending)
     return moved
-
-
-def as_read(membrane: Floats, bending: Floats, side: float, record: CountedRecord) -> tuple[Floats, Floats]:
-    """Membrane and bending stress (t,) in which the reversals are those that a record is counted by.
-
-    Whoever wants the reversals of a point (structural, membrane and bending stress) finds them here: the reversals of
-    ``membrane + side * bending`` of what is returned, at the same samples for either way of reading them.
-    """
-    if not record.vertex:
-        return membrane, bending
-    moved = vertex_history(membrane, bending, side, recurs=record.recurs)
-    return moved.membrane, moved.bending
 
 
 def spread(laid: Floats, shift: Floats) -> Floats:
