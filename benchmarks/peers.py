@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.load import RATE, aluminium, load
 from benchmarks.timing import Row, best_times
-from fatigue.extras import install_command
+from fatigue.files.extras import install_command
 from fatigue.life.counting.block import BlockStress
 from fatigue.life.counting.count import count
 from fatigue.life.counting.record import CountedRecord

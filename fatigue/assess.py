@@ -23,6 +23,7 @@ from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
+from fatigue.pipeline.count.joined.matters import Transitions
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
 from fatigue.pipeline.count.worst import HistogramPoints, WorstPoint, histogram_points, worst_points
 from fatigue.pipeline.forecast.needs import job_needs
@@ -40,7 +41,8 @@ from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.tables.cycles import CycleWriter, KeptPoint, kept_point
+from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
+from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.histogram import HistogramWriter
 from fatigue.pipeline.tables.provenance import provenance_record
@@ -253,7 +255,8 @@ class Tally:
 
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
     ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
-    forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss.
+    forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss,
+    ``transitions`` those at which the order of the events may matter.
     """
 
     total: int
@@ -267,6 +270,7 @@ class Tally:
     samples_per_peak: dict[str, float] = field(default_factory=dict)
     extents: list[LoadExtent] = field(default_factory=list)
     stress: StressExtent = field(default_factory=StressExtent)
+    transitions: Transitions = field(default_factory=Transitions)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -281,6 +285,7 @@ class Tally:
         self.warnings.add(worst_at_corners(group.model, result.mission, worst))
         self.extents += group.model.extents
         self.stress.add(group.model, result)
+        self.transitions.add(group.model.stations, result)
         self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
@@ -294,7 +299,7 @@ def write_tables(
     """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
     wants_histograms = work.histogram != "none"
     with result_tables(folder, key, [*ASSESSED, *["histogram"] * wants_histograms]) as tables, closing(assessed):
-        cycles = CycleWriter(tables["cycles"], work.loads)
+        cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, threads) if wants_histograms else None
         for group in assessed:
             worst = write_group(tables, group, work)
@@ -335,8 +340,9 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     files = [event.history or body.case.path.name for event in body.case.mission.event]
     of_stress = done.stress.warnings(work.loads, body.coordinates, files)
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
+    of_order = done.transitions.warnings(work.plan)
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
-    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra]
+    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order]
 
 
 def one_blas_thread() -> threadpool_limits:

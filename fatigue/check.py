@@ -5,6 +5,7 @@ refused here. What is there is added up to numbers of welds, stations and stress
 counted under a chunk of one record, and from its time follows the time of the whole job.
 """
 
+import math
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -24,6 +25,7 @@ from fatigue.pipeline.forecast.upsampling_trial import foretold, upsampling_text
 from fatigue.pipeline.mission.counted import EventCount, event_counts, listed
 from fatigue.pipeline.mission.events import mean_levels
 from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
+from fatigue.pipeline.mission.in_words import sequence_texts
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
@@ -46,6 +48,7 @@ class CheckedCase:
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
     takes, ``gravity`` is what the mean of q of each event holds of the dead load, where the body has a gravity load;
     ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
+    ``sequences`` say which orders of events are counted.
     ``warnings`` are summed up as in an assessment.
     """
 
@@ -68,6 +71,7 @@ class CheckedCase:
     estimated_result_MB: float  # noqa: N815
     estimate: JobTime
     gravity: tuple[HeldGravity, ...]
+    sequences: tuple[str, ...]
     warnings: tuple[Problem, ...]
 
     @property
@@ -106,6 +110,7 @@ class CheckedCase:
                 *([f"  unit loads       {self.unit_loads}"] * (self.unit_loads > 0)),
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 *(f"    {line}" for line in listed(self.counts)),
+                *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
                 f"  stress samples   {2 * self.samples:.3g}",
                 f"  upsampling       {upsampling_text(self.estimate.upsample)}",
                 *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
@@ -178,6 +183,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         estimated_result_MB=round(needs.result / 1e6, 1),
         estimate=estimate,
         gravity=gravity,
+        sequences=tuple(sequence_texts(plan)),
         warnings=warnings.listed(),
     )
 
@@ -186,8 +192,17 @@ def _gravity_lines(gravity: Sequence[HeldGravity]) -> Iterator[tuple[str, str]]:
     """What the mean of q of the events holds of the dead load, verdict by verdict, in words."""
     verdicts = dict.fromkeys(one.in_words for one in gravity)
     for number, words in enumerate(verdicts):
-        events = few([f"'{one.event}'" for one in gravity if one.in_words == words])
-        yield "" if number else "dead load", f"{words}: {events}"
+        alike = [one for one in gravity if one.in_words == words]
+        told = f"beta {_span([one.beta for one in alike])}, cosine {_span([one.cos for one in alike])}"
+        events = [f"'{one.event}'" for one in alike]
+        yield "" if number else "dead load", f"{words} ({told}): {few(events)}"
+
+
+def _span(numbers: Sequence[float]) -> str:
+    """The smallest and the largest of some numbers, one where they are shown alike; a dash where none is known."""
+    known = [number for number in numbers if not math.isnan(number)]
+    shown = list(dict.fromkeys(f"{number:.3g}" for number in (min(known), max(known)))) if known else ["-"]
+    return " to ".join(shown)
 
 
 def _time_text(needed: JobTime) -> str:

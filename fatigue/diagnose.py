@@ -42,6 +42,7 @@ from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
+from fatigue.why.across_events import attribute_loops
 from fatigue.why.attribute import Attribution, Bins, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.evidence import Evidence
 from fatigue.why.findings import Diagnosis, findings
@@ -121,8 +122,8 @@ def diagnose(
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))
             events.append(attribute_event(points, load, one_pass, body.modes, bins))
-        attribution = Attribution(points, tuple(events))
-        governing = attribution.event_share[worst].argmax(axis=1)
+        attribution = Attribution(points, (*events, *attribute_loops(points, loads, plan)))
+        governing = attribution.event_share[worst, : len(events)].argmax(axis=1)
         verdicts: list[EventVerdicts] = []
         for number, (load, event, said) in enumerate(zip(loads, events, assessed, strict=True)):
             verdicts.append(event_verdicts(body, load, points, event, said, worst[governing == number]))
@@ -175,12 +176,12 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
         "damage_dirlik_per_pass", "damage_tb_per_pass", "damage_same_ratio_per_pass", "bending_ratio",
         "kurtosis", "samples_per_peak", "damage_tb_whole_per_pass", "outside_share",
     ]  # fmt: skip
-    events = len(plan.passes)
-    expected, found = row_count(folder, "nodes") * events, row_count(folder, "damage")
+    events, of_point = len(plan.passes), len(plan.names)
+    expected, found = row_count(folder, "nodes") * of_point, row_count(folder, "damage")
     if found != expected:
         what = f"has {found} rows where the points and events of the result make {expected}"
         raise DataError(Problem("other_points", str(folder / "damage.parquet"), what, "Run the assessment again"))
-    table = read_rows(folder, "damage", (rows[:, None] * events + np.arange(events)).ravel(), columns).to_pandas()
+    table = read_rows(folder, "damage", (rows[:, None] * of_point + np.arange(events)).ravel(), columns).to_pandas()
     return [table[number::events].reset_index(drop=True) for number in range(events)]
 
 

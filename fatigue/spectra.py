@@ -125,7 +125,7 @@ def spectra(
 
         stage("counting the cycles of %d points", len(found))
         blocks = [slice(i, i + POINTS_AT_ONCE) for i in range(0, len(found), POINTS_AT_ONCE)]
-        extent = Extent().over(in_order(lambda block: extents(found.of(block), loads), blocks, threads))
+        extent = Extent().over(in_order(lambda block: extents(found.of(block), loads, plan), blocks, threads))
         largest = Extent() if measured is None else Extent(range=float(measured.range.max(initial=0.0)))
         sorted_into = classes_over(extent.over([largest]), classes, of_edges)
         warnings = outside_warnings(extent.over([largest]), sorted_into, of_edges)
@@ -143,7 +143,7 @@ def spectra(
         of_signals = np.array([slope]) if given is None else given
         signals: list[SignalLine] = []
         with table_writer(finished, "signals", result) as table:
-            for of_signal in all_signal_spectra(body, loads, counting.passes_per_km, classes, of_signals):
+            for of_signal in all_signal_spectra(body, loads, plan, classes, of_signals):
                 table.write(rows_of_signal(of_signal, float(of_signals[0])))
                 signals.append(signal_line(of_signal))
 
@@ -164,7 +164,7 @@ def spectra(
         classes=len(sorted_into.ranges) - 1,
         exponents=() if given is None else tuple(given.tolist()),
         target_km=plan.target_km,
-        at_points=tuple(at_points),
+        at_points=tuple(sorted(at_points, key=lambda point: -point.damage_per_km)),
         signals=tuple(signals),
         warnings=tuple(warnings),
     )
@@ -182,15 +182,10 @@ class _Counting:
     exponents: Floats | None
     measured: Measured | None
 
-    @property
-    def passes_per_km(self) -> list[float]:
-        """Passes of every event in one km [1/km]."""
-        return [one.passes_per_km for one in self.plan.passes]
-
     def of(self, block: slice) -> tuple[dict[str, dict[str, Any]], list[PointLine]]:
         """Rows of all tables for some points, and what is said of them."""
         some, given, target_km = self.points.of(block), self.exponents, self.plan.target_km
-        found = list(spectra_of_points(some, self.loads, self.passes_per_km, self.classes, given))
+        found = list(spectra_of_points(some, self.loads, self.plan, self.classes, given))
         exponents = [exponents_of(some, i, given) for i in range(len(some))]
         for i, (own, row) in enumerate(zip(found, self.rows[block].tolist(), strict=True)):
             here = None if self.measured is None else self.measured.at(row)

@@ -26,6 +26,7 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("readers/foreign", "FE files"),
     ("readers/convert", "Conversion"),
     ("weld", "Weld lines and their elements"),
+    ("life/bench", "Bench programmes"),
     ("life", "Signals, records and curves"),
     ("spectrum", "Signals, records and curves"),
     ("pipeline", "Assessment"),
@@ -33,6 +34,8 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("report", "Result folders and documents"),
     ("documents", "Result folders and documents"),
     ("verify", "Result folders and documents"),
+    ("decide", "Bench programmes"),
+    ("bench", "Bench programmes"),
     ("", "Commands and arguments"),
 )
 CASE_TABLES = {  # of case.toml, and the models that describe them

@@ -13,6 +13,7 @@ import pytest
 
 from tests.readers.convert.audit.test_audit import static_results
 from tests.readers.op2_writer import modal_op2
+from tests.readers.static_files import static_files
 from tests.test_cli import assess, fatigue
 
 NASTRAN = Path(__file__).parents[1] / "data" / "nastran"
@@ -215,3 +216,20 @@ def test_register_and_case_edited_then_assessed(converted, tmp_path):
     assert checked.returncode == 0, checked.stderr
     assert "welds            24 in 24 straight parts" in checked.stdout
     assert "not assessed     1 excluded, 5 candidates" in checked.stdout
+
+
+def test_static_subcases_become_unit_loads(tmp_path):
+    """What is said of them, and the case that is refused until it says what events have of them."""
+    static_files(tmp_path)
+    done = fatigue(
+        "convert", "--mesh", tmp_path / "tee.bdf", "--forces", tmp_path / "modes.op2", "--unit-loads",
+        tmp_path / "static.op2", "--coordinates", tmp_path / "straight.csv", "--interface-modes", "5",
+        "--unit-load-name", "1", "tunnel", "5", "kPa", "-o", tmp_path / "body",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert f"unit load tunnel: 5 kPa is the load of subcase 1 of {tmp_path / 'static.op2'}" in done.stdout
+    assert "unit load coupler_draft is the load of subcase 2" in done.stdout
+    assert "5 modes, 704 force rows, 3 of 3 weld lines assessed" in done.stdout
+    refused = fatigue("check", tmp_path / "body" / "case.toml")
+    assert refused.returncode == 3
+    assert "the unit load 'tunnel' is not given" in refused.stderr

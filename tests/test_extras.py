@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks import peers
 from fatigue.errors import DataError
-from fatigue.extras import REQUIREMENTS, install_command
+from fatigue.files.extras import REQUIREMENTS, install_command
 from fatigue.pipeline.run.cluster import cluster_executor
 
 ROOT = Path(__file__).parents[1]

@@ -17,6 +17,7 @@ from fatigue.report.files.export import write_csv
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import report_page, write_report
 from fatigue.results import read_rows, row_count, row_groups, worst_toes
+from fatigue.spectra import spectra
 from tests.small_case import small_case
 
 
@@ -69,6 +70,7 @@ def test_a_case_may_be_its_path(result):
         lambda folder: fatigue.result_summary(folder).as_text(),
         lambda folder: fatigue.recount(folder, sample=2).passed,
         lambda folder: diagnose(folder).as_text(),
+        lambda folder: spectra(folder).as_text(),
         lambda folder: [group.num_rows for group in row_groups(folder, "nodes")],
         lambda folder: read_rows(folder, "nodes", worst_toes(folder, 2)).to_pydict(),
         lambda folder: row_count(folder, "damage"),
@@ -148,11 +150,13 @@ def test_senseless_arguments_are_refused(result, call, words):
         fatigue.result_summary,
         fatigue.recount,
         diagnose,
+        spectra,
         write_example,
         write_report,
         write_vtp,
         write_csv,
         lambda given: fatigue.read_table(given, "nodes"),
+        lambda given: spectra("result", points=given or 3),
         lambda given: assess(given, "result"),
         lambda given: ConvertOptions(given, "a.bdf", "out"),
         lambda given: ConvertOptions("a.op2", "a.bdf", "out", unit_loads=(given,)),

@@ -23,7 +23,7 @@ def given_loads(case: Case, event: Event, columns: Collection[str]) -> tuple[Loa
         if load.name in of_event:
             found.append(_stated(case, of_event[load.name]))
         elif f"u_{load.name}" in columns:
-            found.append(LoadSource(load.name, "column", column=f"u_{load.name}"))
+            found.append(LoadSource(load.name, "column", column=f"u_{load.name}", unit=load.unit))
         elif load.name in of_mission:
             found.append(LoadSource(load.name, "constant", constant=of_mission[load.name]))
         else:
@@ -47,6 +47,7 @@ def _stated(case: Case, load: GivenLoad) -> LoadSource:
         scale=load.scale,
         shift_s=load.shift_s,
         interpolation=load.interpolation,
+        unit=load.unit,
     )
 
 

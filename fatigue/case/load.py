@@ -12,6 +12,7 @@ from pydantic import BaseModel, ValidationError
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
+from fatigue.case.sequence_problems import sequence_problems
 from fatigue.case.sequences import Sequence
 from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
@@ -56,6 +57,7 @@ def load_case(path: Path | str) -> Case:
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
+        problems += sequence_problems(raw)
         problems += unit_load_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:

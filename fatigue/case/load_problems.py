@@ -18,6 +18,14 @@ def forms_of_forces(loads: Sequence[UnitLoad], *, by_elements: bool) -> Iterator
             yield clash(f"unit_load[{number}].{lacks}", what, f"Give the {has} of the unit load")
 
 
+def one_gravity(loads: Sequence[UnitLoad]) -> Iterator[Problem]:
+    """Refusal of a second dead load: the mean of q is compared with one field of forces."""
+    names = [load.name for load in loads if load.role == "gravity"]
+    if len(names) > 1:
+        what = f"'{names[0]}' and '{names[1]}' both have the role gravity, and a body has one dead load"
+        yield clash("unit_load.role", what, "Keep it for the load of the whole body in the simulation")
+
+
 def loads_of_event(loads: Sequence[GivenLoad], *, has_history: bool) -> Iterator[Problem]:
     """Refusals of what an event with or without a history cannot give of its unit loads."""
     lengths = {load.name: len(load.values) for load in loads if load.values is not None}

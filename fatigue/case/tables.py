@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, field_validator
 
-from fatigue.case.load_problems import forms_of_forces, loads_of_event
+from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
 from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.sequences import Sequence
 from fatigue.case.table import NotNegative, Positive, Table, Text
@@ -80,6 +80,7 @@ class Body(Table):
             what = f"the key is missing although elements = {self.elements!r} is given"
             yield absent("nodes", what, "Give the file of the nodes the elements refer to")
         yield from forms_of_forces(self.unit_load, by_elements=self.element_forces is not None)
+        yield from one_gravity(self.unit_load)
 
 
 class Curve(Table):

@@ -4,6 +4,7 @@ A class holds [lower, upper), the last one its upper edge as well. Counts and po
 classes say only where a cycle is listed.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Self
 
@@ -31,6 +32,10 @@ class LoadCycles:
     second: Floats
     range: Floats
     count: Floats
+
+    def raised(self, constant: float) -> Self:
+        """The same cycles on a constant; ranges keep their last bit."""
+        return type(self)(self.first + constant, self.second + constant, self.range, self.count)
 
     @property
     def lowest(self) -> Floats:
@@ -129,6 +134,20 @@ def no_spectrum(classes: int) -> RangeSpectrum:
     return RangeSpectrum(np.zeros(classes), np.zeros(classes), np.full(classes, np.nan), np.zeros(classes))
 
 
+def summed(parts: Sequence[RangeSpectrum]) -> RangeSpectrum:
+    """Spectra of several events in one, in the same classes; what adds up to nothing but rounding is nothing."""
+    sums = {}
+    for name in ("count", "power_sum", "reached"):
+        values = np.stack([getattr(part, name) for part in parts])
+        sums[name] = _rounded(values.sum(axis=0), np.abs(values).sum(axis=0))
+    return RangeSpectrum(largest=np.fmax.reduce([part.largest for part in parts]), **sums)
+
+
+def _rounded(net: Floats, gross: Floats) -> Floats:
+    """Sums of numbers of both signs, 0 where only their rounding is left."""
+    return np.where(np.abs(net) > ROUNDING * gross, net, 0.0)
+
+
 def cells(row: Indices, column: Indices, count: Floats, columns: int) -> Cells:
     """Sum of cycles cell by cell, row by row; what lies in no class (-1) is left out, and so are empty cells."""
     inside = (row >= 0) & (column >= 0)
@@ -143,7 +162,7 @@ def joined_cells(parts: list[Cells], columns: int) -> Cells:
     row, column, count = (np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Cells))
     net, gross = cells(row, column, count, columns), cells(row, column, np.abs(count), columns)
     of_gross = np.searchsorted(gross.row * columns + gross.column, net.row * columns + net.column)
-    held = np.abs(net.count) > ROUNDING * gross.count[of_gross]
+    held = _rounded(net.count, gross.count[of_gross]) != 0.0
     return Cells(net.row[held], net.column[held], net.count[held])
 
 

@@ -18,7 +18,9 @@ class Pass:
 
     ``samples`` is how many of its record are kept; ``length`` is the distance of the pass [km], None for an event
     counted by number; ``share`` its part of the mileage; ``per_1000_km`` its number in 1000 km. ``refined``: by how
-    much the record is upsampled so that no unit load of the event is sampled more finely; 0: it never is upsampled.
+    much the record is upsampled so that no unit load of the event is sampled more finely; 0: it never is upsampled. It
+    recurs within a stint, or is ``half``; ``stints_per_1000_km`` is how often it follows on other events in an order
+    that is not known, None: it is not said.
     """
 
     event: str
@@ -27,6 +29,8 @@ class Pass:
     share: float | None
     per_1000_km: float | None
     refined: int = 1
+    half: bool = False
+    stints_per_1000_km: float | None = None
 
     def factor(self, asked: int) -> int:
         """By how much the record is upsampled in all, where ``asked`` is by how much all events are."""
@@ -42,13 +46,43 @@ class Pass:
 
 
 @dataclass(frozen=True, slots=True)
+class Loop:
+    """Events in a known order that is run again and again: ``order`` has the number of the event of each stint."""
+
+    name: str
+    order: tuple[int, ...]
+    per_1000_km: float
+
+    @property
+    def runs_per_km(self) -> float:
+        """Runs of the loop in one km of the mission [1/km]."""
+        return self.per_1000_km / 1000.0
+
+
+@dataclass(frozen=True, slots=True)
 class Plan:
-    """The mission in numbers: passes per km of every event, and what must be reached."""
+    """The mission in numbers: passes per km of every event, runs of every loop, and what must be reached."""
 
     passes: tuple[Pass, ...]
     target_km: float
     km_per_year: float
     damage_limit: float
+    loops: tuple[Loop, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the events, and of the loops behind them."""
+        return (*(one.event for one in self.passes), *(loop.name for loop in self.loops))
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """Passes per km of the events, and runs per km of the loops behind them [1/km]."""
+        return np.array([*(one.passes_per_km for one in self.passes), *(loop.runs_per_km for loop in self.loops)])
+
+    @property
+    def joins_events(self) -> bool:
+        """Whether cycles across events are looked at: in loops, or in an order that is not known."""
+        return bool(self.loops) or any(one.stints_per_1000_km is not None for one in self.passes)
 
 
 def mission_sum(per_pass: NDArray[np.float64], passes: Sequence[Pass]) -> NDArray[np.float64]:

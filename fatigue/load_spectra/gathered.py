@@ -16,10 +16,13 @@ from fatigue.life.load_spectrum import (
     power_sums,
     range_mean,
     range_spectrum,
+    summed,
     up_crossings,
 )
+from fatigue.life.mission import Plan
 from fatigue.load_spectra.classes import Classes, Extent, extent_of
 from fatigue.load_spectra.recounted import Counted, recounted
+from fatigue.load_spectra.sequences import loop_cycles, residues_of
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.why.points import Points
 
@@ -44,7 +47,7 @@ class PointSpectra:
     power_sum : (x,) sum n S**m for each exponent [MPa**m / km]
     del_MPa : (x,) damage-equivalent range [MPa], and in words against what
     damage : Miner sum [1/km]
-    bending_ratio : of the cycles, weighted with their damage; NaN where nothing damages
+    damage_ratio : the same sum with the bending ratio of each cycle [1/km]
     """
 
     event: str
@@ -58,7 +61,12 @@ class PointSpectra:
     del_MPa: Floats  # noqa: N815
     del_reference: str
     damage: float
-    bending_ratio: float
+    damage_ratio: float
+
+    @property
+    def bending_ratio(self) -> float:
+        """Bending ratio of the cycles, weighted with their damage; NaN where nothing damages in all."""
+        return self.damage_ratio / self.damage if self.damage > 0.0 else np.nan
 
     @property
     def max_range(self) -> float:
@@ -93,28 +101,42 @@ class _Sums:
         self.ratio += float(damage @ counted.bending_ratio)
 
 
-def extents(points: Points, loads: Sequence[EventLoad]) -> Extent:
-    """How far the cycles of some points reach under all events."""
-    return Extent().over(extent_of(counted.cycles) for load in loads for _, counted in recounted(points, load))
+def extents(points: Points, loads: Sequence[EventLoad], plan: Plan) -> Extent:
+    """How far the cycles of some points reach under all events, and across them."""
+    events = Extent().over(extent_of(counted.cycles) for load in loads for _, counted in recounted(points, load))
+    residues = residues_of(points, loads, plan.loops)
+    return events.over(
+        extent_of(counted.cycles)
+        for loop in plan.loops
+        for i in range(len(points))
+        for counted in loop_cycles(points, i, loop, loads, residues)
+    )
 
 
 def spectra_of_points(
-    points: Points, loads: Sequence[EventLoad], passes_per_km: Sequence[float], classes: Classes, given: Floats | None
+    points: Points, loads: Sequence[EventLoad], plan: Plan, classes: Classes, given: Floats | None
 ) -> Iterator[list[PointSpectra]]:
-    """Spectra of each point under every event, and under the mission as the last.
+    """Spectra of each point under every event, across the events of every loop, and under the mission as the last.
 
     ``given`` are exponents of power sums and equivalent ranges; None: the first slope of the curve of each point.
     """
     exponents = [exponents_of(points, i, given) for i in range(len(points))]
     of_events: list[list[PointSpectra]] = [[] for _ in range(len(points))]
-    for load, weight in zip(loads, passes_per_km, strict=True):
+    for load, one_pass in zip(loads, plan.passes, strict=True):
         sums = [_nothing(classes, len(own)) for own in exponents]
         for i, counted in recounted(points, load):
             sums[i].add(counted, classes, exponents[i], first_slope(points, i))
         for i, own in enumerate(sums):
-            cycles = ALONE_HZ * load.duration
-            equivalent = damage_equivalent(own.power_sum, exponents[i], cycles)
-            of_events[i].append(_of_event(own, load.counted.event, weight, equivalent, classes))
+            alone = damage_equivalent(own.power_sum, exponents[i], ALONE_HZ * load.duration), f"{ALONE_HZ:g} Hz"
+            of_events[i].append(_of_event(own, (load.counted.event, one_pass.passes_per_km), alone, classes))
+    residues = residues_of(points, loads, plan.loops)
+    for loop in plan.loops:
+        for i, exponent in enumerate(exponents):
+            own = _nothing(classes, len(exponent))
+            for counted in loop_cycles(points, i, loop, loads, residues):
+                own.add(counted, classes, exponent, first_slope(points, i))
+            alone = damage_equivalent(own.power_sum, exponent, 1.0), "1 per run"
+            of_events[i].append(_of_event(own, (loop.name, loop.runs_per_km), alone, classes))
     for i, events in enumerate(of_events):
         yield [*events, mission_of(events, exponents[i], classes)]
 
@@ -134,11 +156,15 @@ def _nothing(classes: Classes, exponents: int) -> _Sums:
     return _Sums(of_classes, [], [], levels, 0.0, np.zeros(exponents), 0.0, 0.0)
 
 
-def _of_event(own: _Sums, event: str, weight: float, equivalent: Floats, classes: Classes) -> PointSpectra:
-    """Spectra of an event per km of the mission, from those of one pass."""
+def _of_event(own: _Sums, event: tuple[str, float], alone: tuple[Floats, str], classes: Classes) -> PointSpectra:
+    """Spectra of an event per km of the mission, from those of one pass.
+
+    ``event`` is its name and its passes per km, ``alone`` its damage-equivalent range and against what.
+    """
     columns = len(classes.levels) - 1
+    name, weight = event
     return PointSpectra(
-        event=event,
+        event=name,
         passes_per_km=weight,
         ranges=own.ranges.times(weight),
         range_mean=joined_cells(own.range_mean, columns).times(weight),
@@ -146,26 +172,22 @@ def _of_event(own: _Sums, event: str, weight: float, equivalent: Floats, classes
         crossings=weight * own.crossings,
         cycles=weight * own.cycles,
         power_sum=weight * own.power_sum,
-        del_MPa=equivalent,
-        del_reference=f"{ALONE_HZ:g} Hz",
+        del_MPa=alone[0],
+        del_reference=alone[1],
         damage=weight * own.damage,
-        bending_ratio=own.ratio / own.damage if own.damage > 0.0 else np.nan,
+        damage_ratio=weight * own.ratio,
     )
 
 
 def mission_of(events: Iterable[PointSpectra], exponents: Floats, classes: Classes) -> PointSpectra:
     """Sum over all events, per km of the mission."""
     every, columns = list(events), len(classes.levels) - 1
-    ranges = no_spectrum(len(classes.ranges) - 1)
-    for event in every:
-        ranges = ranges + event.ranges
     power_sum = np.sum([event.power_sum for event in every], axis=0)
     damage = sum(event.damage for event in every)
-    ratio = sum(event.damage * event.bending_ratio for event in every if event.damage != 0.0)
     return PointSpectra(
         event=MISSION,
         passes_per_km=np.nan,
-        ranges=ranges,
+        ranges=summed([event.ranges for event in every]),
         range_mean=joined_cells([e.range_mean for e in every if e.range_mean is not None], columns),
         from_to=joined_cells([e.from_to for e in every if e.from_to is not None], columns),
         crossings=np.sum([e.crossings for e in every if e.crossings is not None], axis=0),
@@ -174,5 +196,5 @@ def mission_of(events: Iterable[PointSpectra], exponents: Floats, classes: Class
         del_MPa=damage_equivalent(power_sum, exponents, 1.0),
         del_reference="1 per km",
         damage=damage,
-        bending_ratio=ratio / damage if damage > 0.0 else np.nan,
+        damage_ratio=sum(event.damage_ratio for event in every),
     )

@@ -104,7 +104,6 @@ def measured_spectra(
     own = np.nan_to_num(mission.bending_ratio)
     r = np.full(len(S), own) if measured.bending_ratio is None else measured.bending_ratio
     damage = per_km * cycle_damage(equivalent_range(S, points.size[i], rule.ratio_factor(r), 1.0), rule.law)
-    total = float(damage.sum())
     power_sum = power_sums(cycles, exponents)
     return PointSpectra(
         event=MEASURED,
@@ -117,8 +116,8 @@ def measured_spectra(
         power_sum=power_sum,
         del_MPa=damage_equivalent(power_sum, exponents, 1.0),
         del_reference="1 per km",
-        damage=total,
-        bending_ratio=float(damage @ r) / total if total > 0.0 else own,
+        damage=float(damage.sum()),
+        damage_ratio=float(damage @ r),
     )
 
 

@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.tables import Table, open_table
-from fatigue.results import assessed, read_rows, read_welds, rows_of_welds
+from fatigue.results import assessed, number_groups, read_welds
 from fatigue.why.points import Chosen
 
 MOST_POINTS = 2000  # of a body of 1e6 points and 13 events, 64 classes of all would be 20 GB
 FACES = ("top", "bottom")
-_KEY = ["part", "order", "surface"]
+Key = tuple[str, int, int, str]  # weld, part, order, surface
 
 
 def worst_of_welds(folder: Path) -> Chosen:
@@ -82,15 +82,18 @@ def _few(problems: list[Problem], file: str, most: int = 10) -> list[Problem]:
     return [*problems[:most], Problem("unknown_point", file, what, "Take the keys from nodes.parquet", more)]
 
 
-def _rows_of(folder: Path, keys: list[tuple[str, int, int, str]]) -> tuple[list[int], list[int]]:
-    """Row of each key in the table of nodes, -1 where there is none, and the node there."""
-    known: dict[tuple[str, int, int, str], tuple[int, int]] = {}
-    wanted = dict.fromkeys(weld for weld, *_ in keys)
-    for weld, rows in rows_of_welds(folder, "nodes", list(wanted)).items():
-        table = read_rows(folder, "nodes", rows, [*_KEY, "node"])
-        columns = (table[name].to_pylist() for name in (*_KEY, "node"))
-        for row, part, order, face, node in zip(rows.tolist(), *columns, strict=True):
-            known[weld, part, order, face] = (row, node)
+def _rows_of(folder: Path, keys: list[Key]) -> tuple[list[int], list[int]]:
+    """Row of each key in the table of nodes, -1 where there is none, and the node there; the table is read once."""
+    wanted, known, first = set(keys), dict[Key, tuple[int, int]](), 0
+    welds = list(dict.fromkeys(weld for weld, *_ in keys))
+    for group in number_groups(folder, "nodes", ("part", "order", "node"), {"weld": welds, "surface": FACES}):
+        rows = np.flatnonzero(group["weld"] >= 0)
+        columns = (group[name][rows].tolist() for name in ("weld", "part", "order", "surface", "node"))
+        for row, weld, part, order, face, node in zip(rows.tolist(), *columns, strict=True):
+            key = welds[weld], part, order, FACES[face]
+            if key in wanted:
+                known[key] = (first + row, node)
+        first += len(group["weld"])
     found = [known.get(key, (-1, -1)) for key in keys]
     return [row for row, _ in found], [node for _, node in found]
 

@@ -56,8 +56,8 @@ def _counted(points: Points, i: int, load: EventLoad, membrane: Floats, bending:
     stress = membrane + side * bending
     cycles = rainflow(stress, load.residue)
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
-    first, second = stress[cycles.start], stress[cycles.end]
-    return _judged(points, i, load, (first, second, cycles.range, cycles.count), (dm, db))
+    found = LoadCycles(stress[cycles.start], stress[cycles.end], cycles.range, cycles.count)
+    return judged(points, i, found.raised(constant_of(points, i, load)), dm, db)
 
 
 def _long(points: Points, i: int, load: EventLoad) -> Iterator[Counted]:
@@ -70,20 +70,15 @@ def _long(points: Points, i: int, load: EventLoad) -> Iterator[Counted]:
     for piece in long_cycles(chunks, float(points.side[i]), load.residue, vertex=load.vertex):
         first, second = piece.stress.T
         dm, db = (np.abs(np.diff(part, axis=1)[:, 0]) for part in (piece.membrane, piece.bending))
-        yield _judged(points, i, load, (first, second, np.abs(second - first), piece.weight), (dm, db))
+        found = LoadCycles(first, second, np.abs(second - first), piece.weight)
+        yield judged(points, i, found.raised(constant_of(points, i, load)), dm, db)
 
 
-def _judged(
-    points: Points, i: int, load: EventLoad, found: tuple[Floats, Floats, Floats, Floats], ranges: tuple[Floats, Floats]
-) -> Counted:
-    """Cycles with their damage; the constant of the event is on their levels and not in their ranges."""
-    first, second, S, count = found
-    level = constant_of(points, i, load)
-    cycles = LoadCycles(first + level, second + level, S, count)
-    rule, r = points.rule[i], bending_ratio(*ranges)
-    lowest = cycles.lowest
-    f_M = rule.mean_stress_factor(lowest, lowest + S)
-    dS = equivalent_range(S, points.size[i], rule.ratio_factor(r), f_M)
+def judged(points: Points, i: int, cycles: LoadCycles, membrane_range: Floats, bending_range: Floats) -> Counted:
+    """Cycles of a point with the damage of each, from their ranges of membrane and bending stress [MPa]."""
+    rule, r, lowest = points.rule[i], bending_ratio(membrane_range, bending_range), cycles.lowest
+    f_M = rule.mean_stress_factor(lowest, lowest + cycles.range)
+    dS = equivalent_range(cycles.range, points.size[i], rule.ratio_factor(r), f_M)
     return Counted(cycles, cycle_damage(dS, rule.law), r)
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.life.load_spectrum import Cells
@@ -53,13 +54,19 @@ class _Named:
         which = np.repeat(np.arange(len(self.spectra)), rows)
         at, points = self.point[which], self.points
         return {
-            "weld": coded(at, points.weld.tolist()),
+            "weld": _names(at, points.weld.tolist()),
             "part": points.part[at],
             "node": points.node[at],
             "order": points.order[at],
             "surface": coded(points.face[at], FACES),
-            "event": coded(which, [of.event for of in self.spectra]),
+            "event": _names(which, [of.event for of in self.spectra]),
         }
+
+
+def _names(which: NDArray[np.int64], names: Sequence[str]) -> pa.DictionaryArray:
+    """Text column ``names[which]``; a name that comes several times has one code."""
+    place = {name: i for i, name in enumerate(dict.fromkeys(names))}
+    return coded(np.array([place[name] for name in names], dtype=np.int32)[which], list(place))
 
 
 def _spectrum(named: _Named, classes: Classes) -> dict[str, Any]:

@@ -12,8 +12,10 @@ from fatigue.life.load_spectrum import (
     no_spectrum,
     power_sums,
     range_spectrum,
+    summed,
     uniform_edges,
 )
+from fatigue.life.mission import Plan
 from fatigue.load_spectra.gathered import ALONE_HZ, MISSION
 from fatigue.load_spectra.recounted import signal_cycles
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -71,7 +73,7 @@ def signal_spectra(
     signal: Signal,
     coordinate: int,
     loads: Sequence[EventLoad],
-    passes_per_km: Sequence[float],
+    plan: Plan,
     classes: int,
     exponents: Floats,
 ) -> SignalSpectra:
@@ -85,11 +87,8 @@ def signal_spectra(
             ranges[e] = ranges[e] + range_spectrum(piece, edges, float(exponents[0]))
             cycles[e] += piece.count.sum()
             power_sum[e] += power_sums(piece, exponents)
-    weights = np.array(passes_per_km)
-    weighted = [of.times(weight) for of, weight in zip(ranges, passes_per_km, strict=True)]
-    mission = no_spectrum(classes)
-    for of in weighted:
-        mission = mission + of
+    weights = np.array([one.passes_per_km for one in plan.passes])
+    weighted = [of.times(weight) for of, weight in zip(ranges, weights.tolist(), strict=True)]
     alone = np.array([ALONE_HZ * load.duration for load in loads])
     equivalent = np.stack([damage_equivalent(sums, exponents, n) for sums, n in zip(power_sum, alone, strict=True)])
     total = weights @ power_sum
@@ -97,7 +96,7 @@ def signal_spectra(
         signal=signal,
         edges=edges,
         event=(*(load.counted.event for load in loads), MISSION),
-        ranges=(*weighted, mission),
+        ranges=(*weighted, summed(weighted)),
         cycles=np.append(weights * cycles, weights @ cycles),
         power_sum=np.vstack([weights[:, None] * power_sum, total]),
         equivalent=np.vstack([equivalent, damage_equivalent(total, exponents, 1.0)]),
@@ -105,8 +104,8 @@ def signal_spectra(
 
 
 def all_signal_spectra(
-    body: Body, loads: Sequence[EventLoad], passes_per_km: Sequence[float], classes: int, exponents: Floats
+    body: Body, loads: Sequence[EventLoad], plan: Plan, classes: int, exponents: Floats
 ) -> Iterator[SignalSpectra]:
     """Range spectra of every coordinate, one after the other."""
     for coordinate, signal in enumerate(signals_of(body)):
-        yield signal_spectra(signal, coordinate, loads, passes_per_km, classes, exponents)
+        yield signal_spectra(signal, coordinate, loads, plan, classes, exponents)

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
-from fatigue.load_spectra.gathered import PointSpectra
+from fatigue.load_spectra.gathered import MISSION, PointSpectra
+from fatigue.load_spectra.measured import MEASURED
 from fatigue.load_spectra.rows import FACES, equivalents
 from fatigue.load_spectra.signals import SignalSpectra
 from fatigue.shown import shortened, visible
@@ -45,7 +46,7 @@ class EventLine:
 
 @dataclass(frozen=True, slots=True)
 class PointLine:
-    """One point with its events, the mission behind them."""
+    """One point with its events, the mission behind them, and what was measured last."""
 
     weld: str
     part: int
@@ -54,12 +55,18 @@ class PointLine:
     surface: str
     events: tuple[EventLine, ...]
 
+    @property
+    def damage_per_km(self) -> float:
+        """Miner sum of the mission [1/km]."""
+        return next(event.damage_per_km for event in self.events if event.event == MISSION)
+
 
 @dataclass(frozen=True, slots=True)
 class SignalLine:
-    """One coordinate of the body under the whole mission, in its own unit."""
+    """One coordinate of the body under the whole mission, in its own unit; ``unit_load`` is empty for a mode."""
 
     signal: str
+    unit_load: str
     unit: str
     cycles_per_km: float
     largest: float | None
@@ -69,7 +76,7 @@ class SignalLine:
 
 @dataclass(frozen=True, slots=True)
 class LoadSpectra:
-    """The load spectra of a result in short; all numbers are in the tables of its folder.
+    """The load spectra of a result in short, worst point first; all numbers are in the tables of its folder.
 
     ``points`` says which points were chosen, ``exponents`` are those given, none: the first slope of each curve.
     """
@@ -99,6 +106,7 @@ class LoadSpectra:
             textwrap.fill(said, WIDTH),
             *(_point_text(point) for point in self.at_points[:POINTS_TOLD]),
         ]
+        parts += _signals_text([line for line in self.signals if line.unit_load])
         if (more := len(self.at_points) - POINTS_TOLD) > 0:
             parts.append(f"{more} more points are in the tables.")
         return "\n\n".join(parts)
@@ -119,7 +127,22 @@ def _point_text(point: PointLine) -> str:
             S_eq, alone = of.equivalent_range_2e6_MPa, of.del_MPa
             equivalent = (f"{of.exponent:.4g}", _number(S_eq), _number(half), _number(alone))
             lines.append(_columns((*own, *equivalent, _number(event.damage_per_km) if i == 0 else "")))
+    by_name = {event.event: event.damage_per_km for event in point.events}
+    if MEASURED in by_name and by_name[MISSION] > 0.0:
+        lines.append(f"  damage of (measured) / (mission): {_number(by_name[MEASURED] / by_name[MISSION])}")
     return "\n".join(lines)
+
+
+def _signals_text(signals: Sequence[SignalLine]) -> list[str]:
+    """A table of the unit loads under the mission; modes are in the tables only."""
+    if not signals:
+        return []
+    lines = ["Unit loads under the mission, each in its own unit", _columns(("load", "cycles/km", "largest", "DEL"))]
+    for line in signals:
+        name = shortened(visible(f"{line.unit_load} [{line.unit}]"))
+        equivalent = ", ".join(_number(value) for value in line.del_per_km)
+        lines.append(_columns((name, _number(line.cycles_per_km), _number(line.largest), equivalent)))
+    return ["\n".join(lines)]
 
 
 def _columns(cells: Sequence[str]) -> str:
@@ -167,6 +190,7 @@ def signal_line(spectra: SignalSpectra) -> SignalLine:
     largest = float(np.fmax.reduce(spectra.ranges[-1].largest, initial=np.nan))
     return SignalLine(
         signal=spectra.signal.column,
+        unit_load=spectra.signal.unit_load,
         unit=spectra.signal.unit,
         cycles_per_km=float(spectra.cycles[-1]),
         largest=_or_none(largest),

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.case import Case, Event
 from fatigue.case.given_loads import given_loads
@@ -15,7 +16,8 @@ from fatigue.files.hashes import sha256
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.records.unit_load import LoadSource
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
-from fatigue.readers.neutral.event.event_record import EventFiles, column_names, read_event
+from fatigue.readers.neutral.event.event_record import EventFiles, read_event
+from fatigue.readers.neutral.event.load_units import column_names
 from fatigue.readers.neutral.long_history import is_long
 from fatigue.readers.neutral.register.weld_register import REGISTER
 from fatigue.results import case_of
@@ -45,8 +47,7 @@ class FoundInputs:
         ------
         DataError : the file is not there any more or is not the one that was assessed
         """
-        path = self._unchanged(event.history) if event.history else None
-        sources = given_loads(self.case, event, column_names(path)) if self.case.body.unit_load else ()
+        path, sources = self._sources(event)
         files = EventFiles(
             event=event.name,
             path=path,
@@ -58,6 +59,21 @@ class FoundInputs:
             strict=False,
         )
         return read_event(files, scratch if path and is_long(path) else None).history
+
+    def constants(self, event: Event) -> NDArray[np.float64]:
+        """Constants of an event beside its samples, (c,): 0 of all modes, and what is given of constant unit loads.
+
+        Raises
+        ------
+        DataError : the file is not there any more or is not the one that was assessed
+        """
+        _, sources = self._sources(event)
+        return np.concatenate([np.zeros(len(self.modes)), [source.constant for source in sources]])
+
+    def _sources(self, event: Event) -> tuple[Path | None, tuple[LoadSource, ...]]:
+        """The record of an event, and where it has each unit load from."""
+        path = self._unchanged(event.history) if event.history else None
+        return path, given_loads(self.case, event, column_names(path)) if self.case.body.unit_load else ()
 
     def _found(self, source: LoadSource) -> LoadSource:
         """The source of a unit load, its file found and unchanged."""

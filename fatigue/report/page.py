@@ -22,6 +22,8 @@ from fatigue.report.sections import method, tables
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
@@ -84,7 +86,7 @@ def report_page(
     missing: list[Problem] = []
     details, steps = _details(result, inputs, missing)
     body = _body(inputs, missing)
-    why = read_why(folder, result)
+    why, spectra = read_why(folder, result), read_load_spectra(folder, result)
     for problem in missing:
         log.warning("the report lacks something: %s", problem)
     for problem in inputs.outdated:
@@ -99,14 +101,18 @@ def report_page(
         "outdated": inputs.outdated,
         "head": _head(result),
         "assumptions": method.assumptions(record),
-        "warnings": _warnings(record),
+        "warnings": _warnings([*record["warnings"], *spectra_warnings(spectra)]),
         "worst_welds": tables.weld_table(result.assessed, links),
         "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
         # figures are numbered in the order of these lines, the order of the page
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
-        "pages": [weld_page(result, weld, details.get(weld), why, figs, links[weld]) for weld in result.detailed],
+        **transitions(result, links),
+        "pages": [
+            weld_page(result, weld, details.get(weld), why, spectra, figs, links[weld]) for weld in result.detailed
+        ],
+        "spectra_words": spectra_words(spectra),
         **body_sections.domains(result, figs),
         "undetailed": len(result.assessed) - len(result.detailed),
         "undrawn": len(result.assessed) - len(result.drawn),
@@ -211,10 +217,10 @@ def _listed(result: ShownResult) -> pd.DataFrame:
     return result.welds[listed]
 
 
-def _warnings(record: Mapping[str, Any]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
+def _warnings(warnings: Sequence[Mapping[str, Any]]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
     """Warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
-    for warning in record["warnings"]:
+    for warning in warnings:
         groups.setdefault(warning["code"], []).append({**warning, "where": _shortened(warning["where"])})
     return [(code, sum(warning.get("count", 1) for warning in group), group) for code, group in groups.items()]
 

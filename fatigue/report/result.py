@@ -78,8 +78,8 @@ class ShownResult:
 
     @property
     def passes_per_km(self) -> dict[str, float]:
-        """Passes of every event in one km of the mission [1/km]."""
-        return {event["event"]: float(event["passes_per_km"]) for event in self.events}
+        """Passes of every event, and runs of every sequence, in one km of the mission [1/km]."""
+        return weights_of(self.record)
 
     @property
     def coordinates(self) -> dict[int, str]:
@@ -135,7 +135,7 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     """
     record = read_provenance(folder)
     refuse_mixed(folder, record)
-    domains = read_domains(folder, [event["event"] for event in record["mission"]["events"]])
+    domains = read_domains(folder, list(weights_of(record)))
     toes = int(np.count_nonzero(read_table(folder, "nodes", ["toe"])["toe"].to_numpy()))
     worst = read_rows(folder, "nodes", worst_toes(folder, worst_points)).to_pandas()
     welds = read_welds(folder)
@@ -161,9 +161,16 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     )
 
 
+def weights_of(record: Mapping[str, Any]) -> dict[str, float]:
+    """Passes of every event, and runs of every sequence behind them, in one km of the mission [1/km]."""
+    mission = record["mission"]
+    passes = {event["event"]: float(event["passes_per_km"]) for event in mission["events"]}
+    return passes | {loop["name"]: float(loop["runs_per_km"]) for loop in mission.get("sequences", [])}
+
+
 def _merged(folder: Path, record: Mapping[str, Any], welds: pd.DataFrame) -> dict[str, MergedCycles]:
     """Merged cycles of the worst points of some welds."""
-    passes = {event["event"]: float(event["passes_per_km"]) for event in record["mission"]["events"]}
+    passes = weights_of(record)
     points = {}
     for row in welds.to_dict("records"):
         law = law_of(assumptions_of(record, row["curve"]))

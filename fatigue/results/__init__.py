@@ -39,6 +39,7 @@ from fatigue.results.columns import (
     TRACK,
     WELDS,
 )
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.enlist import enlist, relist
@@ -69,6 +70,7 @@ from fatigue.results.weld_table import assessed, not_assessed, read_welds
 __all__ = [
     "ASSESSED",
     "ATTRIBUTION",
+    "BENCHED",
     "CSV_TABLES",
     "CYCLES",
     "DAMAGE",

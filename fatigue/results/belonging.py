@@ -20,6 +20,7 @@ import pyarrow.parquet as pq
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, OPTIONAL, TABLES
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.json_records import write_json
 from fatigue.results.outputs import altered
@@ -29,7 +30,7 @@ PICTURE = "weld_lines.vtp"
 PAGE = "report.html"
 PRINT = "report.pdf"
 WORKBOOK = "nodes.xlsx"
-CSV_TABLES = ("nodes", "damage", "cycles", "welds", "histogram", *LOAD_SPECTRA)
+CSV_TABLES = ("nodes", "damage", "cycles", "welds", "histogram", *LOAD_SPECTRA, *BENCHED)
 DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
 MARK = "fatigue-result"  # before the hash in documents that are text; the name of a property in the workbook
@@ -171,6 +172,7 @@ _REMEDY = {
     **{f"{table}.parquet": _AGAIN for table in ASSESSED | OPTIONAL},
     **{f"{table}.parquet": "Run `fatigue diagnose` again, or remove it" for table in DIAGNOSED},
     **{f"{table}.parquet": "Run `fatigue spectra` again, or remove it" for table in LOAD_SPECTRA},
+    **{f"{table}.parquet": "Run `fatigue bench` again, or remove it" for table in BENCHED},
     **dict.fromkeys((*DOCUMENTS, LIST), "Write it again with `fatigue report`, or remove it"),
 }
 _NEEDED = {f"{table}.parquet" for table in ASSESSED}  # documents, diagnosis, ranges and spectra may be missing

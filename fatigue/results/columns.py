@@ -1,5 +1,6 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
+from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
@@ -28,8 +29,8 @@ NODES = (
         "life_km_dirlik",
         "float",
         "km",
-        "life by Dirlik's formula with one bending ratio per event, events with a spectrum, without mean stress; empty "
-        "where the spectra miss more than 90 % of the damage (dirlik_verdict outside_band)",
+        "life by Dirlik's formula with one bending ratio per event, events with a spectrum, without mean stress and "
+        "without sequences; empty where the spectra miss more than 90 % of the damage (dirlik_verdict outside_band)",
     ),
     Column("life_km_tb", "float", "km", "life by Tovo-Benasciutti 2005, likewise; empty where that by Dirlik is"),
     Column("life_km_same_ratio", "float", "km", "rainflow life, likewise"),
@@ -42,16 +43,22 @@ NODES = (
         "sampling, quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth), of the event with "
         "the largest share of the damage; outside_band too where all spectra together miss too much",
     ),
-    Column("max_range_MPa", "float", "MPa", "largest structural stress range of all events"),
+    Column("max_range_MPa", "float", "MPa", "largest structural stress range of all events and sequences"),
     Column(
         "equivalent_range_2e6_MPa",
         "float",
         "MPa",
         "(sum n S^k / 2e6)^(1/k) over target_km, k the first slope: the constant structural stress range that does the "
-        "same in 2e6 cycles on one slope, knees, mean stress and scatter of the bending ratio left out",
+        "same in 2e6 cycles on one slope, sequences included; knees, mean stress and scatter of the bending ratio left "
+        "out",
     ),
-    Column("mean_stress_MPa", "float", "MPa", "time mean of the structural stress in the governing event"),
-    Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all events"),
+    Column(
+        "mean_stress_MPa",
+        "float",
+        "MPa",
+        "time mean of the structural stress in the governing event; empty where a sequence governs",
+    ),
+    Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all"),
     Column(
         "damage_factor_if_mean_stress",
         "float",
@@ -59,9 +66,33 @@ NODES = (
         "damage with the ASME mean-stress factor / without; 1 where it is on, empty on curves in structural stress",
     ),
     Column("shear_ratio", "float", "-", "rms shear stress / rms structural stress in the governing event"),
-    Column("damage_factor_if_shear", "float", "-", "damage with shear combined as in ASME VIII-2 5.5.5.3 / without"),
-    Column("governing_event", "text", "-", "event with the largest share of the damage"),
+    Column(
+        "damage_factor_if_shear",
+        "float",
+        "-",
+        "damage with shear combined as in ASME VIII-2 5.5.5.3 / without; empty with sequences: what shear adds to a "
+        "cycle between two events is not known",
+    ),
+    Column(
+        "governing_event",
+        "text",
+        "-",
+        "event with the largest share of the damage, or the sequence whose cycles across events have it",
+    ),
     Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) in the governing event"),
+    Column(
+        "damage_per_km_transitions",
+        "float",
+        "1/km",
+        "part of damage_per_km from cycles across the events of sequences, less those they replace; may be negative; "
+        "empty without sequences",
+    ),
+    Column(
+        "damage_per_km_transitions_bound",
+        "float",
+        "1/km",
+        "what no order of the events with stints_per_1000_km adds more than; not in damage_per_km; empty without them",
+    ),
     Column(
         "life_km_raw_end",
         "float",
@@ -86,9 +117,25 @@ NODES = (
 
 DAMAGE = (
     *_POINT,
-    Column("event", "text", "-", "event of the mission"),
-    Column("damage_per_km", "float", "1/km", "Miner sum per km of this event; empty for an event counted by number"),
-    Column("damage_per_pass", "float", "-", "Miner sum of one pass of the simulated record"),
+    Column(
+        "event",
+        "text",
+        "-",
+        "event of the mission; (sequence 1) and so on: what one run of that order of events adds to their passes",
+    ),
+    Column(
+        "damage_per_km",
+        "float",
+        "1/km",
+        "Miner sum per km of this event; empty for an event counted by number and for a sequence",
+    ),
+    Column(
+        "damage_per_pass",
+        "float",
+        "-",
+        "Miner sum of one pass of the simulated record; of one run of a sequence, less what its events have already: "
+        "may be negative",
+    ),
     Column("damage_dirlik_per_km", "float", "1/km", "Dirlik's estimate with the one bending ratio"),
     Column("damage_tb_per_km", "float", "1/km", "Tovo-Benasciutti 2005 with the one bending ratio"),
     Column("damage_tb_whole_per_km", "float", "1/km", "Tovo-Benasciutti of the spectrum up to half the sampling rate"),
@@ -103,7 +150,7 @@ DAMAGE = (
     ),
     Column("damage_same_ratio_per_pass", "float", "-", "rainflow with the one bending ratio of one pass"),
     Column("cycles_per_km", "float", "1/km", "counted cycles per km"),
-    Column("cycles_per_pass", "float", "-", "counted cycles of one pass"),
+    Column("cycles_per_pass", "float", "-", "counted cycles of one pass; of a sequence the difference it makes"),
     Column("max_range_MPa", "float", "MPa", "largest structural stress range"),
     Column(
         "max_equivalent_range_dS",
@@ -133,12 +180,19 @@ DAMAGE = (
 
 CYCLES = (
     *_POINT,
-    Column("event", "text", "-", "event of the mission"),
+    Column("event", "text", "-", "event of the mission, or the sequence of which it is a cycle across events"),
+    Column("start_event", "text", "-", "event of the first reversal of a cycle of a sequence; else empty"),
+    Column("end_event", "text", "-", "event of the second reversal of a cycle of a sequence; else empty"),
     Column("start_s", "float", "s", "file time of the first reversal"),
     Column("end_s", "float", "s", "file time of the second reversal; before start_s: the cycle wraps past the end"),
     Column("range_MPa", "float", "MPa", "structural stress range"),
     Column("mean_MPa", "float", "MPa", "mean of the two reversals"),
-    Column("count", "float", "-", "1: cycle, 0.5: half cycle"),
+    Column(
+        "count",
+        "float",
+        "-",
+        "1: cycle, 0.5: half cycle; negative: a cycle of a single event that the sequence replaces",
+    ),
     Column("membrane_range_MPa", "float", "MPa", "membrane stress range between the same two instants"),
     Column("bending_range_MPa", "float", "MPa", "bending stress range between the same two instants"),
     Column("bending_ratio", "float", "-", "bending / (membrane + bending) range"),
@@ -248,9 +302,9 @@ ATTRIBUTION = (
         "kind",
         "text",
         "-",
-        "event: the whole event; mode with unit_load, and band: its parts, each set adds up to the event; load: all "
-        "stresses; thickness: the plate through its stress, at constant line force and moment; thickness_rule: the "
-        "plate through the rule",
+        "event: the whole event; sequence: what a sequence adds to its events; mode with unit_load, and band: its "
+        "parts, each set adds up to it; load: all stresses; thickness: the plate through its stress, at constant line "
+        "force and moment; thickness_rule: the plate through the rule",
     ),
     Column("mode", "int", "-", "mode id, for kind mode"),
     Column("unit_load", "text", "-", "name of the unit load, for kind unit_load"),
@@ -358,6 +412,9 @@ LEVERS = (
 )
 
 
+NOT_IN_OLDER = ("unit_load",)
+"""Columns of texts that tables of older versions lack."""
+
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,
@@ -372,4 +429,4 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "levers": LEVERS,
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
-TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

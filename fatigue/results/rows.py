@@ -14,7 +14,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from fatigue.results.columns import TABLES
+from fatigue.results.columns import NOT_IN_OLDER, TABLES
 from fatigue.results.tables import expect_columns, read_table, readable, table_path
 
 
@@ -157,6 +157,8 @@ def _opened(folder: Path | str, table: str) -> Iterator[pq.ParquetFile]:
     path = table_path(folder, table)
     texts = [column.name for column in TABLES[table] if column.type == "text"]
     with readable(path):
+        there = pq.read_schema(path).names
+        texts = [name for name in texts if name in there or name not in NOT_IN_OLDER]
         try:
             opened = pq.ParquetFile(path, read_dictionary=texts, page_checksum_verification=True)
         except KeyError as error:  # of the library, for a coded column that is not there

@@ -27,6 +27,12 @@ _POINT_COLUMNS = (
 )  # fmt: skip
 
 
+_ACROSS = {
+    "damage_per_km_transitions": "Cycles across the events of the sequences are",
+    "damage_per_km_transitions_bound": "Cycles across events, in an order that is not known, would be at most",
+}
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Summary:
     """The welds, worst first, those not assessed with their reasons, and the worst toe points of a result."""
@@ -91,6 +97,7 @@ class Summary:
                         "governing_event",
                     ],
                 ),
+                *self._across_events(),
                 *self._outside_band(),
             ]
         )
@@ -102,6 +109,15 @@ class Summary:
             return []
         what = "whose nodal forces are one sum of both legs, so the life there is not bounded"
         return ["", f"Worst at a corner {what}: {few(names, MOST_LEFT_OUT)}"]
+
+    def _across_events(self) -> list[str]:
+        """Say what cycles across events are of the damage of the points, or may be."""
+        for name, what in _ACROSS.items():
+            if name in self.points:
+                share = 100.0 * (self.points[name] / self.points["damage_per_km"]).astype(float)
+                if share.notna().any():
+                    return [f"{what} {_range(share.min(), share.max())} of the damage of these points"]
+        return []
 
     def _outside_band(self) -> list[str]:
         """Say why Dirlik has no life for some points, or one that is too long."""
@@ -150,6 +166,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
             raise DataError(Problem("not_assessed", str(folder), what, "Change its status in the weld register"))
         names = ", ".join(sorted(welds["weld"])[:MOST_WELDS])
         raise DataError(Problem("unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {names}"))
+    across = ("damage_per_km", *_ACROSS) if _joins_events(record) else ()
     if only:
         welds, left_out = welds[welds["weld"].isin(only)], left_out[:0]
     return Summary(
@@ -158,7 +175,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         target_km=record["mission"]["target_km"],
         welds=welds,
         not_assessed=left_out,
-        points=read_rows(folder, "nodes", worst_toes(folder, top, only), _POINT_COLUMNS).to_pandas(),
+        points=read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas(),
     )
 
 
@@ -171,10 +188,24 @@ def assumptions(record: dict[str, Any]) -> str:
     )
     screening = rules["screening"]
     screened = "" if screening["share_of_limit"] == 0.0 else f"; points proven below {screening['share_of_limit']:g} "
+    loops = len(record["mission"].get("sequences", []))
+    sequences = f"; cycles across the events of {loops} sequence{'s' * (loops != 1)}" * (loops > 0)
     return (
         f"Curve {curves}; thickness {rules['thickness_rule']}; {extension}; mean stress {rules['mean_stress']}; "
         f"damage limit {record['mission']['damage_limit']:g}{screened and screened + 'of it have bounds only'}"
+        f"{sequences}"
     )
+
+
+def _joins_events(record: dict[str, Any]) -> bool:
+    """Whether cycles across events are counted, or bounded because their order is not known."""
+    mission = record["mission"]
+    return bool(mission.get("sequences")) or any(e.get("stints_per_1000_km") is not None for e in mission["events"])
+
+
+def _range(low: float, high: float) -> str:
+    """Two percentages, or one where they look the same."""
+    return f"{low:.3g} %" if f"{low:.3g}" == f"{high:.3g}" else f"{low:.3g} to {high:.3g} %"
 
 
 def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:

@@ -88,6 +88,11 @@ class EventAttribution:
         return replace(self, **{f.name: getattr(self, f.name)[index] for f in fields(self) if f.name not in of_event})
 
     @property
+    def is_sequence(self) -> bool:
+        """Whether this is what a loop of events adds, which has no place on a track."""
+        return bool(self.place.shape[1] == 0)
+
+    @property
     def has_bands(self) -> bool:
         """Whether the record is long enough for frequency bands."""
         return len(self.edges_hz) > 2

@@ -79,6 +79,7 @@ class Finding:
     life_km: float
     event: str
     event_share: float
+    sequence_share: float
     modes: tuple[ModeFinding, ...]
     relieving_share: float
     bands: tuple[BandFinding, ...]
@@ -103,7 +104,7 @@ class Finding:
         gain = 100.0 * (best.life_km_counted / self.life_km - 1.0)
         relieving = "relieving modes and loads" if self.with_loads else "relieving modes"
         lines = {
-            "event": f"{event} {_percent(self.event_share)}",
+            "event": f"{event} {_percent(self.event_share)}{self._across_events()}",
             "bands": bands or "not available: no record is long enough for a spectrum",
             "loads" if self.with_loads else "modes": f"{modes}; {relieving} {_percent(self.relieving_share)}",
             "place": f"half of the damage of {event} on {_percent(self.half_damage_part)} of it, most at {place}, "
@@ -115,6 +116,10 @@ class Finding:
             lines["Dirlik"] += f" Ratio = {self.formula_error:.2f} (formula) x {self.process_error:.2f} (process)."
         heading = f"{weld}, node {self.node} {self.surface}: {_km(self.life_km)}"
         return "\n".join([heading, *(_wrapped(f"  {name:8}", text) for name, text in lines.items())])
+
+    def _across_events(self) -> str:
+        """Say what cycles across the events of sequences make; nothing where there are none."""
+        return f"; cycles across events {_percent(self.sequence_share)}" if self.sequence_share else ""
 
     def _mode(self, mode: ModeFinding) -> str:
         """Name of a mode or load; a mode far above the band it damages in follows its load and does not swing."""
@@ -168,10 +173,11 @@ def _finding(evidence: Evidence, row: int) -> Finding:
     point = int(levers.point[row])
     own = evidence.attribution.of(slice(point, point + 1))
     points, event_share, exponent = own.points, own.event_share[0], own.mode_exponent[0]
-    governing = int(event_share.argmax())
+    governing = int(event_share[: len(evidence.verdicts)].argmax())
     event, verdict = own.events[governing], evidence.verdicts[governing]
     share, resonant = own.mode_share[0], own.resonant_share[0]
-    intensity = event.place[0] / event.damage[0] / event.place_length
+    damage = event.damage[0]  # none where a sequence has all of it
+    intensity = event.place[0] / damage / event.place_length if damage > 0.0 else np.zeros_like(event.place[0])
     hottest = int(intensity.argmax())
     return Finding(
         weld=str(points.weld[0]),
@@ -181,7 +187,8 @@ def _finding(evidence: Evidence, row: int) -> Finding:
         surface=FACES[points.face[0]],
         life_km=float(life_km(own.damage, evidence.plan.damage_limit)[0]),
         event=event.event,
-        event_share=float(event_share.max()),
+        event_share=float(event_share[governing]),
+        sequence_share=float(event_share[len(evidence.verdicts) :].sum()),
         modes=tuple(
             ModeFinding(
                 mode=mode[k],
@@ -250,6 +257,12 @@ def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
         yield f"{without} a damping ratio, so it is not said what such a mode does in resonance"
     static = {event.name for event in body.case.mission.event if event.history is None}
     for event in attribution.events:
+        if event.is_sequence:
+            yield (
+                f"{event.event}: its damage is that of cycles between two events, which have no frequency and no place "
+                "on the track"
+            )
+            continue
         if event.event in static:
             yield (
                 f"event '{event.event}' is a static load case, so its damage is that of its values one after another, "
@@ -263,6 +276,11 @@ def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
             )
         if np.isnan(event.place_km).any():
             yield f"event '{event.event}' is counted by number, so its damage has an instant but no place on the track"
+    if loops := len(body.case.mission.sequence):
+        yield (
+            f"the mission has {loops} sequence{'s' * (loops > 1)} of events: cycles across events are not shared out, "
+            "and the lives here are without them"
+        )
     if any(rated.rule.law.cutoff > 0.0 for rated in body.curves.values()):
         yield (
             "a curve with a cut-off: damage jumps there, and life exponents do not see cycles that cross it; the lives "

@@ -10,6 +10,7 @@ from fatigue.life.mission import Plan, life_km
 from fatigue.life.records.history import stress_record
 from fatigue.life.records.spool import Samples
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.why.across_events import loop_damages
 from fatigue.why.attribute import Attribution, count_credit
 from fatigue.why.long_record import Row, is_long, long_damage
 from fatigue.why.points import Points
@@ -52,6 +53,9 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
         for w in range(len(point)):
             counted = _damages(points.of(slice(w, w + 1)), scale[w], q, load)
             damage[w] += one_pass.passes_per_km * np.array(counted)
+    for w in range(len(point)):
+        scale = np.where(mode[w][:, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
+        damage[w] += loop_damages(points.of(slice(w, w + 1)), scale, loads, plan)
     life = life_km(attribution.damage[point], plan.damage_limit)
     return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, life_km(damage, plan.damage_limit))
 

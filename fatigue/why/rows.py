@@ -24,8 +24,9 @@ def rows_of_tables(evidence: Evidence) -> dict[str, Iterator[dict[str, Any]]]:
     firsts = range(0, len(attribution.points), POINTS_AT_ONCE)
     some = [slice(first, first + POINTS_AT_ONCE) for first in firsts]
     blocks = [(attribution.of(few), [verdict.of(few) for verdict in evidence.verdicts]) for few in some]
+    and_loops = range(len(attribution.events))
     return {
-        "attribution": (attribution_rows(coordinates, block, block.events[e]) for e in events for block, _ in blocks),
+        "attribution": (attribution_rows(coordinates, part, part.events[e]) for e in and_loops for part, _ in blocks),
         "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
         "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
         "levers": iter([lever_rows(evidence)]),
@@ -41,7 +42,8 @@ def attribution_rows(coordinates: Coordinates, attribution: Attribution, event: 
     of_mode = slice(1, 1 + len(coordinates))
     of_band = slice(of_mode.stop, of_mode.stop + bands)
     parts = np.where(coordinates.is_mode, "mode", "unit_load")
-    kind = np.array(["event", *parts, *["band"] * bands, "load", "thickness", "thickness_rule"])
+    whole = "sequence" if event.is_sequence else "event"
+    kind = np.array([whole, *parts, *["band"] * bands, "load", "thickness", "thickness_rule"])
     mode, unit_load = np.full((2, len(kind)), None)
     mode[of_mode], unit_load[of_mode] = ids(coordinates)
     low, high = np.full((2, len(kind)), np.nan)
@@ -55,7 +57,8 @@ def attribution_rows(coordinates: Coordinates, attribution: Attribution, event: 
         [event.damage, event.mode_slope, event.band_slope, event.load_slope, event.thickness_slope, event.rule_slope]
     )
     resonant = np.full(damage.shape, np.nan)
-    resonant[:, of_mode] = attribution.share(event.resonant)
+    if not event.is_sequence:
+        resonant[:, of_mode] = attribution.share(event.resonant)
     return {
         **point_columns(attribution.points, len(kind)),
         "event": np.full(damage.size, event.event, dtype=object),

@@ -124,9 +124,8 @@ def test_crossings_are_those_of_the_samples(signal, residue, constant):
     """Upwards s[i] < u <= s[i+1] where the signal repeats; half of both directions where it does not."""
     found = counted(signal, residue)
     levels = np.unique(np.concatenate([signal, np.linspace(-101.0, 101.0, 23)]))
-    a, b = (
-        (np.append(signal, signal[0])[:-1], np.roll(signal, -1)) if residue == "repeat" else (signal[:-1], signal[1:])
-    )
+    path = np.append(signal, signal[0]) if residue == "repeat" else signal
+    a, b = path[:-1], path[1:]
     up = np.array([np.count_nonzero((a < u) & (u <= b)) for u in levels], dtype=float)
     down = np.array([np.count_nonzero((b < u) & (u <= a)) for u in levels], dtype=float)
     expected = up if residue == "repeat" else 0.5 * (up + down)

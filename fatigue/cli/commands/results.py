@@ -10,7 +10,7 @@ from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO
-from fatigue.cli.output import print_json, say
+from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 from fatigue.errors import DataError, refuse
 
@@ -144,6 +144,49 @@ def diagnose(
             write_documents(folder, [PAGE], case_file=case_file, verification=known_values, no_lock=no_lock)
         elif (folder / PAGE).exists():
             log.warning("%s was not written by fatigue, or was changed since: it stays as it is", folder / PAGE)
+    if as_json:
+        print_json(found.as_record())
+    else:
+        say(found.as_text())
+
+
+@cli.command()
+@click.argument("folder", metavar="DIR", type=FOLDER)
+@click.option(
+    "--points",
+    required=True,
+    metavar="FILE",
+    help="Points to reproduce (.csv or .parquet): weld, order or node, surface, and factor on the target; or worst: "
+    "the worst point of every weld.",
+)
+@click.option(
+    "--blocks",
+    type=click.Path(path_type=Path),
+    required=True,
+    metavar="FILE",
+    help="Blocks of the bench, one a row: the range of each unit load in a column u_NAME, opposite signs in "
+    "counter-phase, and a name in the column block.",
+)
+@no_lock
+@as_json
+@click.pass_obj
+def bench(options: dict[str, bool], folder: Path, points: str, blocks: Path, no_lock: bool, as_json: bool) -> None:
+    """Find how many cycles of which blocks do the damage of a result on a test bench.
+
+    Prints two programmes, one closest to all targets and one that reaches every target, and writes them into DIR as
+    bench_blocks, bench_points and bench_damage tables; `fatigue report DIR --csv` writes these as CSV as well.
+
+    \b
+    Example:
+      fatigue bench result --points gauges.csv --blocks blocks.csv
+    """
+    refuse_missing_result(folder, no_lock=no_lock)
+    from fatigue.bench import bench as run
+    from fatigue.results.outputs import damage_told
+
+    with narrated(quiet=options["quiet"]), damage_told(folder):
+        found = run(folder, points, blocks, no_lock=no_lock)
+    print_warnings(found.warnings)
     if as_json:
         print_json(found.as_record())
     else:

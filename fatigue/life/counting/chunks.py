@@ -12,7 +12,8 @@ entirely. Every cycle is the same as in whole rows. Only where the largest or sm
 occurs several times, exactly equal, other instants of it may be paired: same ranges, but perhaps other bending ratios.
 
 Reversals that are read at their vertices are moved there when they are found. For that a chunk brings the sample before
-its first column, and a block that recurs what follows its first sample.
+its first column, and a block that recurs what follows its first sample. Where the residue of the pass is wanted, open
+ranges of a single pass wait to its end as well, and what waits behind the last chunk is the residue.
 """
 
 import math
@@ -26,6 +27,7 @@ from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.factors import Trials, no_trials, tally_trials
 from fatigue.life.counting.record import CountedRecord
+from fatigue.life.counting.residue import BlockResidue, residue_places
 from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles
 from fatigue.life.counting.tally import (
     CompiledRule,
@@ -86,25 +88,30 @@ class _Block(NamedTuple):
 
 
 class _Room(NamedTuple):
-    """Work space of one row: stress of a chunk, and membrane, bending and structural stress of its reversals."""
+    """Work space of one row: stress of a chunk, and membrane, bending and structural stress of its reversals.
+
+    ``kept`` (2, r) are membrane and bending stress of the residue, in the end.
+    """
 
     stress: Floats
     m: Floats
     b: Floats
     s: Floats
+    kept: Floats
     buffers: Buffers
 
 
 class _Stage(NamedTuple):
     """Samples of a chunk, whether the record ends with it and whether it recurs, and the steps between its columns.
 
-    ``vertex``: reversals are read at their vertices.
+    ``keeps``: whether the residue is wanted; ``vertex``: reversals are read at their vertices.
     """
 
     samples: int
     ends: bool
     recurs: bool
     steps: int
+    keeps: bool
     vertex: bool
 
 
@@ -122,6 +129,15 @@ def count_chunks(
     return block_count(*counted, rule, stress.level)
 
 
+def count_chunks_and_residue(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK
+) -> tuple[BlockCount, BlockResidue]:
+    """Count a block as ``count_chunks`` does, and keep the residue of every point."""
+    counted = nothing_counted(len(stress), rule.law)
+    residues = _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk, keeps=True)
+    return block_count(*counted, rule, stress.level), BlockResidue.joined(residues)
+
+
 def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
     """Add the damage of one pass of a block under factors on its stress to the trials."""
     _count_points(stress, record, rule, (*nothing_counted(len(stress), rule.law), tried), chunk)
@@ -133,19 +149,35 @@ def _count_points(
     rule: CycleRule,
     counted: tuple[NDArray[np.void], Floats, Trials],
     chunk: int,
-) -> None:
-    """Count a block some points at a time."""
+    *,
+    keeps: bool = False,
+) -> list[BlockResidue]:
+    """Count a block some points at a time; returns their residues where they are to be kept."""
     totals, histogram, trials = counted
     shear_factor, offset = own_of(stress)
+    residues = []
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
         own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factor[some], offset[some]
         block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
-        _count(plain(stress.membrane)[some], plain(stress.bending)[some], record, block, compiled_rule(rule), chunk)
+        parts = plain(stress.membrane)[some], plain(stress.bending)[some]
+        state = _count(*parts, record, block, compiled_rule(rule), chunk, keeps=keeps)
+        if keeps:
+            residues.append(BlockResidue.of_padded(state.m, state.b, state.waiting))
+    return residues
 
 
-def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule: CompiledRule, chunk: int) -> None:
-    """Count some points, chunk by chunk."""
+def _count(
+    S_m: Floats,
+    S_b: Floats,
+    record: CountedRecord,
+    block: _Block,
+    rule: CompiledRule,
+    chunk: int,
+    *,
+    keeps: bool,
+) -> _State:
+    """Count some points, chunk by chunk; returns the state behind the last one."""
     modal_stress = np.concatenate([S_m, S_b])
     points, t = len(S_m), record.q.shape[1]
     edges = np.linspace(0, t, -(-t // chunk) + 1).astype(int).tolist()
@@ -164,7 +196,7 @@ def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule:
         if ends and record.recurs:
             stress[:, samples + 1] = state.first.T.ravel()
         steps = samples + int(ends and record.recurs)
-        stage = _Stage(samples, ends, record.recurs, steps, record.vertex)
+        stage = _Stage(samples, ends, record.recurs, steps, keeps, record.vertex)
         at = count_chunk(stress, stage, 0, state, block, rule, room)
         while at < 2 * points:  # more reversals wait than there is room for
             left, room_before = int(state.waiting.ravel()[at]), room
@@ -181,6 +213,7 @@ def _count(S_m: Floats, S_b: Floats, record: CountedRecord, block: _Block, rule:
     block.totals["mean"] = mean if t else math.nan
     block.totals["kurtosis"] = np.where(flat, math.nan, fourth * t / np.where(flat, 1.0, second * second))
     block.totals["r_largest"][block.totals["max_range"] == 0.0] = math.nan
+    return state
 
 
 def _fresh_state(points: int) -> _State:
@@ -213,7 +246,7 @@ def _room_for(steps: int, waiting: int) -> _Room:
     """Work space for the reversals of so many steps behind those that wait: once, and once more to turn them."""
     reversals = steps + waiting + 2
     m, b, s = (np.empty(2 * reversals + 1) for _ in range(3))
-    return _Room(np.empty(steps + 1), m, b, s, buffers_for(reversals))
+    return _Room(np.empty(steps + 1), m, b, s, np.empty((2, reversals + 2)), buffers_for(reversals))
 
 
 @compiled()
@@ -389,6 +422,29 @@ def gather_reversals(m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, s
 
 
 @compiled()
+def keep_residue(m: Floats, b: Floats, at: tuple[int, int], n: int, stage: _Stage, state: _State, room: _Room) -> int:
+    """Copy the residue of a record that ends, n reversals wait, to ``room.kept`` and return how many it has.
+
+    A block that recurs turns at its first and its last sample as well, where another pass comes before or behind it. At
+    its first plateau, the last of its reversals, only its own next pass turns.
+    """
+    side, s, place = 1.0 - 2.0 * at[1], room.s[n:], room.buffers.start
+    if stage.recurs:
+        n -= int(n > 0 and state.step[at] != state.first_step[at])
+    kept_m, kept_b = room.kept
+    kept_m[0], kept_b[0] = state.first[at[0], 0], state.first[at[0], 1]
+    for i in range(n):
+        kept_m[1 + i], kept_b[1 + i] = room.m[i], room.b[i]
+    kept_m[1 + n], kept_b[1 + n] = m[stage.samples], b[stage.samples]
+    for i in range(n + 2):
+        s[i] = kept_m[i] + side * kept_b[i]
+    length = residue_places(s, n + 2, place)
+    for k in range(length):
+        kept_m[k], kept_b[k] = kept_m[place[k]], kept_b[place[k]]
+    return length
+
+
+@compiled()
 def count_chunk(
     stress: Floats, stage: _Stage, first: int, state: _State, block: _Block, rule: CompiledRule, room: _Room
 ) -> int:
@@ -407,9 +463,11 @@ def count_chunk(
 
         n = gather_reversals(m, b, (row, surface), stage, state, room)
         if stage.ends:
-            cycles, left = close_all(n, stage.recurs, room), 0
+            left = keep_residue(m, b, (row, surface), n, stage, state, room) if stage.keeps else 0
+            cycles = close_all(n, stage.recurs, room)
         else:
-            cycles, left = close_open(room.s, state.waiting[row, surface], n, stage.recurs, room.buffers)
+            waits = stage.recurs or stage.keeps
+            cycles, left = close_open(room.s, state.waiting[row, surface], n, waits, room.buffers)
         own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
         point = Surface(room.m, room.b, side, own[0], own[1], own[2], block.offset[row, surface])
         if block.trials.damage.shape[2] > 0:
@@ -420,7 +478,10 @@ def count_chunk(
 
         state.waiting[row, surface] = left
         for k in range(left):
-            room.m[k], room.b[k] = room.m[room.buffers.reversal[k]], room.b[room.buffers.reversal[k]]
+            if stage.ends:
+                room.m[k], room.b[k] = room.kept[0, k], room.kept[1, k]
+            else:
+                room.m[k], room.b[k] = room.m[room.buffers.reversal[k]], room.b[room.buffers.reversal[k]]
         if left > state.m.shape[2]:
             return number
         for k in range(left):

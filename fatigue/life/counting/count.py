@@ -4,11 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.block import HISTOGRAM_BINS, BlockCount, BlockStress
-from fatigue.life.counting.chunks import count_chunks, try_chunks
+from fatigue.life.counting.chunks import count_chunks, count_chunks_and_residue, try_chunks
 from fatigue.life.counting.factors import trials
 from fatigue.life.counting.record import CountedRecord
-from fatigue.life.counting.rows import count_rows, try_rows
-from fatigue.life.counting.single.count import count_single, is_single
+from fatigue.life.counting.residue import BlockResidue
+from fatigue.life.counting.rows import count_rows, count_rows_and_residue, try_rows
+from fatigue.life.counting.single.count import count_single, count_single_and_residue, is_single
 from fatigue.life.records.spool import Spool
 from fatigue.life.rule import CycleRule
 
@@ -27,6 +28,19 @@ def count(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockC
     if is_single(record, rule):
         return count_single(stress, record, rule)
     return count_chunks(stress, record, rule) if _is_long(record) else count_rows(stress, record, rule)
+
+
+def count_and_residue(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> tuple[BlockCount, BlockResidue]:
+    """Count a block as ``count`` does, and keep the residue of every point; it has no constant of ``offset`` in it.
+
+    Raises
+    ------
+    NumericalError : a stress is not finite
+    """
+    if is_single(record, rule):
+        return count_single_and_residue(stress, record, rule)
+    counted = count_chunks_and_residue if _is_long(record) else count_rows_and_residue
+    return counted(stress, record, rule)
 
 
 def count_histograms(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> NDArray[np.float64]:

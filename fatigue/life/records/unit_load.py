@@ -25,7 +25,7 @@ class LoadSource:
 
     Attributes
     ----------
-    name : of the unit load
+    name, unit : of the unit load
     way : a column of the event's own record, a file of its own, values of a static load case, a constant; or missing
     column : of the record or the file, ``path`` the file
     scale : factor on all values; ``shift_s`` is added to the times of the file [s]
@@ -43,6 +43,7 @@ class LoadSource:
     interpolation: Interpolation = "fourier"
     constant: float = 0.0
     values: tuple[float, ...] = ()
+    unit: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,6 +10,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.bounds import Bound, Bounds
 from fatigue.pipeline.count.estimate import Estimate, estimate_event, member_variances
 from fatigue.pipeline.count.event_block import EventBlock, bounded_event, count_event, judged
+from fatigue.pipeline.count.joined.loops import Joined, LoopBlock, joined_events
 from fatigue.pipeline.count.load_factor import bounded_load_factor, counted_load_factor
 from fatigue.pipeline.count.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.count.overflow import no_overflow
@@ -18,18 +19,20 @@ from fatigue.pipeline.solve.modal_stress import ModalStress
 
 TIERS = ("", "modal bound", "weld bound")  # of the column ``screened``: counted, or the bound that settled the point
 ROWS_WITH_HISTOGRAM = 256  # counted at a time on a curve with a knee: 16 kB a station and event
+ROWS_WITH_RESIDUES = 1024  # counted at a time where events join: some 0.5 kB a station and event
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Settled:
     """Stations of a block that were settled in one way, under all events.
 
-    ``rows`` are their places in the block, ascending; ``events`` are without histograms; ``tier`` is an index into
-    ``TIERS``.
+    ``rows`` are their places in the block, ascending; ``events`` and ``loops`` are without histograms; ``tier`` is an
+    index into ``TIERS``.
     """
 
     rows: NDArray[np.intp]
     events: tuple[EventBlock, ...]
+    loops: tuple[LoopBlock, ...]
     mission: MissionBlock
     tier: int
 
@@ -106,11 +109,12 @@ class Block:
         """Some stations, with bounds in place of the count of every event."""
         raw_ends = self.stress.raw_ends.at(rows)
         of_events = zip(estimates, bounds.of_events, strict=True)
-        return self._settled(rows, [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in of_events], tier)
+        events = [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in of_events]
+        return self._settled(rows, events, tier, bounds.joined(rows))
 
     def _counted(self, stress: ModalStress, load: EventLoad, estimate: Estimate) -> EventBlock:
         with no_overflow(load.counted.event, self.welds):
-            return count_event(stress, load, estimate)
+            return count_event(stress, load, estimate, joins=self.plan.joins_events)
 
     def _judged(self, stress: ModalStress, events: Sequence[EventBlock]) -> list[EventBlock]:
         found = []
@@ -119,19 +123,34 @@ class Block:
                 found.append(judged(event, stress, load))
         return found
 
-    def _settled(self, rows: NDArray[np.intp], events: Sequence[EventBlock], tier: int) -> Settled:
-        """Some stations, their events weighted with the mission; only the weighting needs the histograms."""
+    def _settled(
+        self, rows: NDArray[np.intp], events: Sequence[EventBlock], tier: int, joined: Joined | None = None
+    ) -> Settled:
+        """Some stations, their events weighted with the mission; only the weighting needs histograms and residues.
+
+        ``joined`` are bounds of what joins the events; by default it is counted.
+        """
         stress = self.stress.at(rows)
-        mission = mission_block(events, self.plan, stress.rule.law)
+        with no_overflow("mission", self.welds):
+            joined = self._joined(stress, events) if joined is None else joined
+        mission = mission_block(events, self.plan, stress.rule.law, joined)
         if tier:
-            factor = bounded_load_factor(stress.rule, self.plan, events, mission.utilisation)
+            factor = bounded_load_factor(stress.rule, self.plan, events, mission.utilisation, joined.loops)
         else:
             with no_overflow("mission", self.welds):
-                factor = counted_load_factor(stress, self.loads, self.plan, events, mission.load_factor)
+                factor = counted_load_factor(stress, self.loads, self.plan, events, joined.loops, mission.load_factor)
         without = tuple(event.without_histogram() for event in events)
-        return Settled(rows, without, replace(mission, load_factor=factor), tier)
+        loops = tuple(loop.without_histogram() for loop in joined.loops)
+        return Settled(rows, without, loops, replace(mission, load_factor=factor), tier)
+
+    def _joined(self, stress: ModalStress, events: Sequence[EventBlock]) -> Joined:
+        """What joins the counted events of some stations."""
+        treated = [event.residue for event in events if event.residue is not None]
+        raw_ends = [event.residue_raw_end for event in events if event.residue_raw_end is not None]
+        return joined_events(stress, self.plan, treated, raw_ends)
 
     def _at_once(self, rows: NDArray[np.intp]) -> Iterator[NDArray[np.intp]]:
-        """All rows at once, unless their histograms would be large."""
-        step = max(1, len(rows)) if self.stress.rule.law.is_straight else ROWS_WITH_HISTOGRAM
+        """All rows at once, unless their histograms or residues would be large."""
+        step = ROWS_WITH_RESIDUES if self.plan.joins_events else max(1, len(rows))
+        step = step if self.stress.rule.law.is_straight else ROWS_WITH_HISTOGRAM
         return (rows[first : first + step] for first in range(0, len(rows), step))

@@ -11,7 +11,12 @@ from fatigue.life.bounds.screening import ModalExtent, PowerSums, damage_bound, 
 from fatigue.life.bounds.vertex_bound import vertex_bound
 from fatigue.life.counting.block import BlockCount
 from fatigue.life.counting.record import SingleRecord
+from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import Plan, mission_sum
+from fatigue.life.rule import CycleRule
+from fatigue.life.sequence import convex_damage
+from fatigue.pipeline.count.joined.junctions import Junctions
+from fatigue.pipeline.count.joined.loops import Joined
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import ModalStress
 
@@ -41,7 +46,7 @@ class Bound:
     max_range: NDArray[np.float64]
     max_equivalent_range: NDArray[np.float64]
 
-    def at(self, rows: NDArray[np.intp]) -> Self:
+    def at(self, rows: NDArray[np.intp] | slice) -> Self:
         """Take some stations."""
         return type(self)(self.damage[rows], self.max_range[rows], self.max_equivalent_range[rows])
 
@@ -77,6 +82,7 @@ class Bounds:
     toe : (n, 2) faces that carry a weld toe
     worst : (n, 1) share of the limit that a point of the weld is known to use up, 0 until one was counted
     screening : what is enough
+    junctions : what bounds the cycles across events; None where no loop joins events
     """
 
     of_events: list[Bound]
@@ -84,6 +90,7 @@ class Bounds:
     toe: NDArray[np.bool_]
     worst: NDArray[np.float64]
     screening: Screening
+    junctions: Junctions | None = None
 
     def tighten(self, event: int, rows: NDArray[np.intp], found: Bound) -> None:
         """Take another bound of an event at some stations where it is lower."""
@@ -91,7 +98,13 @@ class Bounds:
 
     def utilisation(self, rows: NDArray[np.intp] | slice = slice(None)) -> NDArray[np.float64]:
         """Largest share of the damage limit that the whole mission can use up at some stations, (n, 2)."""
-        return utilisation(self.of_events, self.plan, rows)
+        return utilisation(self.of_events, self.plan, rows, self.junctions)
+
+    def joined(self, rows: NDArray[np.intp]) -> Joined:
+        """Bounds of what joins the events at some stations."""
+        if self.junctions is None:
+            return Joined.nothing(len(rows))
+        return self.junctions.at(rows).bounded(self.plan, [bound.at(rows) for bound in self.of_events])
 
     def unsettled(self, rows: NDArray[np.intp]) -> NDArray[np.intp]:
         """Those of some stations whose bound stays neither below the share nor below the worst point of their weld."""
@@ -123,10 +136,22 @@ class Bounds:
 
 
 def utilisation(
-    bounds: Sequence[Bound], plan: Plan, rows: NDArray[np.intp] | slice = slice(None)
+    bounds: Sequence[Bound],
+    plan: Plan,
+    rows: NDArray[np.intp] | slice = slice(None),
+    junctions: Junctions | None = None,
 ) -> NDArray[np.float64]:
-    """Largest share of the damage limit that a mission can use up by the bounds of its events, (n, 2)."""
-    per_km = mission_sum(np.stack([bound.damage[rows] for bound in bounds]), plan.passes)
+    """Largest share of the damage limit that a mission can use up by the bounds of its events, (n, 2).
+
+    ``junctions`` are of the same stations as the bounds; None where no loop joins events.
+    """
+    some = [bound.at(rows) for bound in bounds]
+    per_km = mission_sum(np.stack([bound.damage for bound in some]), plan.passes)
+    if junctions is not None and plan.loops:
+        joined = junctions.at(rows).bounded(plan, some)
+        per_km = per_km + sum(
+            loop.runs_per_km * of.count.damage for loop, of in zip(plan.loops, joined.loops, strict=True)
+        )
     return per_km * plan.target_km / plan.damage_limit
 
 
@@ -143,11 +168,31 @@ def event_bound(
     Where the damage contains the mean-stress factor, stations that may need the factor have no bound. Bounds of the
     samples become bounds of the vertices here where reversals are read there.
     """
-    found = vertex_bound(*found) if load.vertex else found
-    stress_range = load.stress_factor * found[0]
-    power_sums = {q: load.stress_factor**q * power_sum for q, power_sum in found[1].items()}
+    stress_range, power_sums = _with_stress_factor(vertex_bound(*found) if load.vertex else found, load)
     damage, largest = damage_bound(stress_range, power_sums, stress.size[rows, None], stress.rule)
     yield_MPa = stress.rule.yield_of_damage
     if yield_MPa is not None:
         damage = np.where(may_need_mean_stress(mean, stress_range, yield_MPa), np.inf, damage)
     return Bound(damage, stress_range, largest)
+
+
+def first_slope_bound(
+    found: tuple[NDArray[np.float64], PowerSums], stress: ModalStress, load: EventLoad
+) -> NDArray[np.float64]:
+    """Bound of the damage of one pass with the slopes of a curve extended that ``convex_damage`` takes, (n, 2)."""
+    law = stress.rule.law
+    stress_range, power_sums = _with_stress_factor(found, load)
+    damage = np.zeros_like(stress_range)
+    for j in range(len(convex_damage(stress.rule).exponents)):
+        straight = DamageLaw(law.slopes[j : j + 1], law.log_constants[j : j + 1], law.knees[:0], 0.0)
+        rule = CycleRule(straight, stress.rule.uses_bending_ratio)
+        damage += damage_bound(stress_range, power_sums, stress.size[:, None], rule)[0]
+    return damage
+
+
+def _with_stress_factor(
+    found: tuple[NDArray[np.float64], PowerSums], load: EventLoad
+) -> tuple[NDArray[np.float64], PowerSums]:
+    """Bounds of range and sum n S^q with the stress factor of the event."""
+    f = load.stress_factor
+    return f * found[0], {q: f**q * power_sum for q, power_sum in found[1].items()}

@@ -7,11 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.block import BlockCount, BlockStress
-from fatigue.life.counting.count import count
+from fatigue.life.counting.count import count, count_and_residue
 from fatigue.life.rule import cycle_damage
 from fatigue.life.shear import shear_factor
 from fatigue.pipeline.count.bounds import Bound
 from fatigue.pipeline.count.estimate import Estimate
+from fatigue.pipeline.count.joined.loops import PassResidue, pass_residue
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.solve.modal_stress import ModalStress, faces
@@ -33,6 +34,7 @@ class EventBlock:
     shear_ratio : standard deviation of the shear over the standard deviation of the normal stress
     damage_raw_end : Miner sum without the end treatment, NaN where that was not counted
     verdict : index into ``VERDICTS``
+    residue, residue_raw_end : what is open at its end, with and without the end treatment; None where no events join
     """
 
     estimate: Estimate
@@ -41,6 +43,8 @@ class EventBlock:
     shear_ratio: NDArray[np.float64]
     damage_raw_end: NDArray[np.float64]
     verdict: NDArray[np.int8]
+    residue: PassResidue | None = None
+    residue_raw_end: PassResidue | None = None
 
     def at(self, rows: NDArray[np.intp]) -> Self:
         """Take some stations."""
@@ -51,24 +55,28 @@ class EventBlock:
             shear_ratio=self.shear_ratio[rows],
             damage_raw_end=self.damage_raw_end[rows],
             verdict=self.verdict[rows],
+            residue=None if self.residue is None else self.residue.at(rows),
+            residue_raw_end=None if self.residue_raw_end is None else self.residue_raw_end.at(rows),
         )
 
     def without_histogram(self) -> Self:
-        """The same without its histogram, which is larger than all else and serves the load factor only."""
+        """The same without histogram and residues, which are larger than all else and serve the whole mission only."""
         nothing = np.zeros((*self.verdict.shape, 0, 2))
-        return replace(self, count=replace(self.count, histogram=nothing))
+        count = replace(self.count, histogram=nothing)
+        return replace(self, count=count, residue=None, residue_raw_end=None)
 
 
-def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> EventBlock:
+def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate, *, joins: bool = False) -> EventBlock:
     """One pass of an event counted at every station of a block; ``judged`` gives the verdict.
 
-    The equivalent range of a cycle has the bending ratio of this cycle (ASME VIII-2 5.5.5).
+    The residues of a pass are kept where it ``joins`` other events. The equivalent range of a cycle has the bending
+    ratio of this cycle (ASME VIII-2 5.5.5).
     """
     var, shear_var, covar, shear_bending_ratio = _variances(stress, load)
     rule = stress.rule
     I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
     with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t))
-    counted, damage_raw_end = _counted(stress, load, estimate.one_ratio, with_shear)
+    counted, damage_raw_end, residues = _counted(stress, load, estimate.one_ratio, with_shear, joins=joins)
     damage_shear = counted.damage_with_shear
     if rule.law.is_straight:
         damage_shear = np.where(counted.damage > 0.0, counted.damage * with_shear ** rule.law.slopes[0], 0.0)
@@ -79,6 +87,8 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate) -> Eve
         shear_ratio=quotient(np.sqrt(shear_var), np.sqrt(var)),
         damage_raw_end=damage_raw_end,
         verdict=_not_assessed(var),
+        residue=residues[0],
+        residue_raw_end=residues[1],
     )
 
 
@@ -119,11 +129,16 @@ def _not_assessed(like: NDArray[np.float64]) -> NDArray[np.int8]:
 
 
 def _counted(
-    stress: ModalStress, load: EventLoad, one_ratio: NDArray[np.float64], with_shear: NDArray[np.float64]
-) -> tuple[BlockCount, NDArray[np.float64]]:
+    stress: ModalStress,
+    load: EventLoad,
+    one_ratio: NDArray[np.float64],
+    with_shear: NDArray[np.float64],
+    *,
+    joins: bool,
+) -> tuple[BlockCount, NDArray[np.float64], tuple[PassResidue | None, PassResidue | None]]:
     """The count of a block, and its damage (n, 2) with raw ends in place of treated ones, NaN where they do not matter.
 
-    The raw ends that matter are counted beside the block.
+    The raw ends that matter are counted beside the block. The residues are those of treated ends and of raw ones.
     """
     n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
     rows = ends.rows[matters]
@@ -135,12 +150,19 @@ def _counted(
         membrane, bending = f * ends.stress.membrane[matters], f * ends.stress.bending[matters]
         own = stress.size[rows], one_ratio[rows], with_shear[rows], face_offset(membrane, bending, load)
         block = block.beside(BlockStress(membrane, bending, *own))
-    everything = count(block, load.record, stress.rule)
+    residues: tuple[PassResidue | None, PassResidue | None] = (None, None)
+    if joins:
+        everything, residue = count_and_residue(block, load.record, stress.rule)
+        of_all, with_raw_ends = pass_residue(residue, block, load), np.arange(n)
+        with_raw_ends[rows] = n + np.arange(rows.size)
+        residues = (of_all.at(slice(n)), of_all.at(with_raw_ends))
+    else:
+        everything = count(block, load.record, stress.rule)
     counted = everything.at(slice(n))
     damage_raw_end = counted.damage.copy()
     damage_raw_end[ends.rows] = np.nan
     damage_raw_end[rows] = everything.damage[n:]
-    return counted, damage_raw_end
+    return counted, damage_raw_end, residues
 
 
 def _variances(stress: ModalStress, load: EventLoad) -> tuple[NDArray[np.float64], ...]:

@@ -23,7 +23,7 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     NumericalError : stress or damage exceeds double precision
     """
     stations, curve_of_weld = model.stations, model.curve_of_weld
-    result = GroupResult.empty(len(loads), len(stations))
+    result = GroupResult.empty(len(loads), len(stations), len(plan.loops))
     curve_of = np.array([rated.curve.name for rated in curve_of_weld])[stations.weld]
     for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)

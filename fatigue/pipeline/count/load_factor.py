@@ -12,6 +12,7 @@ from fatigue.life.load_factor import ROUNDING, WIDE, load_factor_of_counts
 from fatigue.life.mission import Plan, straight_load_factor
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.count.event_block import EventBlock
+from fatigue.pipeline.count.joined.loops import LoopBlock, PassResidue, loops_at_factors
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.solve.modal_stress import ModalStress
@@ -24,27 +25,37 @@ BIN = np.log(10.0) / BINS_PER_DECADE  # of ln(dS)
 
 
 def counted_load_factor(
-    stress: ModalStress, loads: Sequence[EventLoad], plan: Plan, events: Sequence[EventBlock], estimate: Floats
+    stress: ModalStress,
+    loads: Sequence[EventLoad],
+    plan: Plan,
+    events: Sequence[EventBlock],
+    loops: Sequence[LoopBlock],
+    estimate: Floats,
 ) -> Floats:
     """Load factor (n, 2) of counted stations, exact where ``estimate`` may not be.
+
+    ``loops`` are what the loops of the mission add to the events.
 
     ``estimate`` (n, 2) is in closed form on one slope, else from the stored spectrum, and takes f_M as it is at a
     factor of 1; +inf: nothing damages at any load.
     """
-    low, width, wanted = _brackets(stress, plan, events, estimate)
+    low, width, wanted = _brackets(stress, plan, events, loops, estimate)
     factor = estimate.copy()
     jumps = stress.rule.law.cutoff > 0.0 or stress.rule.mean_stress
     for first in range(0, len(stress), AT_ONCE):
         rows = np.arange(first, min(first + AT_ONCE, len(stress)))
         if wanted[rows].any():
-            tried = _Counted(stress.at(rows), loads, plan)
+            residues = tuple(event.residue.at(rows) for event in events if event.residue is not None)
+            tried = _Counted(stress.at(rows), loads, plan, residues)
             of_rows = np.where(wanted[rows], low[rows], np.nan)
             found = load_factor_of_counts(tried.utilisation, of_rows, width[rows], stress.rule.law, jumps=jumps)
             factor[rows] = np.where(wanted[rows], found, estimate[rows])
     return factor
 
 
-def bounded_load_factor(rule: CycleRule, plan: Plan, events: Sequence[EventBlock], utilisation: Floats) -> Floats:
+def bounded_load_factor(
+    rule: CycleRule, plan: Plan, events: Sequence[EventBlock], utilisation: Floats, loops: Sequence[LoopBlock] = ()
+) -> Floats:
     """Lower bound (n, 2) of the load factor where bounds stand for counting, ``utilisation`` their bound.
 
     Damage rises with f^k at most, k the largest slope, and falls with f^k at least, k the smallest one. A cut-off only
@@ -55,7 +66,8 @@ def bounded_load_factor(rule: CycleRule, plan: Plan, events: Sequence[EventBlock
     less = straight_load_factor(utilisation, float(law.slopes.min()))
     factor = np.where(utilisation > 1.0, less, straight_load_factor(utilisation, float(law.slopes.max())))
     if law.cutoff > 0.0:
-        largest = _of_weighted([event.count.max_equivalent_range for event in events], plan)
+        of_events = [event.count.max_equivalent_range for event in events]
+        largest = _of_weighted([*of_events, *(loop.count.max_equivalent_range for loop in loops)], plan)
         below = quotient(np.full_like(largest, (1.0 - ROUNDING) * law.cutoff), largest)
         factor = np.maximum(np.minimum(less, 1.0), np.where(largest > 0.0, below, np.inf))
     if yield_MPa is not None:
@@ -72,6 +84,7 @@ class _Counted:
     stress: ModalStress
     loads: Sequence[EventLoad]
     plan: Plan
+    residues: Sequence[PassResidue]
 
     def utilisation(self, rows: NDArray[np.intp], first: Floats, step: Floats, factors: int) -> Floats:
         """Utilisation (r, 2, g) as ``load_factor_of_counts`` asks for it."""
@@ -85,11 +98,14 @@ class _Counted:
                 block = BlockStress(membrane, bending, some.size, np.zeros(first.shape), offset=offset)
                 per_pass = count_at_factors(block, load.record, some.rule, first, step, factors)
                 damage += one_pass.passes_per_km * per_pass
+        if self.plan.loops:
+            of_rows = [residue.at(rows) for residue in self.residues]
+            damage += loops_at_factors(some, self.plan, of_rows, first, step, factors)
         return damage * (self.plan.target_km / self.plan.damage_limit)
 
 
 def _brackets(
-    stress: ModalStress, plan: Plan, events: Sequence[EventBlock], estimate: Floats
+    stress: ModalStress, plan: Plan, events: Sequence[EventBlock], loops: Sequence[LoopBlock], estimate: Floats
 ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Where the factors are likely to be: from ``low`` up by ``width`` of ln(factor); and where they are wanted."""
     law, yield_MPa = stress.rule.law, stress.rule.yield_of_damage
@@ -99,7 +115,8 @@ def _brackets(
     if yield_MPa is None:
         return low, width, wanted & (not law.is_straight)
     highest = _of_weighted([event.count.mean + event.count.max_range for event in events], plan)
-    largest = _of_weighted([event.count.max_range for event in events], plan)
+    of_events = [event.count.max_range for event in events]
+    largest = _of_weighted([*of_events, *(loop.count.max_range for loop in loops)], plan)
     in_reach = 2.0 * highest * np.maximum(start, 1.0) >= (1.0 - ROUNDING) * yield_MPa
     f_M_ends = np.where(largest > 0.0, quotient(np.full_like(largest, 2.0 * yield_MPa), largest), np.inf)
     low = np.where(in_reach, np.minimum(start * np.exp(-0.5 * WIDE), f_M_ends), low)
@@ -108,6 +125,6 @@ def _brackets(
 
 
 def _of_weighted(of_events: Sequence[Floats], plan: Plan) -> Floats:
-    """Largest value among the events that occur; 0 where none does."""
-    occurring = [value for value, p in zip(of_events, plan.passes, strict=True) if p.passes_per_km > 0.0]
+    """Largest value among the events, and the loops behind them, that occur; 0 where none does."""
+    occurring = [value for value, weight in zip(of_events, plan.weights, strict=False) if weight > 0.0]
     return np.asarray(np.max(occurring, axis=0)) if occurring else np.zeros_like(of_events[0])

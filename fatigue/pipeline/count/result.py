@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.pipeline.count.block import Settled
 from fatigue.pipeline.count.event_block import EventBlock
+from fatigue.pipeline.count.joined.loops import LoopBlock
 from fatigue.pipeline.count.mission_block import MissionBlock
 
 OF_EVENT: dict[str, Callable[[EventBlock], NDArray[np.float64]]] = {  # columns of damage.parquet, from one pass
@@ -29,6 +30,12 @@ OF_EVENT: dict[str, Callable[[EventBlock], NDArray[np.float64]]] = {  # columns 
     "peaks_per_s": attrgetter("estimate.peaks_per_s"),
     "samples_per_peak": attrgetter("estimate.samples_per_peak"),
 }
+OF_LOOP: dict[str, Callable[[LoopBlock], NDArray[np.float64]]] = {  # the same, from one run of a loop
+    "damage_per_pass": attrgetter("count.damage"),
+    "cycles_per_pass": attrgetter("count.cycles"),
+    "max_range_MPa": attrgetter("count.max_range"),
+    "max_equivalent_range_dS": attrgetter("count.max_equivalent_range"),
+}
 _OF_MISSION = tuple(f.name for f in fields(MissionBlock) if f.name not in ("governing", "verdict"))
 
 
@@ -39,6 +46,7 @@ class GroupResult:
     Attributes
     ----------
     event_columns : (e, c, n, 2) the columns of ``OF_EVENT`` for every event
+    loop_columns : (l, c, n, 2) the columns of ``OF_LOOP`` for every loop
     verdicts : (e, n, 2) the verdict of every event
     of_mission : (f, n, 2) the fields of the ``MissionBlock`` but the two that follow
     governing, verdict : (n, 2) of the mission
@@ -46,6 +54,7 @@ class GroupResult:
     """
 
     event_columns: NDArray[np.float64]
+    loop_columns: NDArray[np.float64]
     verdicts: NDArray[np.int8]
     of_mission: NDArray[np.float64]
     governing: NDArray[np.int64]
@@ -53,10 +62,11 @@ class GroupResult:
     tier: NDArray[np.int8]
 
     @classmethod
-    def empty(cls, events: int, stations: int) -> Self:
-        """Room for the result of so many stations under so many events."""
+    def empty(cls, events: int, stations: int, loops: int = 0) -> Self:
+        """Room for the result of so many stations under so many events and loops of them."""
         return cls(
             event_columns=np.empty((events, len(OF_EVENT), stations, 2)),
+            loop_columns=np.empty((loops, len(OF_LOOP), stations, 2)),
             verdicts=np.empty((events, stations, 2), np.int8),
             of_mission=np.empty((len(_OF_MISSION), stations, 2)),
             governing=np.empty((stations, 2), np.int64),
@@ -80,6 +90,9 @@ class GroupResult:
             for c, column in enumerate(OF_EVENT.values()):
                 self.event_columns[e, c, rows] = column(event)
             self.verdicts[e, rows] = event.verdict
+        for number, loop in enumerate(settled.loops):
+            for c, of_loop in enumerate(OF_LOOP.values()):
+                self.loop_columns[number, c, rows] = of_loop(loop)
         for f, name in enumerate(_OF_MISSION):
             self.of_mission[f, rows] = getattr(settled.mission, name)
         self.governing[rows], self.verdict[rows] = settled.mission.governing, settled.mission.verdict

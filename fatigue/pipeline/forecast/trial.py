@@ -91,8 +91,9 @@ class _Trial:
     def _plan_of(self, chunk: EventLoad) -> Plan:
         chunks = self.one.samples * chunk.counted.step / max(chunk.duration, chunk.counted.step)  # in the pass
         per_km = 1.0 / self.one.length if self.one.length is not None else self.one.passes_per_km
-        alone = replace(self.one, length=None, share=None, per_1000_km=1000.0 * per_km * chunks)
-        return replace(self.plan, passes=(alone,))
+        per_1000_km = 1000.0 * per_km * chunks
+        alone = replace(self.one, length=None, share=None, per_1000_km=per_1000_km, stints_per_1000_km=None)
+        return replace(self.plan, passes=(alone,), loops=())
 
 
 def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], read_s: float, scratch: Path) -> JobTime:

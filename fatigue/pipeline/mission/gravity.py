@@ -69,7 +69,7 @@ class HeldGravity:
             "reversed": "in the mean of q, reversed",
             "units": "in the mean of q, in other units",
         }[self.verdict]
-        return words + (", which is removed" if self.mean_of_q == "remove" else "") + f"; {self.given:g} given"
+        return words + (", which is removed" if self.mean_of_q == "remove" else "") + f", {self.given:g} given"
 
     def as_record(self) -> dict[str, Any]:
         """The same for machines; null for what is not known."""
@@ -167,7 +167,7 @@ def gravity_warnings(found: Sequence[HeldGravity], case_file: str) -> list[Probl
     if doubtful:
         worst = max(doubtful, key=lambda one: abs(one.cos))
         what = (
-            f"the mean of q in event '{shortened(worst.event)}' makes a stress partly like that of {worst.unit_load} "
+            f"the mean of q makes a stress partly like that of {worst.unit_load} "
             f"(cosine {worst.cos:.2f}, {OTHER_SHAPE:g} to {SAME_SHAPE:g} is unclear; {worst.beta:.2f} times as much), "
             f"which is given on top: the dead load may be there twice{_likewise(doubtful, worst)}"
         )
@@ -199,7 +199,7 @@ def _factor_warnings(
     if some:
         worst = max(some, key=lambda one: abs(np.log(abs(one.beta))))
         what = (
-            f"the mean of q in event '{shortened(worst.event)}' makes {worst.beta:.4g} times the stress of "
+            f"the mean of q makes {worst.beta:.4g} times the stress of "
             f"{worst.unit_load} at 1 (cosine {worst.cos:.3f}), which {finding}{_likewise(some, worst)}"
         )
         yield Problem(code, _where(worst, case_file), what, remedy, len(some))
@@ -222,7 +222,7 @@ def _twice(found: Sequence[HeldGravity], case_file: str) -> Iterator[Problem]:
         return
     worst = max(twice, key=lambda one: one.cos)
     what = (
-        f"the dead load is there twice in event '{shortened(worst.event)}': the mean of q makes {worst.beta:.3g} times "
+        f"the dead load is there twice: the mean of q makes {worst.beta:.3g} times "
         f"the stress of {worst.unit_load} at 1 (cosine {worst.cos:.3f}), and {worst.unit_load} = {worst.given:g} is "
         f"given on top{_likewise(twice, worst)}"
     )

@@ -7,6 +7,7 @@ from fatigue.errors import CaseError, DataError, FatigueError, Problem, refuse
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import first_kept
 from fatigue.pipeline.mission.events import top_mode_hz
+from fatigue.pipeline.mission.loops import plan_loops
 from fatigue.pipeline.mission.record_units import step_problems, step_warnings
 from fatigue.pipeline.mission.record_warnings import CheckedEvent, record_warnings
 from fatigue.pipeline.mission.unit_loads import event_files, unused_load_warnings
@@ -41,7 +42,9 @@ def mission_plan(body: Body, threads: int | None = None) -> tuple[Plan, tuple[Pr
     refuse(DataError, problems)
     warnings += record_warnings(records, body.coordinates, body.case.path.name)
     warnings += unused_load_warnings(body.case.path.name, [record.loads for record in records])
-    return Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit), tuple(warnings)
+    loops = plan_loops(body.case, passes)
+    plan = Plan(tuple(passes), mission.target_km, mission.km_per_year, mission.damage_limit, loops)
+    return plan, tuple(warnings)
 
 
 def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], CheckedEvent] | FatigueError:
@@ -65,6 +68,8 @@ def _checked(body: Body, event: Event) -> tuple[Pass, list[Problem], CheckedEven
         share=event.share,
         per_1000_km=event.per_1000_km,
         refined=checked.refined,
+        half=case.residue(event) == "half",
+        stints_per_1000_km=event.stints_per_1000_km,
     )
     if files.path is not None:
         warnings += step_warnings(grid, body.modes, name, event.name)

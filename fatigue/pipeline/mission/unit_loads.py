@@ -8,7 +8,8 @@ from fatigue.case.given_loads import given_loads
 from fatigue.errors import Problem
 from fatigue.life.records.unit_load import LoadSource
 from fatigue.pipeline.solve.body import Body
-from fatigue.readers.neutral.event.event_record import EventFiles, column_names
+from fatigue.readers.neutral.event.event_record import EventFiles
+from fatigue.readers.neutral.event.load_units import column_names
 from fatigue.shown import few
 
 

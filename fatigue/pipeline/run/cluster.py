@@ -13,7 +13,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 
 from fatigue.errors import DataError, NumericalError, Problem
-from fatigue.extras import install_command
+from fatigue.files.extras import install_command
 
 log = logging.getLogger(__name__)
 

@@ -1,7 +1,6 @@
 """Every cycle of the points that govern: the table behind a weld's life, with the instants of each cycle."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,44 +10,23 @@ from fatigue.life.counting.long_rainflow import long_cycles
 from fatigue.life.counting.rainflow import Cycles, rainflow
 from fatigue.life.counting.signal import middle
 from fatigue.life.counting.vertex import vertex_history
+from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks, stress_history
-from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
-from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
-from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
-from fatigue.pipeline.tables.rows import FACES
-from fatigue.results import TableWriter, coded
+from fatigue.pipeline.tables.cycle_rows import CycleParts, KeptPoint, cycle_rows
+from fatigue.pipeline.tables.sequence_cycles import sequence_rows
+from fatigue.results import TableWriter
 
 POINTS_AT_ONCE = 16  # a record is read once for so many, whatever groups of welds they are from
 _SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class KeptPoint:
-    """A point whose cycles are kept, without the stations it is one of.
-
-    ``membrane`` and ``bending`` (m,) are its modal stress, of the top face [MPa per unit modal coordinate];
-    ``thickness`` is the thickness of its plate [mm].
-    """
-
-    weld: str
-    part: int
-    node: int
-    order: int
-    face: int
-    thickness: float
-    membrane: NDArray[np.float64]
-    bending: NDArray[np.float64]
-    rated: RatedCurve
-
-
 class CycleWriter:
     """Writes the cycles of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
 
-    def __init__(self, table: TableWriter, loads: Sequence[EventLoad]) -> None:
-        self._table, self._loads = table, loads
+    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], plan: Plan | None = None) -> None:
+        self._table, self._loads, self._plan = table, loads, plan
         self._waiting: list[KeptPoint] = []
 
     def add(self, points: Sequence[KeptPoint]) -> None:
@@ -67,23 +45,9 @@ class CycleWriter:
         for load in self._loads:
             for rows in point_cycles(points, load):
                 self._table.write(rows)
-
-
-def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
-    """What the cycles of a point need of the stations of its group of welds."""
-    stations, at = model.stations, point.station
-    treated = stations.treated
-    return KeptPoint(
-        weld=stations.welds[point.weld].name,
-        part=int(stations.part[at]),
-        node=int(stations.node[at]),
-        order=int(stations.order[at]),
-        face=point.face,
-        thickness=float(stations.thickness[at]),
-        membrane=treated.membrane[at].copy(),
-        bending=treated.bending[at].copy(),
-        rated=model.curve_of_weld[point.weld],
-    )
+        if points and self._plan is not None and self._plan.loops:
+            for rows in sequence_rows(points, self._loads, self._plan):
+                self._table.write(rows)
 
 
 def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[str, Any]]:
@@ -115,7 +79,7 @@ def _long_rows(point: KeptPoint, load: EventLoad) -> Iterator[dict[str, Any]]:
         (start, end), (s_i, s_j) = piece.at.T, piece.stress.T
         cycles = Cycles(np.abs(s_j - s_i), middle(s_i, s_j), piece.weight, start, end)
         dm, db = (np.abs(np.diff(part, axis=1)[:, 0]) for part in (piece.membrane, piece.bending))
-        yield _rows(point, load, cycles, dm, db, np.minimum(s_i, s_j), piece.at + piece.shift)
+        yield _rows_of(point, load, cycles, dm, db, np.minimum(s_i, s_j), piece.at.astype(np.float64) + piece.shift)
 
 
 def _cycle_rows(
@@ -130,49 +94,26 @@ def _cycle_rows(
     at = np.stack([cycles.start, cycles.end], axis=1).astype(np.float64)
     at += shift[at.astype(np.intp)] if load.vertex else 0.0
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
-    return _rows(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]), at)
+    return _rows_of(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]), at)
 
 
-def _rows(
+def _rows_of(
     point: KeptPoint,
     load: EventLoad,
     cycles: Cycles,
     dm: NDArray[np.float64],
     db: NDArray[np.float64],
     minimum: NDArray[np.float64],
-    at: NDArray[np.number],
+    at: NDArray[np.float64],
 ) -> dict[str, Any]:
     """Rows of some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa].
 
     ``at`` (c, 2) are their two instants, in steps from the first sample.
     """
-    rated, rule = point.rated, point.rated.rule
-    r = bending_ratio(dm, db)
-    size = rated.size(np.array([point.thickness]))
     modal = load.stress_factor * np.stack([point.membrane, point.bending])
     of_faces = face_offset(modal[:1], modal[1:], load)
     offset = 0.0 if of_faces is None else float(of_faces[0, point.face])
-    f_M = rule.mean_stress_factor(minimum + offset, minimum + offset + cycles.range)
-    dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
-
-    n = len(cycles.range)
     step, start = load.counted.step, load.counted.start
-    same = np.zeros(n, dtype=np.int32)
-    return {
-        "weld": coded(same, [point.weld]),
-        "part": np.full(n, point.part),
-        "node": np.full(n, point.node),
-        "order": np.full(n, point.order),
-        "surface": coded(same, [FACES[point.face]]),
-        "event": coded(same, [load.counted.event]),
-        "start_s": start + step * at[:, 0],
-        "end_s": start + step * at[:, 1],
-        "range_MPa": cycles.range,
-        "mean_MPa": cycles.mean + offset,
-        "count": cycles.count,
-        "membrane_range_MPa": dm,
-        "bending_range_MPa": db,
-        "bending_ratio": r,
-        "equivalent_range_dS": dS,
-        "damage": cycles.count * cycle_damage(dS, rule.law),
-    }
+    times = start + step * at[:, 0], start + step * at[:, 1]
+    parts = CycleParts(cycles.range, cycles.mean + offset, cycles.count, dm, db, minimum + offset, *times)
+    return cycle_rows(point, load.counted.event, parts)

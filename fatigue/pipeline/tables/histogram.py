@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from fatigue.life.counting.block import BlockStress
 from fatigue.life.counting.count import count_histograms
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.tables.cycles import KeptPoint
+from fatigue.pipeline.mission.offsets import face_offset
+from fatigue.pipeline.tables.cycle_rows import KeptPoint
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
 from fatigue.side_by_side import in_order
@@ -81,12 +82,11 @@ def _filled(
     """Classes with cycles of one pass of an event at some points of one curve."""
     load, some = loads[event], [points[place] for place in places]
     rated = some[0].rated
-    block = BlockStress(
-        membrane=load.stress_factor * np.stack([point.membrane for point in some]),
-        bending=load.stress_factor * np.stack([point.bending for point in some]),
-        size=rated.size(np.array([point.thickness for point in some])),
-        same_ratio=np.zeros((len(some), 2)),
-    )
+    membrane = load.stress_factor * np.stack([point.membrane for point in some])
+    bending = load.stress_factor * np.stack([point.bending for point in some])
+    size = rated.size(np.array([point.thickness for point in some]))
+    offset = face_offset(membrane, bending, load)
+    block = BlockStress(membrane, bending, size, np.zeros((len(some), 2)), offset=offset)
     histogram = count_histograms(block, load.record, rated.rule)
     of_face = histogram[np.arange(len(some)), [point.face for point in some]]
     at, kind, bin_ = np.nonzero(of_face[..., 0])

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import Problem
+from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import ABOVE
 from fatigue.pipeline.mission.gravity import HeldGravity
 from fatigue.pipeline.run.work import Work
@@ -70,6 +71,7 @@ def provenance_record(
             "bending_ratio": "of each cycle, from its own two instants; one rms ratio per event for the comparison",
             "weld_ends": "mean of the line force and moment over end_length_mm, by default the plate thickness",
             "residue": {event.name: RESIDUE_RULES[case.residue(event)] for event in case.mission.event},
+            "events": _joining_rule(plan),
             "mean_of_q": {event.name: case.mean_of_q(event) for event in case.mission.event},
             "upsample": case.counting.upsample,
             "upsampled": {load.counted.event: load.upsample for load in work.loads},
@@ -93,11 +95,31 @@ def provenance_record(
                 | {"passes_per_km": p.passes_per_km, "stress_factor": event.stress_factor, "start_s": event.start_s}
                 for p, event in zip(plan.passes, case.mission.event, strict=True)
             ],
+            "sequences": [
+                {
+                    "name": loop.name,
+                    "order": [plan.passes[event].event for event in loop.order],
+                    "runs_per_km": loop.runs_per_km,
+                }
+                for loop in plan.loops
+            ],
         },
         "gravity": [one.as_record() for one in gravity],
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
     }
+
+
+def _joining_rule(plan: Plan) -> str:
+    """How events are joined, in words."""
+    if plan.loops:
+        return (
+            "cycles across the events of each sequence are counted, from the residues of the passes; cycles between "
+            "sequences are not"
+        )
+    if plan.joins_events:
+        return "every event follows on itself; what another order of the stints adds at most is stated beside it"
+    return "every event follows on itself: cycles across events are not counted"
 
 
 def _precision(work: Work) -> str:

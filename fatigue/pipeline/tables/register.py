@@ -28,7 +28,7 @@ def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[Wor
     part_of_weld = stations.weld[model.lines.begin[:-1]]
     part_lengths = lengths(model.lines)
     life = np.array([mission.life_km[i] for i in at])
-    events = [*(p.event for p in plan.passes), None]
+    events = [*plan.names, None]
     of_toes = np.where(stations.toe, mission.utilisation, -1.0).max(axis=1)
     largest = np.maximum.reduceat(of_toes, first[:-1])  # or a bound of it
     proven = [bool(EQUAL * largest[p.weld] <= mission.utilisation[p.station, p.face]) for p in worst]

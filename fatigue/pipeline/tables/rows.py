@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
+from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
-from fatigue.pipeline.count.result import OF_EVENT, GroupResult
+from fatigue.pipeline.count.result import OF_EVENT, OF_LOOP, GroupResult
 from fatigue.pipeline.solve.stations import Stations
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.results import coded
@@ -66,8 +67,10 @@ def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, 
         "damage_factor_if_mean_stress": block.factor_if_mean_stress.ravel(),
         "shear_ratio": block.shear_ratio.ravel(),
         "damage_factor_if_shear": block.factor_if_shear.ravel(),
-        "governing_event": coded(block.governing.ravel(), [p.event for p in plan.passes]),
+        "governing_event": coded(block.governing.ravel(), plan.names),
         "bending_ratio": block.bending_ratio.ravel(),
+        "damage_per_km_transitions": block.transitions.ravel(),
+        "damage_per_km_transitions_bound": block.transitions_bound.ravel(),
         "life_km_raw_end": block.life_km_raw_end.ravel(),
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
@@ -77,18 +80,28 @@ def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, 
 
 
 def damage_rows(stations: Stations, result: GroupResult, plan: Plan, some: slice) -> dict[str, Any]:
-    """Rows of ``damage.parquet`` of some stations: every event of every point, unweighted."""
-    events = len(plan.passes)
-    length = np.array([np.nan if p.length is None else p.length for p in plan.passes])
-    columns = {name: np.stack([*result.of_events(name)[:, some]], axis=-1) for name in OF_EVENT}
+    """Rows of ``damage.parquet`` of some stations: every event of every point, unweighted, and every loop of events."""
+    rows = len(plan.names)
+    lengths = [np.nan if p.length is None else p.length for p in plan.passes]
+    length = np.array([*lengths, *(np.nan for _ in plan.loops)])
+    columns = {name: _with_loops(name, result, some) for name in OF_EVENT}
     per_km = {name.replace("_per_pass", "_per_km"): columns[name] / length for name in columns if "_per_pass" in name}
-    verdict = np.stack([*result.verdicts[:, some]], axis=-1)
+    verdicts = [*result.verdicts[:, some], *(np.zeros_like(v) for v in result.verdicts[:1, some] for _ in plan.loops)]
+    verdict = np.stack(verdicts, axis=-1)
     return {
-        **point_columns(stations, repeat=events, some=some),
-        "event": coded(np.tile(np.arange(events), verdict.size // events), [p.event for p in plan.passes]),
+        **point_columns(stations, repeat=rows, some=some),
+        "event": coded(np.tile(np.arange(rows), verdict.size // rows), plan.names),
         **{name: values.ravel() for name, values in (columns | per_km).items()},
         "verdict": coded(verdict.ravel(), VERDICTS),
     }
+
+
+def _with_loops(name: str, result: GroupResult, some: slice) -> NDArray[np.float64]:
+    """A column of every event and every loop of some stations, (n, 2, e + l); NaN where a loop has none."""
+    of_events = result.of_events(name)[:, some]
+    loops = result.loop_columns[:, :, some]
+    of_loops = loops[:, list(OF_LOOP).index(name)] if name in OF_LOOP else np.full_like(loops[:, 0], np.nan)
+    return np.stack([*of_events, *of_loops], axis=-1)
 
 
 def stress_rows(stations: Stations, coordinates: Coordinates, some: slice) -> Mapping[str, Any]:

@@ -16,7 +16,7 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.tables.cycles import KeptPoint, kept_point
+from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.shown import few, shortened

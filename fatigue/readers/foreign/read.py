@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.extras import install_command
+from fatigue.files.extras import install_command
 from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
 from fatigue.files.naming import missing_foreign_file
 from fatigue.readers.foreign.fe.model import FeModel

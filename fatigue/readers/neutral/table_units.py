@@ -54,8 +54,10 @@ def checked_units(stated: Iterable[tuple[str, str, str]]) -> tuple[Problem, ...]
 def stated_unit_problem(where: str, column: str, unit: str) -> Problem | None:
     """Compare a unit stated for a neutral column with its name: ``unit`` is a contradiction, ``unit_unused`` a warning.
 
-    None where they agree.
+    None where they agree, and for columns of unit loads, whose units are compared with those of the case.
     """
+    if re.fullmatch(r"\s*u_[A-Za-z]\w*\s*", column):
+        return None
     stated = _plain(unit)
     stated = _SPELLINGS.get(stated, stated)
     own = column_unit(column)
@@ -67,6 +69,15 @@ def stated_unit_problem(where: str, column: str, unit: str) -> Problem | None:
         remedy = f"Convert the values to {own or 'the units N, mm, t, s'}, or bring them in by `fatigue convert`"
         return Problem("unit", where, f"the unit is {unit}, and the column is one of {means}", remedy)
     return Problem("unit_unused", where, f"the unit {unit} is not used", "Remove it, or check the values")
+
+
+def same_unit(one: str, other: str) -> bool:
+    """Whether two units are spelled alike, but for brackets, blanks and capital letters.
+
+    >>> same_unit("[kPa]", "kPa"), same_unit("kN", "N")
+    (True, False)
+    """
+    return _plain(one) == _plain(other)
 
 
 def _plain(unit: str) -> str:

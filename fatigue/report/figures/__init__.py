@@ -7,6 +7,7 @@ part of their rows.
 from fatigue.report.figures.cycles import exceedance, rainflow_matrices, sn_with_spectrum
 from fatigue.report.figures.domains import drawn_points, ratio_histogram, time_against_frequency
 from fatigue.report.figures.lines import along_weld
+from fatigue.report.figures.load_spectra import class_matrices, crossings_by_level, spectrum_exceedance
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
 from fatigue.report.figures.records import stress_history, stress_spectrum
 from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
@@ -20,6 +21,8 @@ __all__ = [
     "along_weld",
     "bands_of_welds",
     "body_outline",
+    "class_matrices",
+    "crossings_by_level",
     "damage_by_band",
     "damage_by_event",
     "damage_on_track",
@@ -33,6 +36,7 @@ __all__ = [
     "scene",
     "shares",
     "sn_with_spectrum",
+    "spectrum_exceedance",
     "stress_history",
     "stress_spectrum",
     "time_against_frequency",

@@ -49,8 +49,8 @@ def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> go.Fi
     parts = 100.0 * damage / damage.sum() if damage.sum() > 0.0 else damage
     return figure(
         [
-            _matrix(ranges, means, count, "x", "cycles in 1e6 km [-]", 0.44),
-            _matrix(ranges, means, parts, "x2", "share of the damage [%]", 1.0),
+            counts_matrix(ranges, means, count, "x", "cycles in 1e6 km [-]", 0.44),
+            counts_matrix(ranges, means, parts, "x2", "share of the damage [%]", 1.0),
         ],
         height=330,
         margin={"l": 70, "r": 16, "t": 10, "b": 50},
@@ -60,9 +60,10 @@ def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> go.Fi
     )
 
 
-def _matrix(
+def counts_matrix(
     ranges: NDArray[np.float64], means: NDArray[np.float64], values: NDArray[np.float64], x: str, title: str, bar: float
 ) -> Trace:
+    """Heat map of counts (row, column) between edges, by the logarithm; ``x`` names its axis, ``bar`` is its place."""
     logs = np.log10(values, out=np.full_like(values, np.nan), where=values > 0.0)
     high = float(np.ceil(np.nanmax(logs, initial=-9.0)))
     decades = np.arange(high - DECADES_SHOWN, high + 1)
@@ -97,6 +98,8 @@ def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: in
     largest = cycles.groupby("event", sort=False)["range_MPa"].max().sort_values(ascending=False, kind="stable")
     data = [_stairs(ranges, count, "mission", INK, 2.2)]
     for name in (name for name in passes_per_km if name in set(largest.index[:most])):
+        if (count[event == name] < 0.0).any():  # a sequence: a difference, which is in the line of the mission
+            continue
         data.append(_stairs(ranges[event == name], count[event == name], in_figure(name), colours[name], 1.4))
     text = f"largest {number(ranges.max())} MPa<br>{number(count.sum())} cycles in 1e6 km"
     reached = [float(d["x"][0]) for d in data if len(d["x"]) and d["x"][0] > 0.0]
@@ -129,7 +132,7 @@ def cumulative(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """How often ranges are reached or exceeded, and these ranges, from the largest down; at most ``STAIRS`` steps."""
     by_range = np.argsort(-ranges, kind="stable")
-    y, x = ranges[by_range], np.cumsum(count[by_range])
+    y, x = ranges[by_range], np.maximum.accumulate(np.cumsum(count[by_range]))  # rounding of what replaces cycles
     if len(x) > STAIRS and x[0] > 0.0:
         keep = np.unique(np.minimum(np.searchsorted(x, np.geomspace(x[0], x[-1], STAIRS)), len(x) - 1))
         x, y = x[keep], y[keep]

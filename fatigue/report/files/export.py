@@ -9,13 +9,12 @@ import pandas as pd
 import pyarrow as pa
 
 from fatigue.errors import DataError, Problem, given_path
-from fatigue.extras import install_command
+from fatigue.files.extras import install_command
 from fatigue.files.mishaps import cannot_write, refused_writing
 from fatigue.report.wording import LONGEST
 from fatigue.results import (
+    ASSESSED,
     CSV_TABLES,
-    LOAD_SPECTRA,
-    OPTIONAL,
     TABLES,
     WORKBOOK,
     Column,
@@ -184,7 +183,7 @@ def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
 
 
 def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
-    """Write the tables of points, events, cycles and welds, and ranges and load spectra where there are any, as CSV.
+    """Write tables of points, events, cycles, welds and, where they are, ranges, load spectra, bench programmes as CSV.
 
     They are UTF-8 with decimal points. Infinite lives are written as ``inf``, what is not available is empty. A text
     that a spreadsheet would take for a formula gets an apostrophe before it. ``into`` is another folder to write to,
@@ -198,7 +197,7 @@ def write_csv(folder: Path | str, into: Path | None = None) -> list[Path]:
     read_provenance(folder)
     paths = []
     for name in CSV_TABLES:
-        if name in OPTIONAL | LOAD_SPECTRA and not table_path(folder, name).exists():
+        if name not in ASSESSED and not table_path(folder, name).exists():
             continue
         texts = [column.name for column in TABLES[name] if column.type == "text"]
         paths.append((into or folder) / f"{name}.csv")

@@ -48,7 +48,7 @@ def where(result: ShownResult, body: BodyOutline | None, links: Mapping[str, str
 def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: ShownResult, links: Mapping[str, str]) -> Markup:
     """What a click in the scene shows and what its lines can be coloured by, packed in the order of drawing."""
     drawn = stations.iloc[np.maximum(rows, 0)]  # nobody asks for what stands at the gaps between the lines
-    welds, events = list(result.assessed["weld"]), [event["event"] for event in result.events]
+    welds, events = list(result.assessed["weld"]), list(result.passes_per_km)
 
     def index(column: str, names: Sequence[str]) -> dict[str, str]:
         place = {name: i for i, name in enumerate(names)}
@@ -79,6 +79,9 @@ def causes(result: ShownResult, why: Why | None, figs: Figures) -> dict[str, Sho
         if event["share"] is None
         else f"{wording.share(event['share'])} of km"
         for event in result.events
+    } | {
+        loop["name"]: f"{wording.number(1000.0 * loop['runs_per_km'])} in 1000 km"
+        for loop in result.record["mission"].get("sequences", [])
     }
     fig = figures.damage_by_event(list(shares.index), shares.reset_index(drop=True), weights)
     events = (
@@ -99,7 +102,7 @@ def event_shares(result: ShownResult) -> pd.DataFrame:
     """Share of each event in the damage of each detailed weld's worst point, welds worst first; damaged ones only."""
     weighted = result.damage["damage_per_pass"] * result.damage["event"].map(result.passes_per_km)
     table = result.damage.assign(weighted=weighted).pivot_table(index="weld", columns="event", values="weighted")
-    table = table.loc[list(result.detailed), [event["event"] for event in result.events]]
+    table = table.loc[list(result.detailed), list(result.passes_per_km)]
     total = table.sum(axis=1)
     return table[total > 0.0].div(total[total > 0.0], axis=0)
 

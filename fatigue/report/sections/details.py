@@ -68,8 +68,10 @@ def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, De
     with TemporaryDirectory(prefix="fatigue-") as scratch:
         for event in inputs.case.mission.event:
             history = inputs.history(event, Path(scratch) / "record")
-            removed = np.full(len(history.mode), inputs.case.mean_of_q(event) == "remove")
-            record = stress.event_record(history, event.stress_factor, removed=removed)
+            constants = inputs.constants(event)
+            removed = np.full(len(constants), inputs.case.mean_of_q(event) == "remove")
+            removed[len(inputs.modes) :] = False  # what the case gives over time stays
+            record = stress.event_record(history, event.stress_factor, constants, removed)
             steps[event.name] = record.history.step
             upper = upper_hz(result, inputs, record.history.step)
             for name, weld in welds.items():
@@ -103,7 +105,7 @@ def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> No
 
 
 def _welds(result: ShownResult) -> dict[str, _DetailedWeld]:
-    governing = result.assessed.set_index("weld")["governing_event"]
+    governing = _leading_events(result)
     welds = {}
     for name, (stations, modal_stress) in result.modal_stress(list(COMPONENTS.values())).items():
         components = dict(zip(COMPONENTS, modal_stress, strict=True))
@@ -113,10 +115,23 @@ def _welds(result: ShownResult) -> dict[str, _DetailedWeld]:
         welds[name] = _DetailedWeld(
             worst=components["membrane"][at] + sign * components["bending"][at],
             stations=components,
-            governing_event=None if pd.isna(governing[name]) else governing[name],
+            governing_event=governing[name],
             largest=_largest(result.cycles(name, _OF_LARGEST), governing[name]),
         )
     return {name: welds[name] for name in result.detailed}
+
+
+def _leading_events(result: ShownResult) -> dict[str, str | None]:
+    """Governing event of each weld; the event with the most damage where a sequence governs, which has no record."""
+    known = {event["event"] for event in result.events}
+    found: dict[str, str | None] = {}
+    for weld, name in result.assessed.set_index("weld")["governing_event"].items():
+        found[str(weld)] = None if pd.isna(name) else str(name)
+        if not pd.isna(name) and name not in known:
+            of_weld = result.damage[(result.damage["weld"] == weld) & result.damage["event"].isin(known)]
+            weighted = of_weld["damage_per_pass"] * of_weld["event"].map(result.passes_per_km)
+            found[str(weld)] = None if weighted.empty else str(of_weld.loc[weighted.idxmax(), "event"])
+    return found
 
 
 def _largest(cycles: pd.DataFrame, event: str | None) -> tuple[float, float] | None:

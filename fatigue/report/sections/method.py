@@ -58,6 +58,7 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
             Rule(f"Counting: {words.split(':')[0]}", words, "ASTM E1049-85")
             for words in _unique(chosen["residue"].values())
         ),
+        Rule("Cycles across events", _across_events(record), "case file: mission.sequence"),
         Rule(
             "Points not counted", _screening(chosen["screening"]), "option --screen; proofs: fatigue/life/screening.py"
         ),
@@ -116,10 +117,23 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         *((rule.subject, rule.choice) for rule in _level_rule(chosen)),
         ("Residue", "; ".join(_unique(chosen["residue"].values()))),
         ("Upsampling", _upsampling(chosen)),
+        *([("Cycles across events", _across_events(record))] if mission.get("sequences") else []),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
         ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
     ]
+
+
+def _across_events(record: Mapping[str, Any]) -> str:
+    """Whether cycles across events are counted, and in which order."""
+    loops = record["mission"].get("sequences", [])
+    said = str(record["rules"].get("events", "every event follows on itself"))
+    if not loops:
+        return said
+    orders = "; ".join(
+        f"{' – '.join(loop['order'])} {number(1000.0 * loop['runs_per_km'])} in 1000 km" for loop in loops
+    )
+    return f"{said}: {orders}"
 
 
 def _level_rule(chosen: Mapping[str, Any]) -> list[Rule]:

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from fatigue.report.sections.cells import Heading, PageTable, text
-from fatigue.report.wording import number
 
 _VALUES_SHOWN = 8
 
@@ -33,9 +32,9 @@ def source_in_words(given: Mapping[str, Any], unit: str) -> str:
     """What an event gives of a unit load, in words."""
     way = given["way"]
     if way == "constant":
-        return f"constant {number(given['constant'])} {unit}"
+        return f"constant {given['constant']:g} {unit}"
     if way == "values":
-        shown = ", ".join(number(value) for value in given["values"][:_VALUES_SHOWN])
+        shown = ", ".join(f"{value:g}" for value in given["values"][:_VALUES_SHOWN])
         more = len(given["values"]) - _VALUES_SHOWN
         return f"values {shown}{f' and {more} more' if more > 0 else ''} {unit}"
     if way == "missing":
@@ -43,8 +42,8 @@ def source_in_words(given: Mapping[str, Any], unit: str) -> str:
     own = f"column {given['column']} of {given['file']}"
     if way == "column":
         return own
-    changes = [f"times {number(given['scale'])}"] if given["scale"] != 1.0 else []
-    changes += [f"shifted by {number(given['shift_s'])} s"] if given["shift_s"] else []
+    changes = [f"times {given['scale']:g}"] if given["scale"] != 1.0 else []
+    changes += [f"shifted by {given['shift_s']:g} s"] if given["shift_s"] else []
     changes += ["linear between its samples"] if given["interpolation"] == "linear" else []
     return ", ".join([own, *changes])
 

@@ -14,6 +14,7 @@ from fatigue.report.sections import weld_tables
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
+from fatigue.report.sections.load_spectra import LoadSpectra, equivalent_table, spectra_figures
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
 
@@ -22,7 +23,7 @@ SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED, EVENTS_LISTED = 6, 8, 4, 20
 
 @dataclass(frozen=True, slots=True)
 class WeldPage:
-    """One weld in detail; what only a diagnosis knows is empty without one.
+    """One weld in detail; what only a diagnosis or load spectra know is empty without one.
 
     ``bounded`` points of it have a lower bound of life in place of a counted one.
     """
@@ -37,13 +38,20 @@ class WeldPage:
     events: PageTable
     events_left_out: int
     levers: PageTable | None
+    equivalent: PageTable | None
     reasons: list[tuple[str, str, str]]
     exponents: Mapping[str, float]
     bounded: int
 
 
 def weld_page(
-    result: ShownResult, weld: str, detail: Detail | None, why: Why | None, figs: Figures, id_: str
+    result: ShownResult,
+    weld: str,
+    detail: Detail | None,
+    why: Why | None,
+    spectra: LoadSpectra | None,
+    figs: Figures,
+    id_: str,
 ) -> WeldPage:
     """All that is shown of one weld; ``detail`` is None where the records were not found."""
     row = result.assessed.set_index("weld", drop=False).loc[weld]
@@ -52,6 +60,7 @@ def weld_page(
     used = assumptions_of(result.record, row["curve"])
     event = None if pd.isna(row["governing_event"]) else str(row["governing_event"])
     why = None if why is None else why.of_weld(weld)
+    spectra = None if spectra is None else spectra.of_weld(weld)
 
     figs = figs.under(f"{id_}-")
     points = result.nodes[result.nodes["weld"] == weld]
@@ -65,6 +74,8 @@ def weld_page(
         shown += _record_figures(result, detail, event, figs, modes_too=why is None)
     if why is not None and event is not None:
         shown += _why_figures(result, why, event, figs)
+    if spectra is not None:
+        shown += spectra_figures(spectra, result, figs)
     return WeldPage(
         id=id_,
         name=weld,
@@ -83,6 +94,7 @@ def weld_page(
         ),
         events_left_out=max(0, len(result.events) - EVENTS_LISTED),
         levers=None if why is None or why.levers.empty else weld_tables.lever_table(f"{id_}-levers", why.levers),
+        equivalent=None if spectra is None else equivalent_table(f"{id_}-equivalent", spectra),
         reasons=[] if why is None else why.reasons(),
         exponents={} if why is None else exponents(why),
         bounded=int((points["screened"] != "").sum()),

@@ -38,7 +38,11 @@ def read_why(folder: Path, result: ShownResult) -> Why | None:
     """Tables of a diagnosis, read; None where the result was not diagnosed."""
     if not all((folder / f"{name}.parquet").is_file() for name in TABLES):
         return None
-    return Why(*(rows_of_worst_points(folder, name, result.assessed, result.detailed) for name in TABLES))
+    found = {name: rows_of_worst_points(folder, name, result.assessed, result.detailed) for name in TABLES}
+    for name in ("attribution", "levers"):  # older versions have no unit loads
+        if "unit_load" not in found[name]:
+            found[name] = found[name].assign(unit_load=None)
+    return Why(**found)
 
 
 def mode_shares(why: Why) -> pd.DataFrame:

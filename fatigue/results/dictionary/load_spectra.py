@@ -71,7 +71,8 @@ EQUIVALENT = (
         "del_reference",
         "text",
         "-",
-        "1 Hz: N_eq is the duration of one pass times 1 Hz, against its cycles; 1 per km: against the cycles of a km",
+        "1 Hz: N_eq is the duration of one pass times 1 Hz, for its cycles; 1 per run: one cycle, for those of a run "
+        "of the sequence; 1 per km: one cycle, for those of a km",
     ),
     Column("power_sum_per_km", "float", "MPa^m/km", "sum n S^m per km of the mission"),
     Column("cycles_per_km", "float", "1/km", "cycles per km of the mission"),

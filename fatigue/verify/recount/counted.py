@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import pandas as pd
 
 from fatigue.results import TABLES
 from fatigue.verify.recount.anew.loop import bound_per_km, loop_pass
@@ -15,16 +16,18 @@ from fatigue.verify.recount.anew.rounding import Bounds
 from fatigue.verify.recount.inputs.case import RecountInputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
 from fatigue.verify.recount.stored.compare import Row
+from fatigue.verify.recount.stored.histogram import histogram_rows
 from fatigue.verify.recount.stored.loop_cycles import loop_rows
 from fatigue.verify.recount.stored.rows import Station, cycle_row
 from fatigue.verify.recount.stored.tables import Stored
 
+HISTOGRAM_COLUMNS = ["kind", "bin", "count_per_pass", "power_sum_per_pass"]
 CYCLE_COLUMNS = [column.name for column in TABLES["cycles"] if column.type == "float"]
 
 
 @dataclass(slots=True, eq=False)
 class Passes:
-    """One pass of every event and one run of every loop at a point, and its cycles compared.
+    """One pass of every event and one run of every loop at a point, its cycles and classes of ranges compared.
 
     ``raw`` are the same without end treatment. ``bound`` is what cycles across events add at most per km in any order,
     NaN where nobody asks for it.
@@ -33,6 +36,7 @@ class Passes:
     treated: list[OnePass] = field(default_factory=list)
     raw: list[OnePass] = field(default_factory=list)
     cycles: list[Row] = field(default_factory=list)
+    histograms: list[Row] = field(default_factory=list)
     bound: float = np.nan
 
 
@@ -48,6 +52,7 @@ def count(
     sampling: Sequence[tuple[float, int]],
     stored: Stored,
     cycles_of: frozenset[int],
+    histogram_of: frozenset[int],
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
     """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once.
 
@@ -61,12 +66,15 @@ def count(
         rules = spectrum_rules(inputs.case, coordinates, record.step)
         events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
+        binned = _classes_of(stored, number, [point for point in stations if point in histogram_of])
         keeps = number if number in in_a_row else None
         for point, station in stations.items():
             key, of = stored.body.key(point), counted[point]
             one = one_pass(_treated(station, key[3]), record, rules, mean_stress, keeps)
             if point in there:
                 of.cycles.append(cycle_row(key, events[-1], one, there[point]))
+            if point in binned:
+                of.histograms += histogram_rows(key, events[-1], one, station.weld.curve.slopes[0], binned[point])
             one = replace(one, rows={})
             of.treated.append(one)
             of.raw.append(
@@ -75,6 +83,11 @@ def count(
                 else one
             )
     return counted, events + _count_loops(inputs, stations, counted, stored, cycles_of)
+
+
+def _classes_of(stored: Stored, event: int, points: Sequence[int]) -> dict[int, pd.DataFrame]:
+    """Stored classes of ranges of one event at some points, by point."""
+    return {} if stored.histogram is None else stored.histogram.of_event(event, points, HISTOGRAM_COLUMNS)
 
 
 def _count_loops(

@@ -45,6 +45,7 @@ from fatigue.verify.recount.stored.tables import (
     rows_of,
     toes_and_utilisation,
     with_cycles,
+    with_histogram,
 )
 
 TOES = {"top": ("top",), "bottom": ("bottom",), "both": FACES}
@@ -120,7 +121,7 @@ def _recount(
     """The recount of a folder whose inputs are as they were; ``astray`` are its files that are not."""
     coordinates, body = read_coordinates(inputs), layout(inputs)
     events = [event["name"] for event in inputs.case["mission"]["event"]]
-    stored = open_tables(folder, body, [*events, *loop_names(inputs)], coordinates)
+    stored = open_tables(folder, body, [*events, *loop_names(inputs)], coordinates, record)
     checks = [*stored.keys, *left_out_check(stored, inputs)]
     if not all(check.passed for check in checks):
         return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
@@ -130,7 +131,7 @@ def _recount(
     most = max(2, most_samples // samples)
     choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, most=most)
     sampling = list(zip(fastest_peaks(folder, inputs, events), upsampling_factors(record), strict=True))
-    cycles_of = with_cycles(stored, governing, record)
+    cycles_of, histogram_of = with_cycles(stored, governing, record), with_histogram(stored, record)
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
@@ -146,7 +147,7 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = count(inputs, coordinates, few, sampling, stored, cycles_of)
+            passes, mission = count(inputs, coordinates, few, sampling, stored, cycles_of, histogram_of)
             of_few = values_of(inputs, few, passes, mission)
             rounding = bounds_of(inputs, few, passes, mission, of_few)
             steps = _steps(inputs, few.values())
@@ -241,10 +242,12 @@ def _compared(
         for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
     cycles = [row for of in passes.values() for row in of.cycles]
+    histograms = [row for of in passes.values() for row in of.histograms]
     return [
         *compare("nodes", nodes, steps),
         *compare("damage", damage, steps),
         *compare("cycles", cycles, steps),
+        *(compare("histogram", histograms, steps) if histograms else []),
     ]
 
 

@@ -11,6 +11,7 @@ from fatigue.life.records.history import ModalHistory
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.solve.model import read_model
 from fatigue.pipeline.tables import cycles
+from fatigue.pipeline.tables.cycle_rows import kept_point
 from tests.small_case import small_case
 
 POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
@@ -18,7 +19,7 @@ POINTS = (WorstPoint(0, 2, 0), WorstPoint(1, 9, 1), WorstPoint(1, 13, 0))
 
 def kept(model):
     """What the cycles of the points need."""
-    return [cycles.kept_point(model, point) for point in POINTS]
+    return [kept_point(model, point) for point in POINTS]
 
 
 class OnlySlices:

@@ -214,16 +214,23 @@ def test_screened_points_have_none_and_single_precision_is_counted_in_double(tmp
     np.testing.assert_allclose(rows.count_per_pass_S, rows.cycles_per_pass, rtol=1e-12)
 
 
-def test_mean_stress_is_in_the_equivalent_ranges(tmp_path):
-    """With mean_stress asme dS is the one of the damage: its power sum gives the damage."""
+@pytest.mark.parametrize("mean_of_q", ["keep", "remove"])
+def test_mean_stress_is_in_the_equivalent_ranges(tmp_path, mean_of_q):
+    """With mean_stress asme dS is the one of the damage, constants beside the samples included."""
     case = small_case()
     case.histories["noise"]["q_1"] += 150.0
-    case.curve |= {"mean_stress": "asme", "yield_MPa": 200.0}
-    case.counting["upsample"] = 1
+    case.histories["load"]["q_1"] += np.array([0.0, 150.0])
+    case.curve |= {"mean_stress": "asme", "yield_MPa": 60.0}
+    case.counting |= {"upsample": 1, "mean_of_q": mean_of_q}
+    case.events[2]["mean_of_q"] = "keep"
     rows = sums_of(assessed(tmp_path, case))
     damage = rows.power_sum_per_pass_dS / np.exp(STRAIGHT.log_constants[0])
     np.testing.assert_allclose(damage, rows.damage_per_pass, rtol=1e-12)
-    assert read_table(tmp_path / "result", "nodes")["damage_factor_if_mean_stress"].to_pandas().eq(1.0).all()
+    of_noise = rows.xs("noise", level="event")
+    tenser = of_noise.power_sum_per_pass_dS / of_noise.power_sum_per_pass_S
+    assert (tenser.max() > 5.0) == (
+        mean_of_q == "keep"
+    )  # the factor of the thickness over I(r) is 1.3, to the power 3.6
 
 
 def test_other_points_are_refused(tmp_path):

@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from fatigue.extras import REQUIREMENTS
+from fatigue.files.extras import REQUIREMENTS
 from fatigue.files.known_formats import OWN
 from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, all_formats, formats_called
 

@@ -1,5 +1,7 @@
 """The tables of a diagnosis, where there are any, on the page."""
 
+import shutil
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -159,3 +161,15 @@ def test_events_without_bands_stay_out_of_the_picture():
     bands = band_shares(Why(**dict.fromkeys(Why.__dataclass_fields__, attribution)))
     assert bands["share"].tolist() == pytest.approx([0.2, 0.5, 0.2])
     assert len(figures.damage_by_band(bands).data[0].x) == 3
+
+
+def test_a_diagnosis_of_an_older_version_has_no_unit_loads(diagnosed, tmp_path):
+    """Its tables lack the column, and are shown all the same."""
+    shutil.copytree(diagnosed, tmp_path / "older")
+    for name in ("attribution", "levers"):
+        path = tmp_path / "older" / f"{name}.parquet"
+        rows = pd.read_parquet(path)
+        rows[rows["unit_load"].isna()].drop(columns="unit_load").to_parquet(path)
+    page = Page(report_page(tmp_path / "older"))
+    assert page.figures["weld-1-damage-modes"]["data"][0]["text"] == ["70.0 %", "40.0 %", "−20.0 %"]
+    assert page.tables["weld-1-levers"][0][0] == "mode"

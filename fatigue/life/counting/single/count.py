@@ -29,14 +29,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.block import BlockCount, BlockStress
-from fatigue.life.counting.chunks import count_chunks
+from fatigue.life.counting.chunks import count_chunks, count_chunks_and_residue
 from fatigue.life.counting.record import CountedRecord, SingleRecord
+from fatigue.life.counting.residue import BlockResidue
 from fatigue.life.counting.signal import not_finite
 from fatigue.life.counting.single.kernels.doubt import Exact
 from fatigue.life.counting.single.kernels.over_time import Workspace, count_in_memory, count_record
 from fatigue.life.counting.single.kernels.power import PowerLaw, power_law
 from fatigue.life.counting.single.kernels.product import block_for, is_in_panels, prepared_rows, space_for_samples
-from fatigue.life.counting.single.kernels.state import PAD, fresh_state, room_for
+from fatigue.life.counting.single.kernels.state import PAD, State, fresh_state, room_for
 from fatigue.life.counting.single.prepare import CHUNK
 from fatigue.life.rule import CycleRule
 
@@ -44,6 +45,7 @@ Floats = NDArray[np.float64]
 
 POINTS = 48  # counted at a time, twice as many fill whole tiles; the stress of more would not stay in the cache
 RESIDUE = 512  # reversals of a point that may wait for the next chunk
+KEPT = 128  # reversals of the residue of a pass, some ten as a rule
 
 SHORTEST = 512  # samples of a record; a few cycles do not average rounding errors out
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
@@ -54,13 +56,15 @@ FLAT = 4e-8  # doubt about a difference of stresses of rms 1, per root of the nu
 class _Normalised(NamedTuple):
     """Modal stress of a block over ``scale`` [MPa], and the mean of its stress [MPa].
 
-    ``membrane`` and ``bending`` (n, m); ``scale`` (n, 1); ``mean`` and ``trusted`` (n, 2): single precision is enough.
+    ``membrane`` and ``bending`` (n, m); ``scale`` (n, 1); ``mean`` (n, 2) of top and bottom, ``mean_parts`` (n, 2) of
+    membrane and bending; ``trusted`` (n, 2): single precision is enough.
     """
 
     membrane: Floats
     bending: Floats
     scale: Floats
     mean: Floats
+    mean_parts: Floats
     trusted: NDArray[np.bool_]
 
 
@@ -81,6 +85,19 @@ def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) ->
     ------
     NumericalError : a stress is not finite
     """
+    count, _ = _counted(stress, record, rule, 0)
+    return count
+
+
+def count_single_and_residue(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule
+) -> tuple[BlockCount, BlockResidue]:
+    """Count a block as ``count_single`` does, and keep the residue of every point."""
+    return _counted(stress, record, rule, KEPT)
+
+
+def _counted(stress: BlockStress, record: CountedRecord, rule: CycleRule, kept: int) -> tuple[BlockCount, BlockResidue]:
+    """Count a block, with residues of ``kept`` reversals at most, or counted in double precision; 0: no residues."""
     single = record.single
     assert single is not None
     finite = np.isfinite(stress.membrane).all(axis=1) & np.isfinite(stress.bending).all(axis=1)
@@ -89,15 +106,19 @@ def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) ->
     block = _normalised(stress, single)
     law = power_law(float(rule.law.slopes[0]), rule.uses_bending_ratio)
     everywhere = np.ones((len(stress), 2), np.bool_)
-    found = _count(block, everywhere, record, single, law, np.float32)
+    state = _count(block, everywhere, record, single, law, np.float32, kept)
+    found, residue = state.sides, _residue_of(state, block, block.mean_parts)
     doubtful = found["doubtful"] & ~found["crowded"]
     rows = np.flatnonzero(doubtful.any(axis=1))
     if rows.size:
         wanted = doubtful[rows]
-        again = _count(_Normalised._make(a[rows] for a in block), wanted, record, single, law, np.float64)
+        some = _Normalised._make(a[rows] for a in block)
+        state = _count(some, wanted, record, single, law, np.float64, kept)
+        again = state.sides
         for name in ("maximum", "minimum"):
             again[name] -= again["mean"]
         found[doubtful] = again[wanted]
+        residue = residue.replaced(doubtful, _residue_of(state, some, np.zeros_like(some.mean_parts)), wanted)
     count = _evaluated(found, block, stress, record.q.shape[1], rule)
     unsuited, tense = found["crowded"], np.zeros((len(stress), 2), np.bool_)
     if rule.yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
@@ -108,7 +129,13 @@ def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) ->
         unsuited |= tense & rule.mean_stress
     rows = np.flatnonzero(unsuited.any(axis=1))
     if rows.size:
-        exact = count_chunks(stress.at(rows), record, rule)
+        if kept:
+            exact, others = count_chunks_and_residue(stress.at(rows), record, rule)
+            whole = np.zeros(unsuited.shape, np.bool_)
+            whole[rows] = True
+            residue = residue.replaced(whole, others, whole[rows])
+        else:
+            exact = count_chunks(stress.at(rows), record, rule)
         for field in fields(BlockCount):
             getattr(count, field.name)[rows] = getattr(exact, field.name)
     tense[rows] = False
@@ -118,7 +145,15 @@ def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) ->
         counted = exact.damage > 0.0
         factor = np.divide(exact.damage_mean_stress, exact.damage, out=np.ones_like(exact.damage), where=counted)
         count.damage_mean_stress[rows] *= factor
-    return count
+    return count, residue
+
+
+def _residue_of(state: State, block: _Normalised, mean: Floats) -> BlockResidue:
+    """Residues of a block from its normalised stress, over a ``mean`` (n, 2) of membrane and bending stress [MPa]."""
+    s, m = (state.residue[:, :, i].astype(np.float64) for i in range(2))
+    b = (s - m) * np.array([1.0, -1.0])[:, None]  # the surfaces are m + b and m - b
+    scale, length = block.scale[:, None], np.minimum(state.sides["kept"], state.residue.shape[3])
+    return BlockResidue.of_padded(scale * m + mean[:, 0, None, None], scale * b + mean[:, 1, None, None], length)
 
 
 def _surfaces(membrane: Floats, bending: Floats) -> Floats:
@@ -140,6 +175,7 @@ def _normalised(stress: BlockStress, single: SingleRecord) -> _Normalised:
         bending=S_b * single.scale / scale,
         scale=scale,
         mean=_surfaces(S_m @ single.mean, S_b @ single.mean),
+        mean_parts=np.stack([S_m @ single.mean, S_b @ single.mean], axis=1),
         trusted=variance * CANCELLATION**2 >= modal[:, None],
     )
 
@@ -151,12 +187,13 @@ def _count(
     single: SingleRecord,
     law: PowerLaw,
     precision: type[np.floating],
-) -> NDArray[np.void]:
-    """Count normalised stress, some samples and some points at a time, into numbers of type ``SIDE`` (n, 2)."""
+    kept: int,
+) -> State:
+    """Count normalised stress, some samples and some points at a time; returns the state behind the last sample."""
     is_first = precision is np.float32
     modes, t = record.q.shape
     flat = np.float32(FLAT * math.sqrt(modes) if is_first else -1.0)
-    state = fresh_state(len(wanted), RESIDUE, precision)
+    state = fresh_state(len(wanted), RESIDUE, precision, kept)
     state.sides["wanted"] = wanted
     if is_first:
         state.sides["doubtful"] = ~block.trusted
@@ -180,7 +217,7 @@ def _count(
     in_memory = is_in_panels(q) and isinstance(record.q, np.ndarray)
     count_all = count_in_memory if in_memory else count_record
     count_all(q, exact, law, state, work)
-    return state.sides
+    return state
 
 
 def _evaluated(

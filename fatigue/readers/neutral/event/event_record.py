@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.life.records.history import ModalHistory, Residue, first_kept, kept, upsampled
 from fatigue.life.records.unit_load import LoadRecord, LoadSource, UniformGrid
-from fatigue.readers.neutral.columns import DAMAGE
 from fatigue.readers.neutral.event.load_file import read_load
-from fatigue.readers.neutral.files import open_columns
+from fatigue.readers.neutral.event.load_units import load_unit_problems
 from fatigue.readers.neutral.history import TimeGrid, check_history, coordinate_numbers, read_history
 from fatigue.readers.neutral.record_outline import RecordOutline
-from fatigue.readers.text.layout import table_layout
 
 STATIC_STEP = 1.0  # s between the values of a static load case, which have no times
 FINER = "-finer"  # behind the name of the file of a record that was upsampled for a load
@@ -107,18 +105,6 @@ class CheckedRecord:
     warnings: list[Problem]
 
 
-def column_names(path: Path | None) -> Collection[str]:
-    """Names of the columns of a record, without reading it; none where it cannot be opened, which its reader tells."""
-    if path is None:
-        return ()
-    try:
-        if path.suffix.lower() == ".csv":
-            return [name.strip() for name in table_layout(path, ()).names]
-        return [name.strip() for name in open_columns(path, ()).names]
-    except (*DAMAGE, DataError):
-        return ()
-
-
 def read_event(files: EventFiles, scratch: Path | None = None) -> EventRecord:
     """The kept record of an event; a file named ``scratch`` takes its samples, if one is given.
 
@@ -163,6 +149,7 @@ def check_event(files: EventFiles, outline: RecordOutline) -> CheckedRecord:
         for row in range(len(q)):
             outline.add(row, q[row], STATIC_STEP)
         return CheckedRecord(TimeGrid(q.shape[1], STATIC_STEP, 0.0), 0, [])
+    refuse(DataError, load_unit_problems(files.path, files.loads))
     grid, warnings = check_history(
         files.path, files.modes, files.ignore_modes, strict=files.strict, outline=outline, loads=files.columns
     )

@@ -26,4 +26,5 @@ def read_load(source: LoadSource, *, strict: bool) -> tuple[LoadRecord, list[Pro
     if source.scale != 1.0:
         values = (source.scale * values.astype(np.float64)).astype(values.dtype)
     grid = UniformGrid(float(time[0]) + source.shift_s, uniform_step(table, time), table.rows)
-    return LoadRecord(values, grid, source.interpolation, periodic=False), table.warnings
+    warnings = [warning for warning in table.warnings if warning.code != "unit_unused"]  # compared elsewhere
+    return LoadRecord(values, grid, source.interpolation, periodic=False), warnings

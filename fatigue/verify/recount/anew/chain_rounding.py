@@ -62,7 +62,6 @@ def chain_bounds(of: Chained, damage: float, largest: float, R_largest: float, c
         "power_sum": float(n @ ((of.ranges + rho) ** k - of.ranges**k) + points * rho**k),
         "R_largest": ratio_bound(of.R, R_largest, relative_bound(rho, largest)),
         "with_mean_stress": of_cycles + of_sums,
-        "with_shear": of_cycles + of_sums,
     }
 
 

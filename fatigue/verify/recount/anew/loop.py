@@ -46,7 +46,7 @@ def loop_pass(
         "power_sum": float(n @ rows["range_MPa"] ** k),
         "R_largest": stress_ratio(*top.tolist()) if len(top) else np.nan,
         "with_mean_stress": float(n @ curve.damage(x / f_M)) if mean_stress.is_known(curve) else np.nan,
-        "with_shear": float(n @ damage),
+        "with_shear": np.nan,  # what shear adds to a cycle between two events is not known
     }
     rows |= {"count": n, "equivalent_range_dS": dS, "damage": n * damage}
     delta = max(passes[event].cycle_bounds["delta_level"] for event in turns)

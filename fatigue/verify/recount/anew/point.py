@@ -21,10 +21,12 @@ from fatigue.verify.recount.anew.rounding import (
 )
 from fatigue.verify.recount.anew.spectral import dirlik, tovo_benasciutti
 from fatigue.verify.recount.anew.turns import Turns, of_places, turning_points
+from fatigue.verify.recount.anew.vertex import Vertices, vertices
 
 Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
+SAME_INSTANT = 1e-6  # of a step: of a vertex that lies on a sample
 NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not counted among the peaks
 
 
@@ -91,13 +93,17 @@ def one_pass(
     modal_stress = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist])
     kept = _stress(modal_stress, record.kept)
     s = kept if record.counted is record.kept else _stress(modal_stress, record.counted)
+    kurtosis = _kurtosis(s)
+    delta = stress_bound(point.largest, record.peak, record.factor)
+    read = vertices(s, record, 2.0 * delta)
+    s, delta = read.moved(s), delta + read.doubt
     covariance = _covariance(modal_stress, record.kept)
     deviation = np.sqrt(np.diag(covariance))
 
     one_ratio = _ratio(*deviation[:2])
     I_one = curve.bending_factor(np.array([0.0 if np.isnan(one_ratio) else one_ratio]))[0]
     cycles = count_cycles(s, recurs=record.recurs)
-    rows = _cycle_rows(cycles, modal_stress, s, record)
+    rows = _cycle_rows(cycles, modal_stress, s, record, read)
     S, n = rows["range_MPa"], rows["count"]
     level = float((modal_stress[0] + modal_stress[1]) @ record.offset)
     rows["mean_MPa"] += level
@@ -129,7 +135,7 @@ def one_pass(
         "max_equivalent_range_dS": float(dS.max(initial=0.0)),
         "bending_ratio": one_ratio,
         "mean_stress_MPa": float(kept.mean()) + level,
-        "kurtosis": _kurtosis(s),
+        "kurtosis": kurtosis,
         "outside_share": outside,
         "irregularity": quotient(m2, (m0 * m4) ** 0.5),
         "peaks_per_s": peaks,
@@ -144,8 +150,8 @@ def one_pass(
     kept_cycles = slice(0) if curve.is_straight and not mean_stress.counts else slice(None)
     low, high = np.minimum(a, b), np.maximum(a, b)
     counted = Counted(
-        delta=stress_bound(point.largest, record.peak, record.factor),
-        delta_level=stress_bound(point.largest, record.peak + np.abs(record.offset), record.factor),
+        delta=delta,
+        delta_level=delta + stress_bound(point.largest, np.abs(record.offset), record.factor),
         level=level,
         stress=s,
         deviation=float(deviation[4]),
@@ -165,8 +171,9 @@ def one_pass(
         mean_stress=mean_stress.counts,
     )
     x, n, low, high = (of_all[kept_cycles] for of_all in (x, n, low, high))
-    turns = None if event is None else _turns(event, cycles, modal_stress, s, record)
+    turns = None if event is None else _turns(event, cycles, modal_stress, s, record, read)
     bounds = pass_bounds(counted, values, curve), cycle_bounds(counted, curve)
+    bounds[1]["instant"] = SAME_INSTANT * record.fine_step
     return OnePass(values, x, n, low, high, rows, *bounds, turns)
 
 
@@ -195,13 +202,15 @@ def _covariance(modal_stress: Floats, q: Floats) -> Floats:
     return np.asarray(sum((s - mean) @ (s - mean).T for s in six()) / q.shape[1])
 
 
-def _cycle_rows(cycles: RecountCycles, modal_stress: Floats, s: Floats, record: RecountRecord) -> dict[str, Floats]:
+def _cycle_rows(
+    cycles: RecountCycles, modal_stress: Floats, s: Floats, record: RecountRecord, read: Vertices
+) -> dict[str, Floats]:
     """Ranges of every cycle between its own two instants."""
     i, j = cycles.start, cycles.end
-    dm, db = np.abs(modal_stress[:2] @ record.counted[:, j] - modal_stress[:2] @ record.counted[:, i])
+    dm, db = np.abs(np.subtract(*(read.parts(modal_stress[:2], record.counted, at) for at in (j, i))))
     return {
-        "start_s": record.start + record.fine_step * i,
-        "end_s": record.start + record.fine_step * j,
+        "start_s": record.start + record.fine_step * (i + read.shift_of(i)),
+        "end_s": record.start + record.fine_step * (j + read.shift_of(j)),
         "range_MPa": np.abs(s[j] - s[i]),
         "mean_MPa": (s[i] + s[j]) / 2,
         "count": cycles.count,
@@ -211,11 +220,13 @@ def _cycle_rows(cycles: RecountCycles, modal_stress: Floats, s: Floats, record: 
     }
 
 
-def _turns(event: int, cycles: RecountCycles, modal_stress: Floats, s: Floats, record: RecountRecord) -> Turns:
+def _turns(
+    event: int, cycles: RecountCycles, modal_stress: Floats, s: Floats, record: RecountRecord, read: Vertices
+) -> Turns:
     """Turning points of a pass, with what is constant."""
     at = turning_points(s, cycles)
-    membrane, bending = modal_stress[:2] @ record.counted[:, at] + (modal_stress[:2] @ record.offset)[:, None]
-    time = np.asarray(record.start + record.fine_step * at, dtype=np.float64)
+    membrane, bending = read.parts(modal_stress[:2], record.counted, at) + (modal_stress[:2] @ record.offset)[:, None]
+    time = np.asarray(record.start + record.fine_step * (at + read.shift_of(at)), dtype=np.float64)
     return Turns(event, membrane, bending, time, of_places(cycles, at), record.recurs)
 
 

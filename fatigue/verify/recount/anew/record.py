@@ -17,7 +17,7 @@ from fatigue.verify.recount.inputs.tables import read_pieces
 
 Floats = NDArray[np.float64]
 
-SAMPLES_PER_PEAK = {"samples": 20.0, "vertex": 8.0}  # what upsample = "auto" reaches for
+SAMPLES_PER_PEAK = {"samples": 20.0, "vertex": 8.0}  # what upsample = "auto" reaches for, as reversals are read
 LARGEST_UPSAMPLE = 64  # where it ends
 FEWEST_SAMPLES = 100  # of a record that is not left as it is then
 
@@ -39,6 +39,7 @@ class RecountRecord:
     length_km : distance of one pass, None for an event counted by number
     passes_per_km : of the mission
     peak : (c,) largest absolute value of each coordinate
+    vertex : whether reversals are read at the vertices of parabolas through their samples
     has_spectrum : whether the samples are of one time; those of a static load case are not
     """
 
@@ -55,6 +56,7 @@ class RecountRecord:
     length_km: float | None
     passes_per_km: float
     peak: Floats
+    vertex: bool
     has_spectrum: bool
 
 
@@ -116,6 +118,7 @@ def read_record(
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
         peak=np.maximum(counted.max(axis=1), -counted.min(axis=1)),
+        vertex=counting.get("reversals", "samples") == "vertex",
         has_spectrum="history" in event,
     )
 

@@ -18,17 +18,28 @@ HALF = 0.5
 
 
 def open_and_closed(turns: Turns) -> tuple[Counts, RecountCycles]:
-    """Places of the reversals that no closed cycle takes, in time order, and the closed cycles.
+    """Places of the reversals that four-point counting leaves open, in time order, and the cycles that it closes.
 
-    A pass counted once leaves the open ones as half cycles, from each to the next.
+    A pass counted once leaves the open ones as half cycles, from each to the next; ranges that are equal it takes for
+    half cycles as well, and they close.
     """
     found = count_cycles(turns.stress, recurs=False)
     half, closed = found.count == HALF, found.count != HALF
-    open_ = np.append(found.start[half], found.end[half][-1:])
-    return (
-        open_ if len(open_) else np.array([len(turns.time) - 1]),
-        RecountCycles(found.start[closed], found.end[closed], found.count[closed]),
-    )
+    chain = np.append(found.start[half], found.end[half][-1:]).tolist() or [len(turns.time) - 1]
+    s, open_, equal = turns.stress, [], []
+    for place in chain:
+        open_.append(place)
+        while len(open_) > 3 and _closes(*s[open_[-4:]]):
+            equal.append(open_[-3:-1])
+            del open_[-3:-1]
+    start, end = np.array(equal, dtype=np.int64).reshape(-1, 2).T
+    cycles = np.concatenate([found.start[closed], start]), np.concatenate([found.end[closed], end])
+    return np.array(open_), RecountCycles(*cycles, np.ones(len(cycles[0])))
+
+
+def _closes(a: float, b: float, c: float, d: float) -> bool:
+    """Whether the middle one of three ranges is not above the other two."""
+    return bool(abs(c - b) <= min(abs(b - a), abs(d - c)))
 
 
 def paired(residues: Sequence[Floats], weights: Sequence[float]) -> tuple[Floats, Floats]:

@@ -48,7 +48,7 @@ def loads_of(inputs: RecountInputs, event: Mapping[str, Any]) -> list[RecountLoa
     for load in inputs.case["body"].get("unit_load", []):
         name = load["name"]
         if name in of_event:
-            loads.append(_given(inputs.folder, own, of_event[name]))
+            loads.append(_given(inputs.folder, of_event[name]))
         elif own is not None and (samples := _column(own, f"u_{name}")) is not None:
             loads.append(RecountLoad(samples=samples))
         else:
@@ -56,17 +56,13 @@ def loads_of(inputs: RecountInputs, event: Mapping[str, Any]) -> list[RecountLoa
     return loads
 
 
-def _given(folder: Path, own: Path | None, given: Mapping[str, Any]) -> RecountLoad:
+def _given(folder: Path, given: Mapping[str, Any]) -> RecountLoad:
     scale, is_linear = given.get("scale", 1.0), given.get("interpolation", "fourier") == "linear"
     if "constant" in given:
         return RecountLoad(scale * given["constant"])
     if "values" in given:
         return RecountLoad(samples=scale * np.array(given["values"], dtype=float))
-    column = given.get("column", f"u_{given['name']}")
-    if "history" not in given:
-        assert own is not None
-        return RecountLoad(samples=scale * _of_file(own, column), is_linear=is_linear)
-    path = folder / given["history"]
+    path, column = folder / given["history"], given.get("column", f"u_{given['name']}")
     times = _of_file(path, "time_s") + given.get("shift_s", 0.0)
     return RecountLoad(samples=scale * _of_file(path, column), times=times, is_linear=is_linear)
 
@@ -79,5 +75,5 @@ def _of_file(path: Path, column: str) -> Floats:
 
 def _column(path: Path, column: str) -> Floats | None:
     """One column of a history, None where it is not there."""
-    pieces = [piece[column].to_numpy(dtype=float) for piece in read_pieces(path, [column]) if column in piece]
+    pieces = [piece[column].to_numpy(dtype=float) for piece in read_pieces(path, ["time_s", column]) if column in piece]
     return np.concatenate(pieces) if pieces else None

@@ -138,7 +138,7 @@ def cycle_row(key: Key, event: RecountEvent, one: OnePass, found: pd.DataFrame) 
         expected[name], stored[name], scale[name] = float(a[worst]), float(b[worst]), float(np.abs(a).max())
     if "mean_MPa" in scale:
         scale["mean_MPa"] = max(scale["mean_MPa"], scale["range_MPa"])
-    bounds = dict.fromkeys(("start_s", "end_s"), np.inf if one.cycle_bounds["ties"] else 0.0)
+    bounds = dict.fromkeys(("start_s", "end_s"), np.inf if one.cycle_bounds["ties"] else one.cycle_bounds["instant"])
     return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale, bounds=bounds)
 
 

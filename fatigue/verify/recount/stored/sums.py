@@ -17,7 +17,9 @@ from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.spectral import NEARLY_ALL
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
+from fatigue.verify.recount.stored.histogram import KINDS as HISTOGRAM_KINDS
 from fatigue.verify.recount.stored.rows import place
+from fatigue.verify.recount.stored.runs import StoredRuns
 from fatigue.verify.recount.stored.tables import Stored, is_counted, toes_and_utilisation, worst_of_welds
 
 Floats = NDArray[np.float64]
@@ -68,6 +70,8 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent
     for first in range(0, stored.body.points, points):
         yield from _of_points(stored, case, events, np.arange(first, min(first + points, stored.body.points)))
     yield from _of_cycles(stored, len(events))
+    if stored.histogram is not None:
+        yield from _of_histograms(stored, stored.histogram, len(events))
     yield from _of_welds(stored)
     yield _smallest_load_factors(stored, toes_and_utilisation(stored)[0])
 
@@ -140,6 +144,22 @@ def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
     if len(keys):
         table = read_rows(stored.folder, "damage", stored.damage.of(keys), ["damage_per_pass"])
         yield Sum("cycles", "damage", np.bincount(which, of_run), _columns(table)["damage_per_pass"], keys)
+
+
+def _of_histograms(stored: Stored, histogram: StoredRuns, events: int) -> Iterator[Sum]:
+    """Cycles of a pass as the classes of either kind of range make them."""
+    for kind in HISTOGRAM_KINDS:
+        of_run, row = np.zeros(len(histogram.point)), 0
+        for columns in number_groups(stored.folder, "histogram", ["count_per_pass"], {"kind": [kind]}):
+            values = np.where(columns["kind"] == 0, columns["count_per_pass"], 0.0)
+            run = np.searchsorted(histogram.first, row + np.arange(len(values)), side="right") - 1
+            of_run += np.bincount(run, values, len(of_run))
+            row += len(values)
+        keys, which = np.unique(histogram.point * events + histogram.event, return_inverse=True)
+        if len(keys):
+            table = read_rows(stored.folder, "damage", stored.damage.of(keys), ["cycles_per_pass"])
+            cycles = _columns(table)["cycles_per_pass"]
+            yield Sum("histogram", "count_per_pass", np.bincount(which, of_run), cycles, keys)
 
 
 def _of_welds(stored: Stored) -> Iterator[Sum]:

@@ -11,19 +11,23 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
+from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.inputs.case import RecountInputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
 from fatigue.verify.recount.layout import FACES, Layout, station_finder
 from fatigue.verify.recount.stored.compare import ColumnCheck, compare_keys
-from fatigue.verify.recount.stored.cycles import StoredCycles, find_cycles
 from fatigue.verify.recount.stored.keys import RowPlaces, find_rows
+from fatigue.verify.recount.stored.runs import StoredRuns, find_runs
+
+HISTOGRAM_FROM = 0.1  # of the damage limit: a counted toe point has a histogram from there on
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stored:
     """The tables of a result: where the rows of points, stations and cycles are, and the small table of welds.
 
-    ``welds`` are the rows of the welds that were assessed, ``left_out`` the others.
+    ``welds`` are the rows of the welds that were assessed, ``left_out`` the others. ``histogram`` is None where the
+    result has no such table.
     """
 
     folder: Path
@@ -31,7 +35,8 @@ class Stored:
     nodes: RowPlaces
     damage: RowPlaces
     stress: RowPlaces
-    cycles: StoredCycles
+    cycles: StoredRuns
+    histogram: StoredRuns | None
     welds: pd.DataFrame
     left_out: pd.DataFrame
 
@@ -40,11 +45,18 @@ class Stored:
         """Checks that every table has the rows it should have."""
         checks = [self.nodes.check, self.damage.check, self.stress.check]
         checks.append(compare_keys("welds", self.welds.index, list(self.body.welds)))
-        return checks if self.cycles.strangers.passed else [*checks, self.cycles.strangers]
+        runs = [self.cycles] if self.histogram is None else [self.cycles, self.histogram]
+        return [*checks, *(run.strangers for run in runs if not run.strangers.passed)]
 
 
-def open_tables(folder: Path, body: Layout, events: Sequence[str], coordinates: RecountCoordinates) -> Stored:
-    """Tables of a result with the places of their rows.
+def open_tables(
+    folder: Path,
+    body: Layout,
+    events: Sequence[str],
+    coordinates: RecountCoordinates,
+    record: Mapping[str, Any],
+) -> Stored:
+    """Tables of a result, whose provenance is ``record``, with the places of their rows.
 
     Raises
     ------
@@ -60,7 +72,8 @@ def open_tables(folder: Path, body: Layout, events: Sequence[str], coordinates: 
         stress=find_rows(
             folder, "structural_stress", body, {"mode": coordinates.mode.tolist()}, coordinates.unit_loads
         ),
-        cycles=find_cycles(folder, body, events),
+        cycles=find_runs(folder, "cycles", body, events),
+        histogram=find_runs(folder, "histogram", body, events) if has_histogram(record) else None,
         welds=welds[is_assessed],
         left_out=welds[~is_assessed],
     )
@@ -135,3 +148,20 @@ def fastest_peaks(folder: Path, inputs: RecountInputs, events: Sequence[str]) ->
         for columns in number_groups(folder, "damage", ["peaks_per_s"], {"event": events}):
             np.maximum.at(highest, columns["event"], np.nan_to_num(columns["peaks_per_s"]))
     return highest.tolist()
+
+
+def has_histogram(record: Mapping[str, Any]) -> bool:
+    """Whether a result has a table of classes of ranges; older ones have not."""
+    return str(record["rules"].get("histogram", "none")) != "none"
+
+
+def with_histogram(stored: Stored, record: Mapping[str, Any]) -> frozenset[int]:
+    """Points whose classes of ranges are compared: those that have some, and those that have to."""
+    if stored.histogram is None:
+        return frozenset()
+    counted, (toe, utilisation) = is_counted(stored), toes_and_utilisation(stored)
+    if not record["rules"]["histogram"].startswith("every"):
+        worst = np.zeros(len(counted), dtype=bool)
+        worst[worst_points(stored.body, toe, np.where(counted, utilisation, -1.0))] = True
+        counted &= toe & ((utilisation >= HISTOGRAM_FROM) | worst)
+    return frozenset([*stored.histogram.points().tolist(), *np.flatnonzero(counted).tolist()])

@@ -8,6 +8,9 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from fatigue.assess import assess
+from fatigue.case import load_case
+from fatigue.errors import DataError
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.loads.names import LoadName
 from tests.readers.static_files import MODES, static_files
@@ -116,3 +119,21 @@ def test_forces_of_the_modes_do_not_change(tmp_path):
     after = pq.read_table(alone.out / "element_forces.parquet")
     assert before.equals(after)
     assert np.array_equal((options.out / "modes.csv").read_bytes(), (alone.out / "modes.csv").read_bytes())
+
+
+def test_the_case_is_assessed_once_its_loads_are_given(tmp_path):
+    """The lines at its end uncommented: every load is in the stresses, under its name."""
+    options = static_files(tmp_path)
+    convert(options)
+    case = options.out / "case.toml"
+    text = case.read_text()
+    with pytest.raises(DataError, match="the unit load 'tunnel_pressure' is not given"):
+        assess(load_case(case), tmp_path / "result", threads=1, report=False)
+    at = text.index("# [[mission.unit_load]]")
+    case.write_text(text[:at] + text[at:].replace("# ", ""))
+    assess(load_case(case), tmp_path / "result", threads=1, report=False)
+    stress = pq.read_table(tmp_path / "result" / "structural_stress.parquet").to_pandas()
+    own = stress.dropna(subset="unit_load")
+    assert set(own["unit_load"]) == {"tunnel_pressure", "coupler_draft", "load_1_g_vertical"}
+    assert own["mode"].isna().all()
+    assert (own.groupby("unit_load")["membrane_MPa"].max() > 0.0).all()

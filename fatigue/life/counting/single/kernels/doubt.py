@@ -19,6 +19,7 @@ from fatigue.life.counting.single.kernels.loops import (
     begin_side,
     finish,
     hold_level,
+    keep_residue,
     list_reversals,
     resume,
     suspend,
@@ -143,11 +144,15 @@ def count_side_exactly(
         while i < steps and room.marks[0, i] == 0:
             i += 1
         if i == steps:  # level so far
+            if stage.ends and state.residue.shape[3] > 0:
+                keep_residue(at, 0, stage.recurs, state, room)
             return
         begin_side(room.marks[0, i] > 0, m[i], at, stage.recurs, state)
     waiting, sign = resume(state, at, room), 2.0 * known.up - 1.0
     hold_level(room, steps, known.up)
     n, known.up = list_reversals(m, b, side, steps, known.up, room, waiting)
+    if stage.ends and state.residue.shape[3] > 0:
+        keep_residue(at, n, stage.recurs, state, room)
     sample = room.marks[1]
     for k in range(n - 1, -1, -1):
         sample[k] = sample[k - waiting] if k >= waiting else 0

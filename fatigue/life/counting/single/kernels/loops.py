@@ -8,6 +8,7 @@ from numba.extending import overload
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
+from fatigue.life.counting.residue import residue_places
 from fatigue.life.counting.single.kernels.power import PowerLaw, add_powers, add_up, raise_to_slope
 from fatigue.life.counting.single.kernels.state import PAD, Room, Stage, State
 
@@ -266,6 +267,29 @@ def append_last(m: Numbers, b: Numbers, i: int, side: np.float32, recurs: bool, 
 
 
 @compiled()
+def keep_residue(at: tuple[int, int], n: int, recurs: bool, state: State, room: Room) -> None:
+    """Keep the residue of a record that ends; n reversals wait, without the end of the record.
+
+    It turns at its first and its last sample, where another pass comes before or behind it.
+    """
+    known = state.sides[at]
+    side = np.float32(1 - 2 * at[1])
+    z, zm, s, m, place = room.numbers[0], room.numbers[1], room.numbers[4], room.numbers[5], room.marks[0]
+    m[0], m[n + 1] = state.ends[at[0], 0, 0], state.ends[at[0], 1, 0]
+    s[0] = state.ends[at[0], 0, 0] + side * state.ends[at[0], 0, 1]
+    s[n + 1] = state.ends[at[0], 1, 0] + side * state.ends[at[0], 1, 1]
+    sign = np.float32(1 if (known.first_up == 1) == recurs else -1)  # a block that recurs begins behind its first step
+    for i in range(n):
+        s[1 + i], m[1 + i] = sign * z[i], sign * zm[i]
+        sign = -sign
+    known.kept = residue_places(s, n + 2, place)
+    known.crowded |= known.kept > state.residue.shape[3]
+    if not known.crowded:
+        for k in range(known.kept):
+            state.residue[at[0], at[1], 0, k], state.residue[at[0], at[1], 1, k] = s[place[k]], m[place[k]]
+
+
+@compiled()
 def close_all(room: Room, n: int, flat: np.float32) -> tuple[int, int, bool]:
     """Close ranges as long as it is worth a pass.
 
@@ -305,12 +329,16 @@ def count_side(
     if up_before < 0:
         i = first_step(m, b, side, steps)
         if i == steps:  # level so far
+            if stage.ends and state.residue.shape[3] > 0:
+                keep_residue(at, 0, stage.recurs, state, room)
             return True
         begin_side(m[i + 1] + side * b[i + 1] > m[i] + side * b[i], m[i], at, stage.recurs, state)
     n = resume(state, at, room)
     n, known.up, doubtful = find_reversals(m, b, side, stage.flat, steps, known.up, room, n)
     cycles = 0
     if not doubtful:
+        if stage.ends and state.residue.shape[3] > 0:
+            keep_residue(at, n, stage.recurs, state, room)
         if stage.ends:
             n = append_last(m, b, steps, side, stage.recurs, known, room, n)
         n, cycles, doubtful = close_all(room, n, stage.flat)

@@ -54,7 +54,8 @@ def count_record(q: Samples, exact: Exact, law: PowerLaw, state: State, work: Wo
         for first in range(0, n, points):
             last = min(first + points, n)
             stress = work.stress[: 2 * (last - first)]
-            some = State(state.sides[first:last], state.ends[first:last], state.waiting[first:last])
+            waiting, residue = state.waiting[first:last], state.residue[first:last]
+            some = State(state.sides[first:last], state.ends[first:last], waiting, residue)
             multiply(rows_between(work.modal_stress, 2 * first, 2 * last), laid_out, work.stress)
             found = count_chunk(stress, samples, stage, law, some, work.room, doubts)
             if found > 0:

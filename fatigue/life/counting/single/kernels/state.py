@@ -12,7 +12,7 @@ PAD = 32  # room behind a row for vector instructions that read and write more t
 SIDE = np.dtype(
     [
         *((name, np.bool_) for name in ("wanted", "doubtful", "crowded")),
-        *((name, np.int64) for name in ("first_up", "up", "waiting")),
+        *((name, np.int64) for name in ("first_up", "up", "waiting", "kept")),
         *((name, np.float64) for name in ("mean", "plateau_m", "maximum", "minimum", "largest")),
         *((name, np.float64) for name in ("cycles", "power_sum", "damage", "second", "fourth")),
     ],
@@ -22,9 +22,9 @@ SIDE = np.dtype(
 
 ``wanted``: to be counted; ``doubtful``: rounding may have decided, nothing else is of use; ``crowded``: there was no
 room for all that waits. ``first_up`` and ``up`` are the directions of the first step and of the last one, -1 before
-there is any; ``waiting`` reversals have not closed a cycle. ``mean`` is the mean of the normalised stress, 0 in single
-precision; ``plateau_m`` the membrane stress before the first step. The rest are the sums and extremes of
-``BlockCount``, for normalised stress.
+there is any; ``waiting`` reversals have not closed a cycle, and ``kept`` are the residue of the record. ``mean`` is the
+mean of the normalised stress, 0 in single precision; ``plateau_m`` the membrane stress before the first step. The rest
+are the sums and extremes of ``BlockCount``, for normalised stress.
 """
 
 
@@ -32,12 +32,14 @@ class State(NamedTuple):
     """What is known of n points; few arrays, because compiled code counts the references to each at every call.
 
     ``sides`` (n, 2) of type ``SIDE``; ``ends`` (n, 2, 2) the first sample and the last one so far, membrane and
-    bending; ``waiting`` (n, 2, 2, r) the reversals of the surface that wait, and their membrane part.
+    bending; ``waiting`` (n, 2, 2, r) the reversals of the surface that wait, and their membrane part. ``residue``
+    (n, 2, 2, r) the stresses of the residue in the end, and their membrane part; r is 0 where it is not wanted.
     """
 
     sides: NDArray[np.void]
     ends: Numbers
     waiting: Numbers
+    residue: Numbers
 
 
 class Stage(NamedTuple):
@@ -60,12 +62,13 @@ class Room(NamedTuple):
     marks: NDArray[np.int32]
 
 
-def fresh_state(points: int, residue: int, precision: type[np.floating]) -> State:
-    """Nothing counted yet, every surface wanted."""
+def fresh_state(points: int, residue: int, precision: type[np.floating], kept: int = 0) -> State:
+    """Nothing counted yet, every surface wanted, with room for the ``residue`` that waits and the one that is kept."""
     sides = np.zeros((points, 2), SIDE)
     sides["wanted"] = True
     sides["up"] = sides["first_up"] = -1
-    return State(sides, np.empty((points, 2, 2), precision), np.empty((points, 2, 2, residue), precision))
+    ends, rows = np.empty((points, 2, 2), precision), (points, 2, 2)
+    return State(sides, ends, np.empty((*rows, residue), precision), np.zeros((*rows, kept), precision))
 
 
 def room_for(width: int, residue: int, precision: type[np.floating]) -> Room:

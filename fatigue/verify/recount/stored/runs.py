@@ -1,4 +1,4 @@
-"""The cycles of a result: which points have some, and the cycles of one event, without reading the whole table."""
+"""Cycles and histograms of a result: which points have some, and those of one event, without reading whole tables."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,23 +14,25 @@ from fatigue.verify.recount.stored.compare import ColumnCheck
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class StoredCycles:
-    """Stretches of rows in the table of cycles, each of one point and one event.
+class StoredRuns:
+    """Stretches of rows in a table, each of one point and one event.
 
     Attributes
     ----------
     folder : of the result
+    table : its name
     point, event : (r,) index of each run; -1: there is no such point, or no such event
     first : (r + 1,) first row of each run and, last, the number of rows
     """
 
     folder: Path
+    table: str
     point: NDArray[np.int64]
     event: NDArray[np.int64]
     first: NDArray[np.int64]
 
     def points(self) -> NDArray[np.int64]:
-        """Points that have cycles, ascending."""
+        """Points that have rows, ascending."""
         return np.unique(self.point[self.point >= 0])
 
     @property
@@ -38,7 +40,7 @@ class StoredCycles:
         """Check that no rows belong to points or events that are not in the case."""
         astray = np.flatnonzero((self.point < 0) | (self.event < 0))
         return ColumnCheck(
-            table="cycles",
+            table=self.table,
             column="weld, part, order, surface, event",
             unit="rows",
             compared=int(self.first[-1]),
@@ -50,17 +52,17 @@ class StoredCycles:
         )
 
     def of_event(self, event: int, points: Sequence[int], columns: Sequence[str]) -> dict[int, pd.DataFrame]:
-        """Cycles of one event at some points, by point."""
+        """Rows of one event at some points, by point."""
         runs = np.flatnonzero((self.event == event) & np.isin(self.point, points))
         rows = [np.arange(self.first[run], self.first[run + 1]) for run in runs]
-        found = read_rows(self.folder, "cycles", np.concatenate([np.zeros(0, dtype=np.int64), *rows]), columns)
+        found = read_rows(self.folder, self.table, np.concatenate([np.zeros(0, dtype=np.int64), *rows]), columns)
         owner = np.repeat(self.point[runs], [len(some) for some in rows])
         frame = found.to_pandas()
         return {point: frame[owner == point] for point in points}
 
 
-def find_cycles(folder: Path, body: Layout, events: Sequence[str]) -> StoredCycles:
-    """Whose cycles are in which rows.
+def find_runs(folder: Path, table: str, body: Layout, events: Sequence[str]) -> StoredRuns:
+    """Whose cycles or classes of ranges are in which rows.
 
     Raises
     ------
@@ -69,7 +71,7 @@ def find_cycles(folder: Path, body: Layout, events: Sequence[str]) -> StoredCycl
     find = station_finder(body)
     known = {"weld": body.welds, "surface": FACES, "event": events}
     pieces, rows = [np.zeros((3, 0), dtype=np.int64)], 0
-    for columns in number_groups(folder, "cycles", ["part", "order"], known):
+    for columns in number_groups(folder, table, ["part", "order"], known):
         station = find(columns["weld"], columns["part"], columns["order"])
         point = np.where((station >= 0) & (columns["surface"] >= 0), 2 * station + columns["surface"], -1)
         key = np.stack([point, columns["event"]])
@@ -77,4 +79,4 @@ def find_cycles(folder: Path, body: Layout, events: Sequence[str]) -> StoredCycl
         pieces.append(np.vstack([key[:, starts], rows + starts]))
         rows += len(point)
     point, event, first = np.concatenate(pieces, axis=1)
-    return StoredCycles(folder, point, event, np.append(first, rows))
+    return StoredRuns(folder, table, point, event, np.append(first, rows))

@@ -1,0 +1,102 @@
+"""Rows of the table of cycles: what its columns are, for a cycle of an event as for one across events."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
+from fatigue.pipeline.count.worst import WorstPoint
+from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.tables.rows import FACES
+from fatigue.results import coded
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeptPoint:
+    """A point whose cycles are kept, without the stations it is one of.
+
+    ``membrane`` and ``bending`` (m,) are its modal stress, of the top face [MPa per unit modal coordinate];
+    ``thickness`` is the thickness of its plate [mm].
+    """
+
+    weld: str
+    part: int
+    node: int
+    order: int
+    face: int
+    thickness: float
+    membrane: NDArray[np.float64]
+    bending: NDArray[np.float64]
+    rated: RatedCurve
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CycleParts:
+    """Some cycles of one point, arrays (c,).
+
+    Structural stress range and mean, ranges of ``membrane`` and ``bending`` stress and the ``minimum`` of the stress
+    [MPa], the ``count`` of each, and the file times of its two reversals [s].
+    """
+
+    range: Floats
+    mean: Floats
+    count: Floats
+    membrane: Floats
+    bending: Floats
+    minimum: Floats
+    start_s: NDArray[np.floating]
+    end_s: NDArray[np.floating]
+
+
+def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
+    """What the cycles of a point need of the stations of its group of welds."""
+    stations, at = model.stations, point.station
+    treated = stations.treated
+    return KeptPoint(
+        weld=stations.welds[point.weld].name,
+        part=int(stations.part[at]),
+        node=int(stations.node[at]),
+        order=int(stations.order[at]),
+        face=point.face,
+        thickness=float(stations.thickness[at]),
+        membrane=treated.membrane[at].copy(),
+        bending=treated.bending[at].copy(),
+        rated=model.curve_of_weld[point.weld],
+    )
+
+
+def cycle_rows(point: KeptPoint, event: str, cycles: CycleParts) -> dict[str, Any]:
+    """Rows of some cycles of a point in an event, with what the rule of its curve makes of them."""
+    rated, rule = point.rated, point.rated.rule
+    r = bending_ratio(cycles.membrane, cycles.bending)
+    size = rated.size(np.array([point.thickness]))
+    f_M = rule.mean_stress_factor(cycles.minimum, cycles.minimum + cycles.range)
+    dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
+
+    n = len(cycles.range)
+    same, none = np.zeros(n, dtype=np.int32), np.full(n, -1, dtype=np.int32)
+    return {
+        "weld": coded(same, [point.weld]),
+        "part": np.full(n, point.part),
+        "node": np.full(n, point.node),
+        "order": np.full(n, point.order),
+        "surface": coded(same, [FACES[point.face]]),
+        "event": coded(same, [event]),
+        "start_event": coded(none, [event]),
+        "end_event": coded(none, [event]),
+        "start_s": cycles.start_s,
+        "end_s": cycles.end_s,
+        "range_MPa": cycles.range,
+        "mean_MPa": cycles.mean,
+        "count": cycles.count,
+        "membrane_range_MPa": cycles.membrane,
+        "bending_range_MPa": cycles.bending,
+        "bending_ratio": r,
+        "equivalent_range_dS": dS,
+        "damage": cycles.count * cycle_damage(dS, rule.law),
+    }
