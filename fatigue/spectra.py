@@ -41,6 +41,7 @@ from fatigue.results import (
     refuse_mixed,
     relist,
     table_writer,
+    upsampling_factors,
 )
 from fatigue.results.folder import result_log
 from fatigue.results.lock import locked, settle_folder
@@ -120,7 +121,7 @@ def spectra(
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         found = gather_points(folder, groups, chosen)
-        loads = event_loads(groups, plan, staging / "histories", threads)
+        loads = event_loads(groups, plan, staging / "histories", threads, upsampling_factors(record))
 
         stage("counting the cycles of %d points", len(found))
         blocks = [slice(i, i + POINTS_AT_ONCE) for i in range(0, len(found), POINTS_AT_ONCE)]

@@ -10,6 +10,7 @@ from fatigue.assess import assess
 from fatigue.diagnose import diagnose
 from fatigue.pipeline.mission import events
 from fatigue.results import read_provenance, upsampling_factors
+from fatigue.spectra import spectra
 from fatigue.synth import Size, synthesize
 from tests import naive
 from tests.small_case import BENDING, MEMBRANE, STEP, small_case
@@ -79,6 +80,15 @@ def test_the_diagnosis_adds_up(result):
     both = pd.concat([per_point, stored], axis=1, join="inner").to_numpy()
     assert len(both) > 0
     np.testing.assert_allclose(both[:, 0], both[:, 1], rtol=1e-9)
+
+
+def test_load_spectra_are_of_the_same_cycles(result):
+    """Their power sums are the damage of the table."""
+    spectra(result / "result")
+    found = pd.read_parquet(result / "result" / "spectrum.parquet")
+    mine = found[(found["event"] == "sine") & (found["weld"] == "A")]
+    worst = tables(result / "result")["cycles"].query("event == 'sine' and weld == 'A'")
+    assert mine["max_MPa"].max() == pytest.approx(worst["range_MPa"].max(), rel=1e-12)
 
 
 def test_long_records_give_the_same(result, monkeypatch):

@@ -26,9 +26,10 @@ from numpy.typing import NDArray
 from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.factors import Trials, no_trials, tally_trials
+from fatigue.life.counting.moments import add_moments
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.residue import BlockResidue, residue_places
-from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles
+from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles, close_open
 from fatigue.life.counting.tally import (
     CompiledRule,
     Surface,
@@ -58,8 +59,8 @@ class _State(NamedTuple):
     last one, 0 before there is any; ``plateau`` (n, 2, 2) is the sample before the first step. The first ``waiting`` of
     the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``earlier`` (n, 2) is the sample before the last one;
     ``alone`` (n, 2) says whether the first plateau is the first sample alone, ``after`` (n, 2, 2) what follows it then.
-    ``moments`` (n, 2, 5) are number, mean, and sums of
-    the 2nd, 3rd and 4th power of the deviations from it, of the samples so far.
+    ``moments`` (n, 2, 5) are number, mean, and sums of the 2nd, 3rd and 4th power of the deviations from it, of the
+    samples so far.
     """
 
     first: Floats
@@ -250,38 +251,6 @@ def _room_for(steps: int, waiting: int) -> _Room:
 
 
 @compiled()
-def add_moments(s: Floats, moments: Floats) -> None:
-    """Join the moments of some more samples to those so far (Pebay, 2008, Sandia SAND2008-6212)."""
-    n_b = float(s.size)
-    offset = 0.0
-    for i in range(s.size):
-        offset += s[i] - s[0]
-    mean_b = s[0] + offset / n_b
-    second_b, third_b, fourth_b = 0.0, 0.0, 0.0
-    for i in range(s.size):
-        d = s[i] - mean_b
-        second_b += d * d
-        third_b += d * d * d
-        fourth_b += d * d * d * d
-    n_a, mean_a, second_a, third_a, fourth_a = moments
-    n = n_a + n_b
-    d = mean_b - mean_a if n_a > 0.0 else 0.0
-    moments[0] = n
-    moments[1] = mean_a + d * n_b / n if n_a > 0.0 else mean_b
-    moments[2] = second_a + second_b + d**2 * n_a * n_b / n
-    moments[3] = (
-        third_a + third_b + d**3 * n_a * n_b * (n_a - n_b) / n**2 + 3.0 * d * (n_a * second_b - n_b * second_a) / n
-    )
-    moments[4] = (
-        fourth_a
-        + fourth_b
-        + d**4 * n_a * n_b * (n_a**2 - n_a * n_b + n_b**2) / n**3
-        + 6.0 * d**2 * (n_a**2 * second_b + n_b**2 * second_a) / n**2
-        + 4.0 * d * (n_a * third_b - n_b * third_a) / n
-    )
-
-
-@compiled()
 def append(m: float, b: float, side: float, n: int, room: _Room) -> int:
     """Append a reversal and return how many there are."""
     room.m[n], room.b[n], room.s[n] = m, b, m + side * b
@@ -323,42 +292,6 @@ def append_reversals(
         else:
             n = append(m[i], b[i], side, n, room)
     return n, step
-
-
-@compiled()
-def close_open(s: Floats, waiting: int, reversals: int, recurs: bool, buffers: Buffers) -> tuple[int, int]:
-    """Close what closes whatever is still to come: the first ``waiting`` of the reversals are open ones.
-
-    A single pass follows ``reversals.close_cycles``: a range that contains the starting point is a half cycle. In a
-    block that recurs such a range waits, as does one that is not smaller than the range before it. Returns how many
-    cycles there are, and how many reversals are left, by their places in ``buffers.reversal``.
-    """
-    reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
-    cycles = 0
-    base = 0
-    top = waiting - 1
-    for k in range(reversals):
-        reversal[k] = k
-    for k in range(waiting, reversals):
-        top += 1
-        reversal[top] = k
-        while top - base >= 2:
-            X = abs(s[reversal[top]] - s[reversal[top - 1]])
-            Y = abs(s[reversal[top - 1]] - s[reversal[top - 2]])
-            if X < Y or (recurs and (top == 2 or abs(s[reversal[top - 2]] - s[reversal[top - 3]]) <= Y)):
-                break
-            start[cycles], end[cycles] = reversal[top - 2], reversal[top - 1]
-            if top - base == 2:
-                weight[cycles] = 0.5
-                base += 1
-            else:
-                weight[cycles] = 1.0
-                reversal[top - 2] = reversal[top]
-                top -= 2
-            cycles += 1
-    for k in range(base, top + 1):
-        reversal[k - base] = reversal[k]
-    return cycles, top + 1 - base
 
 
 @compiled()

@@ -1,4 +1,4 @@
-"""Mean and kurtosis of a signal."""
+"""Mean and kurtosis of a signal, as a whole or chunk by chunk."""
 
 import math
 
@@ -58,3 +58,35 @@ def sums_of_powers(s: Floats, origin: float, sums: Floats) -> tuple[float, float
         second_power += sums[1, lane]
         fourth_power += sums[2, lane]
     return first_power, second_power, fourth_power
+
+
+@compiled()
+def add_moments(s: Floats, moments: Floats) -> None:
+    """Join the moments of some more samples to those so far (Pebay, 2008, Sandia SAND2008-6212)."""
+    n_b = float(s.size)
+    offset = 0.0
+    for i in range(s.size):
+        offset += s[i] - s[0]
+    mean_b = s[0] + offset / n_b
+    second_b, third_b, fourth_b = 0.0, 0.0, 0.0
+    for i in range(s.size):
+        d = s[i] - mean_b
+        second_b += d * d
+        third_b += d * d * d
+        fourth_b += d * d * d * d
+    n_a, mean_a, second_a, third_a, fourth_a = moments
+    n = n_a + n_b
+    d = mean_b - mean_a if n_a > 0.0 else 0.0
+    moments[0] = n
+    moments[1] = mean_a + d * n_b / n if n_a > 0.0 else mean_b
+    moments[2] = second_a + second_b + d**2 * n_a * n_b / n
+    moments[3] = (
+        third_a + third_b + d**3 * n_a * n_b * (n_a - n_b) / n**2 + 3.0 * d * (n_a * second_b - n_b * second_a) / n
+    )
+    moments[4] = (
+        fourth_a
+        + fourth_b
+        + d**4 * n_a * n_b * (n_a**2 - n_a * n_b + n_b**2) / n**3
+        + 6.0 * d**2 * (n_a**2 * second_b + n_b**2 * second_a) / n**2
+        + 4.0 * d * (n_a * third_b - n_b * third_a) / n
+    )

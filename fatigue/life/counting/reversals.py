@@ -109,6 +109,42 @@ def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: Buffers) -> i
 
 
 @compiled()
+def close_open(s: Floats, waiting: int, reversals: int, recurs: bool, buffers: Buffers) -> tuple[int, int]:
+    """Close what closes whatever is still to come: the first ``waiting`` of the reversals are open ones.
+
+    A single pass follows ``reversals.close_cycles``: a range that contains the starting point is a half cycle. In a
+    block that recurs such a range waits, as does one that is not smaller than the range before it. Returns how many
+    cycles there are, and how many reversals are left, by their places in ``buffers.reversal``.
+    """
+    reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
+    cycles = 0
+    base = 0
+    top = waiting - 1
+    for k in range(reversals):
+        reversal[k] = k
+    for k in range(waiting, reversals):
+        top += 1
+        reversal[top] = k
+        while top - base >= 2:
+            X = abs(s[reversal[top]] - s[reversal[top - 1]])
+            Y = abs(s[reversal[top - 1]] - s[reversal[top - 2]])
+            if X < Y or (recurs and (top == 2 or abs(s[reversal[top - 2]] - s[reversal[top - 3]]) <= Y)):
+                break
+            start[cycles], end[cycles] = reversal[top - 2], reversal[top - 1]
+            if top - base == 2:
+                weight[cycles] = 0.5
+                base += 1
+            else:
+                weight[cycles] = 1.0
+                reversal[top - 2] = reversal[top]
+                top -= 2
+            cycles += 1
+    for k in range(base, top + 1):
+        reversal[k - base] = reversal[k]
+    return cycles, top + 1 - base
+
+
+@compiled()
 def find_cycles(s: Floats, recurs: bool, buffers: Buffers) -> int:
     """Write the cycles of s into ``start``, ``end`` and ``weight`` of the buffers and return how many there are."""
     if not recurs or s.size == 0:

@@ -30,6 +30,7 @@ class JobSize:
     threads : that work side by side
     report : whether a page is written
     histogram : of which points histograms are kept
+    vertex : whether reversals are read at their vertices, which takes double precision
     """
 
     modes: int
@@ -42,6 +43,7 @@ class JobSize:
     threads: int
     report: bool
     histogram: HistogramPoints = "worst"
+    vertex: bool = False
 
     @property
     def counted(self) -> tuple[int, ...]:
@@ -51,7 +53,7 @@ class JobSize:
     @property
     def is_single(self) -> bool:
         """Whether the counter in single precision serves."""
-        return 2 * self.stations * sum(self.counted) > DOUBLE_PRECISION_SAMPLES
+        return not self.vertex and 2 * self.stations * sum(self.counted) > DOUBLE_PRECISION_SAMPLES
 
     @property
     def is_screened(self) -> bool:
@@ -100,4 +102,5 @@ def job_size(
         threads=threads or os.cpu_count() or 1,
         report=report,
         histogram=histogram,
+        vertex=body.case.counting.reversals == "vertex",
     )
