@@ -82,7 +82,12 @@ class Plan:
     @property
     def joins_events(self) -> bool:
         """Whether cycles across events are looked at: in loops, or in an order that is not known."""
-        return bool(self.loops) or any(one.stints_per_1000_km is not None for one in self.passes)
+        return any(self.joins(event) for event in range(len(self.passes)))
+
+    def joins(self, event: int) -> bool:
+        """Whether an event, by its number, follows on others: in a loop, or in an order that is not known."""
+        in_loop = any(event in loop.order for loop in self.loops)
+        return in_loop or self.passes[event].stints_per_1000_km is not None
 
 
 def mission_sum(per_pass: NDArray[np.float64], passes: Sequence[Pass]) -> NDArray[np.float64]:

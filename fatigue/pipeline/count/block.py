@@ -79,10 +79,7 @@ class Block:
         """Some stations, all of their events counted."""
         for some in self._at_once(rows):
             stress = self.stress.at(some)
-            events = [
-                self._counted(stress, load, estimate.at(some))
-                for load, estimate in zip(self.loads, estimates, strict=True)
-            ]
+            events = [self._counted(stress, number, estimates[number].at(some)) for number in range(len(self.loads))]
             yield self._settled(some, self._judged(stress, events), 0)
 
     def counted_while_unsettled(
@@ -96,7 +93,7 @@ class Block:
         for some in self._at_once(rows):
             events: dict[int, tuple[NDArray[np.intp], EventBlock]] = {}
             for number, left in bounds.event_by_event(some):
-                event = self._counted(self.stress.at(left), self.loads[number], estimates[number].at(left))
+                event = self._counted(self.stress.at(left), number, estimates[number].at(left))
                 bounds.tighten(number, left, Bound.of_count(event.count))
                 events[number] = left, event
             remaining = bounds.unsettled(left)
@@ -112,9 +109,10 @@ class Block:
         events = [bounded_event(e.at(rows), b.at(rows), raw_ends) for e, b in of_events]
         return self._settled(rows, events, tier, bounds.joined(rows))
 
-    def _counted(self, stress: ModalStress, load: EventLoad, estimate: Estimate) -> EventBlock:
+    def _counted(self, stress: ModalStress, number: int, estimate: Estimate) -> EventBlock:
+        load = self.loads[number]
         with no_overflow(load.counted.event, self.welds):
-            return count_event(stress, load, estimate, joins=self.plan.joins_events)
+            return count_event(stress, load, estimate, joins=self.plan.joins(number))
 
     def _judged(self, stress: ModalStress, events: Sequence[EventBlock]) -> list[EventBlock]:
         found = []
@@ -145,9 +143,8 @@ class Block:
 
     def _joined(self, stress: ModalStress, events: Sequence[EventBlock]) -> Joined:
         """What joins the counted events of some stations."""
-        treated = [event.residue for event in events if event.residue is not None]
-        raw_ends = [event.residue_raw_end for event in events if event.residue_raw_end is not None]
-        return joined_events(stress, self.plan, treated, raw_ends)
+        residues = [event.residues for event in events]
+        return joined_events(stress, self.plan, [one for one, _ in residues], [raw for _, raw in residues])
 
     def _at_once(self, rows: NDArray[np.intp]) -> Iterator[NDArray[np.intp]]:
         """All rows at once, unless their histograms or residues would be large."""

@@ -59,6 +59,12 @@ class EventBlock:
             residue_raw_end=None if self.residue_raw_end is None else self.residue_raw_end.at(rows),
         )
 
+    @property
+    def residues(self) -> tuple[PassResidue, PassResidue]:
+        """Residue of the pass with treated ends and with raw ones; without a reversal where it joins no other event."""
+        nothing = PassResidue.nothing(len(self.verdict))
+        return self.residue or nothing, self.residue_raw_end or nothing
+
     def without_histogram(self) -> Self:
         """The same without histogram and residues, which are larger than all else and serve the whole mission only."""
         nothing = np.zeros((*self.verdict.shape, 0, 2))

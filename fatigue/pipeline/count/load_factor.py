@@ -45,7 +45,7 @@ def counted_load_factor(
     for first in range(0, len(stress), AT_ONCE):
         rows = np.arange(first, min(first + AT_ONCE, len(stress)))
         if wanted[rows].any():
-            residues = tuple(event.residue.at(rows) for event in events if event.residue is not None)
+            residues = tuple(event.residues[0].at(rows) for event in events)
             tried = _Counted(stress.at(rows), loads, plan, residues)
             of_rows = np.where(wanted[rows], low[rows], np.nan)
             found = load_factor_of_counts(tried.utilisation, of_rows, width[rows], stress.rule.law, jumps=jumps)

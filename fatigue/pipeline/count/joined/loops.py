@@ -25,6 +25,12 @@ class PassResidue:
     membrane: Floats
     bending: Floats
 
+    @classmethod
+    def nothing(cls, stations: int) -> Self:
+        """Of an event that is not looked at: no reversals."""
+        nothing, none = np.zeros(0), np.zeros((stations, 2), np.int64)
+        return cls(BlockResidue(nothing, nothing, none, none), np.zeros(stations), np.zeros(stations))
+
     def at(self, rows: NDArray[np.intp] | slice) -> Self:
         """Take some stations."""
         return type(self)(self.residue.at(rows), self.membrane[rows], self.bending[rows])

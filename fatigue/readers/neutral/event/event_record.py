@@ -132,13 +132,15 @@ def read_event(files: EventFiles, scratch: Path | None = None) -> EventRecord:
         return EventRecord(history, duration)
     base = _grid_of(history)
     refined, loads = _fitted(files, [(row, load) for row, load, _ in own], base)
+    _put(history, [(row, load) for row, load in loads if _stands_at(load, base)])  # upsampled as the modes are
     if refined > 1:
         history = upsampled(history, refined, files.residue, scratch and scratch.with_name(f"{scratch.name}{FINER}"))
         if scratch is not None:
             scratch.unlink()
-    _put(history, loads)
+    others = [(row, load) for row, load in loads if not _stands_at(load, base)]
+    _put(history, others)
     grid = _grid_of(history)
-    between = [(i, load) for i, load in loads if load.interpolation == "linear" or load.same_instants(grid) is None]
+    between = [(row, load) for row, load in others if not _stands_at(load, grid)]
     return EventRecord(history, duration, refined, tuple(between))
 
 
@@ -179,6 +181,11 @@ def _with_files(files: EventFiles) -> list[tuple[int, LoadSource]]:
 def _own(files: EventFiles, source: LoadSource) -> tuple[LoadRecord, list[Problem]]:
     """Record of a load, and the warnings about its file."""
     return read_load(source, strict=files.strict)
+
+
+def _stands_at(load: LoadRecord, grid: UniformGrid) -> bool:
+    """Whether the samples of a load stand at these instants, so that it is read between them as the modes are."""
+    return load.interpolation == "fourier" and load.same_instants(grid) is not None
 
 
 def _fitted(

@@ -280,3 +280,18 @@ def test_a_column_that_is_given_otherwise_is_not_read(tmp_path):
     assert [warning.code for warning in found.warnings] == ["unknown_column"]
     with pytest.raises(DataError, match="column u_p"):
         checked(files_of(path, load))
+
+
+@pytest.mark.parametrize("residue", ["repeat", "half"])
+def test_a_load_on_the_grid_beside_a_finer_one(tmp_path, residue):
+    """The record is upsampled for the finer load; the other one is upsampled with it, as a mode is."""
+    path, finer = own_record(tmp_path, u_p=signal), own_load(tmp_path, STEP / 2, 2 * SAMPLES)
+    (tmp_path / "long").mkdir()
+    longer = own_load(tmp_path / "long", STEP, SAMPLES + 70, start=-0.2)
+    column = LoadSource("c", "column", column="u_p")
+    found = read_event(files_of(path, column, longer, finer, residue=residue))
+    assert found.refined == 2
+    np.testing.assert_allclose(found.history.q[2], found.history.q[3], atol=1e-12)
+    assert found.between == ()
+    fine = found.upsampled(8, residue)
+    np.testing.assert_allclose(fine.q[2], fine.q[3], atol=1e-12)
