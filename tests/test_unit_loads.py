@@ -160,11 +160,11 @@ def rows_of(case: SmallCase, tmp_path, table: str) -> pd.DataFrame:
         ([0.0, 1.0, 0.0], "repeat", 6.430827091923128e-07),
     ],
 )
-@pytest.mark.parametrize("upsample", [1, 8])
-def test_two_samples_count_half_a_cycle(tmp_path, values, residue, damage, upsample):
-    """Load or unload under half, both under repeat (A1 static_two_samples); upsampling leaves values alone."""
+@pytest.mark.parametrize("counting", [{"upsample": 1}, {"upsample": 8}, {"reversals": "vertex"}], ids=str)
+def test_two_samples_count_half_a_cycle(tmp_path, values, residue, damage, counting):
+    """Load or unload under half, both under repeat (A1 static_two_samples); values are no samples of a signal."""
     case = static_case(40.0, values, residue, 1000.0)
-    case.counting["upsample"] = upsample
+    case.counting |= counting
     rows = rows_of(case, tmp_path, "damage")
     np.testing.assert_allclose(rows["damage_per_pass"], damage, rtol=1e-9)
     np.testing.assert_allclose(rows["max_equivalent_range_dS"], 44.56310667237715, rtol=1e-9)

@@ -112,8 +112,8 @@ def load_of(body: Body, event: Event, history: ModalHistory, upsample: int, *, s
 
 
 def how_counted(body: Body, event: Event, upsample: int = 1, *, single: bool = False, held: bool = True) -> HowCounted:
-    """How the case has the record of an event counted."""
-    vertex = body.case.counting.reversals == "vertex"
+    """How the case has the record of an event counted; values of a static load case are no samples of a signal."""
+    vertex = body.case.counting.reversals == "vertex" and event.history is not None
     return HowCounted(body.case.residue(event), event.stress_factor, upsample, single, held, vertex)
 
 

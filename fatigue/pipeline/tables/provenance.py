@@ -124,8 +124,8 @@ def _joining_rule(plan: Plan) -> str:
 
 def _precision(work: Work) -> str:
     """Precision of the counter."""
-    first = work.loads[0]
-    return "double" if first.single is None or first.vertex else "single, doubtful points in double"
+    single = work.loads[0].single is not None and not any(load.vertex for load in work.loads)
+    return "single, doubtful points in double" if single else "double"
 
 
 def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]:

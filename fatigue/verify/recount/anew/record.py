@@ -118,7 +118,7 @@ def read_record(
         length_km=length,
         passes_per_km=event["per_1000_km"] / 1000 if length is None else event["share"] / length,
         peak=np.maximum(counted.max(axis=1), -counted.min(axis=1)),
-        vertex=counting.get("reversals", "samples") == "vertex",
+        vertex=counting.get("reversals", "samples") == "vertex" and "history" in event,
         has_spectrum="history" in event,
     )
 
