@@ -91,3 +91,15 @@ def test_shipped_forces_are_those_of_the_shell_model(shipped):
         numbers = rows.columns[3:]
         size = np.abs(rows[numbers]).to_numpy().max(axis=0)
         np.testing.assert_allclose(old[numbers], rows[numbers], rtol=1e-4, atol=1e-4 * size.max())
+
+
+@pytest.mark.slow
+def test_the_body_with_all_its_loads_is_recounted(tmp_path):
+    """Offsets, a tunnel on a grid of its own, a static load case and a sequence: the independent recount agrees."""
+    assess(FOLDER / "case_loads.toml", tmp_path, report=False)
+    found = recount(tmp_path)
+    assert not found.wrong, found.as_text()
+    nodes = pd.read_parquet(tmp_path / "nodes.parquet")
+    assert (nodes.loc[nodes["weld"].str.startswith("W3"), "governing_event"] == "tunnel").any()
+    gravity = read_provenance(tmp_path)["gravity"]
+    assert {one["verdict"] for one in gravity} == {"contained", "absent"}

@@ -37,12 +37,23 @@ def loop_rows(
     theirs: Columns = {name: found[name].to_numpy() for name in one.rows}
     theirs |= {name: found[name].map(number).fillna(-1.0).to_numpy(float) for name in ("start_event", "end_event")}
     size = max(one.quantities["max_range_MPa"], float(np.max(theirs["range_MPa"], initial=0.0)))
-    a, b = _without_pairs(ours, size), _without_pairs(theirs, size)
+    a, b = (_without_pairs(_in_order(side), size) for side in (ours, theirs))
     exact = one.cycle_bounds["delta"] * 2.0 <= NEGLIGIBLE * size
     for sign, what in ((1.0, "what closes"), (-1.0, "what is replaced")):
         some = [_of_sign(side, sign, NEGLIGIBLE * size) for side in (a, b)]
         if exact:
             yield _row(f"{place(key)}, event '{event.name}', {what}", some[0], some[1], size, one)
+
+
+def _in_order(columns: Columns) -> Columns:
+    """The same with the instants of each cycle in the order of events and time.
+
+    A loop has no beginning: which of the two reversals of its cycles comes first depends on where counting begins.
+    """
+    first, last = ((columns[f"{end}_event"], columns[f"{end}_s"]) for end in ("start", "end"))
+    turned = (first[0] > last[0]) | ((first[0] == last[0]) & (first[1] > last[1]))
+    swapped = {"start_event": "end_event", "end_event": "start_event", "start_s": "end_s", "end_s": "start_s"}
+    return columns | {name: np.where(turned, columns[other], columns[name]) for name, other in swapped.items()}
 
 
 def _row(where: str, ours: Columns, theirs: Columns, size: float, one: OnePass) -> Row:
