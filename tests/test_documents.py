@@ -9,11 +9,22 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.documents import AGAIN, CSV, missing_extras, write_documents
 from fatigue.errors import DataError
-from fatigue.results import PAGE, PRINT, WORKBOOK, is_derived, read_provenance, strangers, write_provenance
+from fatigue.results import (
+    ASSESSED,
+    OPTIONAL,
+    PAGE,
+    PRINT,
+    WORKBOOK,
+    is_derived,
+    read_provenance,
+    strangers,
+    write_provenance,
+)
 from fatigue.results.belonging import carried
 from tests.report.files.test_pdf import program
 from tests.small_case import sine_only
 
+OF_AN_ASSESSMENT = [name for name in CSV if name.removesuffix(".csv") in ASSESSED | OPTIONAL]  # others are made later
 PRINTS = 'for a in "$@"; do case "$a" in --print-to-pdf=*) echo "%PDF" > "${a#*=}";; esac; done'
 
 
@@ -38,11 +49,12 @@ def test_every_document_carries_the_result_or_stands_in_the_list(result, tmp_pat
     wanted = [*AGAIN, WORKBOOK, *CSV, PRINT]
     done = write_documents(result, wanted)
     assert not done.problems
-    assert {path.name for path in done.written} == set(wanted)
+    written = {path.name for path in done.written}
+    assert written == {*AGAIN, WORKBOOK, *OF_AN_ASSESSMENT, PRINT}
     record = read_provenance(result)
     assert not strangers(result, record)
     assert carried(result / PRINT) == record["result"]
-    assert all(is_derived(result, name, record) for name in wanted)
+    assert all(is_derived(result, name, record) for name in written)
     assert not [path.name for path in result.iterdir() if path.name.startswith(".")]
 
 
@@ -55,7 +67,7 @@ def test_what_is_missing_is_known_at_once_and_the_rest_is_written(result, tmp_pa
     assert not missing_extras([*AGAIN, *CSV])
     done = write_documents(result, wanted)
     assert {problem.code for problem in done.problems} == {"no_xlsxwriter", "no_browser"}
-    assert {path.name for path in done.written} == {*AGAIN, *CSV}
+    assert {path.name for path in done.written} == {*AGAIN, *OF_AN_ASSESSMENT}
 
 
 def test_nothing_goes_on_that_is_refused(result, tmp_path, monkeypatch, caplog):
@@ -65,7 +77,7 @@ def test_nothing_goes_on_that_is_refused(result, tmp_path, monkeypatch, caplog):
     with pytest.raises(DataError, match="is there already"):
         write_documents(result, [*AGAIN, *CSV, PRINT])
     assert "Going on" not in caplog.text
-    assert {path.name for path in write_documents(result, [*CSV, PRINT], force=True).written} == set(CSV)
+    assert {path.name for path in write_documents(result, [*CSV, PRINT], force=True).written} == {*OF_AN_ASSESSMENT}
     assert "Going on with the others." in caplog.text
 
 

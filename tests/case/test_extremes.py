@@ -14,7 +14,7 @@ from tests.small_case import small_case
         ("x = " + "{a = " * 5000 + "1" + "}" * 5000, "line 33: tables or lists lie in one another without end"),
         ("[" + ".".join("a" * 1000) + "]", "tables or lists lie in one another without end"),
         ("x = " + "[" * 40 + "]" * 40, "tables or lists lie in one another without end"),
-        ("x = " + "9" * 5000, "line 32: an integer of 5000 digits is none of TOML"),
+        ("x = " + "9" * 5000, "line 33: an integer of 5000 digits is none of TOML"),
         ("x = 0x" + "f" * 5000, r"mission\.event\[3\]\.x: an integer of 20000 bits is none of TOML"),
         ("x = [1, {y = -9223372036854775809}]", r"x\[2\]\.y: an integer of 64 bits is none of TOML"),
     ],

@@ -17,7 +17,7 @@ def test_defaults_are_those_of_the_contract(load):
     curve = case.curve
     assert (curve.survival, curve.thickness_rule, curve.extension) == (None, "actual", "none")
     assert (curve.knee_cycles, curve.mean_stress, curve.yield_MPa) == (1e7, "none", None)
-    assert (case.counting.residue, case.counting.upsample) == ("repeat", 1)
+    assert (case.counting.residue, case.counting.upsample) == ("repeat", "auto")
     assert (case.spectrum.segment_s, case.spectrum.upper_hz) == (4.0, None)
     assert case.mission.damage_limit == 1.0
     assert [event.start_s for event in case.mission.event] == [0.0, 0.0, 0.0]
