@@ -4,7 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fatigue.assess import assess
 from fatigue.pipeline.solve.model import read_model
+from fatigue.results import read_provenance
+from fatigue.verify.recount.folder import recount
 from tests.carbody_loads import (
     CONVERTER_T,
     FOLDER,
