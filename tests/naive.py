@@ -44,7 +44,7 @@ def cycles(signal: ArrayLike, residue: str) -> list[Cycle]:
     s = np.asarray(signal, dtype=float)
     first, path = 0, s
     if residue == "repeat" and s.size:
-        first = int(s.argmax())
+        first = next(i for i in range(int(s.argmax()), s.size) if i + 1 == s.size or s[i + 1] < s.max())
         path = np.append(np.roll(s, -first), s[first])
     closed, rest = four_point(turning_points(path))
     pairs = [(a, b, 1.0) for a, b in closed] + [(a, b, 0.5) for a, b in pairwise(rest)]

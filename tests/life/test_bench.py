@@ -217,7 +217,10 @@ def test_least_squares_is_the_least(logs):
     assume(not unreached(share).any())
     found = least_squares(share)
     scale = np.where(share.max(axis=0) > 0.0, share.max(axis=0), 1.0)
-    downhill = (share / scale).T @ (1.0 - found.achieved)
+    scaled = share / scale
+    downhill = scaled.T @ (1.0 - found.achieved)
+    close = 1e-9 * found.achieved + 1.1e-10  # a shorter programme within 1e-9, solved to 1e-10, is taken as as close
     assert (found.cycles >= 0.0).all()
-    assert (downhill <= 1e-9).all()
-    np.testing.assert_allclose(downhill[found.cycles > 0.0], 0.0, atol=1e-9)
+    assert (downhill <= scaled.T @ close).all()
+    gap = np.vdot(scale * found.cycles, np.abs(downhill))  # no block runs that should not: products are 0 but for close
+    assert gap <= close @ (np.abs(1.0 - found.achieved) + 3.0 * found.achieved)

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.life.counting import long_rainflow
-from fatigue.life.counting.long_rainflow import long_cycles
+from fatigue.life.counting.long_rainflow import Piece, long_cycles
 from fatigue.life.counting.rainflow import rainflow
 
 LEVELS = st.lists(st.tuples(st.integers(-3, 3), st.integers(-2, 2)), min_size=1, max_size=60)
@@ -23,7 +23,7 @@ def pieces_joined(membrane, bending, side, residue, cuts):
         return ((membrane[a:b], bending[a:b]) for a, b in pairwise(edges) if b > a)
 
     pieces = list(long_cycles(chunks, side, residue))
-    return [np.concatenate(arrays) for arrays in zip(*pieces, strict=True)]
+    return Piece._make(np.concatenate(arrays) for arrays in zip(*pieces, strict=True))
 
 
 @pytest.mark.parametrize("residue", ["repeat", "half"])
@@ -35,12 +35,14 @@ def test_cycles_are_those_of_the_whole_record(residue, side, levels, cuts):
     membrane, bending = np.array(levels, dtype=np.float64).T
     stress = membrane + side * bending
     expected = rainflow(stress, residue)
-    at, of_stress, of_membrane, of_bending, weight = pieces_joined(membrane, bending, side, residue, cuts)
+    found = pieces_joined(membrane, bending, side, residue, cuts)
+    at = found.at
     np.testing.assert_array_equal(at, np.stack([expected.start, expected.end], axis=1))
-    np.testing.assert_array_equal(weight, expected.count)
-    np.testing.assert_array_equal(of_stress, stress[at])
-    np.testing.assert_array_equal(of_membrane, membrane[at])
-    np.testing.assert_array_equal(of_bending, bending[at])
+    np.testing.assert_array_equal(found.weight, expected.count)
+    np.testing.assert_array_equal(found.stress, stress[at])
+    np.testing.assert_array_equal(found.membrane, membrane[at])
+    np.testing.assert_array_equal(found.bending, bending[at])
+    np.testing.assert_array_equal(found.shift, np.zeros(at.shape))
 
 
 def test_pieces_and_a_growing_residue(monkeypatch):
@@ -50,9 +52,9 @@ def test_pieces_and_a_growing_residue(monkeypatch):
     s = t * (-1.0) ** t
     for residue in ("repeat", "half"):
         expected = rainflow(s, residue)
-        at, *_, weight = pieces_joined(s, 0.0 * s, 1.0, residue, [1000, 1001, 2500])
-        np.testing.assert_array_equal(at[:, 0], expected.start)
-        np.testing.assert_array_equal(weight, expected.count)
+        found = pieces_joined(s, 0.0 * s, 1.0, residue, [1000, 1001, 2500])
+        np.testing.assert_array_equal(found.at[:, 0], expected.start)
+        np.testing.assert_array_equal(found.weight, expected.count)
 
 
 def test_memory_does_not_grow_with_the_record():

@@ -180,7 +180,7 @@ def test_parts_add_up_on_the_samples(residue: Residue) -> None:
     moved = vertex_history(m, b, 1.0, recurs=residue == "repeat")
     cycles = rainflow(moved.membrane + moved.bending, residue)
     rule = CycleRule(LAWS["straight"], uses_bending_ratio=True)
-    found = credit(cycles, moved.membrane, moved.bending, 1.0, 1.5, rule, moved.shift)
+    found = credit(cycles, moved.membrane, moved.bending, 1.0, 1.5, rule, shift=moved.shift)
     assert found.share @ (m + b) == pytest.approx(found.damage, rel=1e-10)
     assert found.place.sum() == pytest.approx(found.damage)
     scaled = [float(np.vdot(by, x)) for by, x in ((found.by_membrane, m), (found.by_bending, b))]
@@ -197,7 +197,7 @@ def test_the_slope_of_the_damage_by_one_stress() -> None:
     def of(factor: float) -> Any:
         moved = vertex_history(factor * m, b, 1.0, recurs=False)
         cycles = rainflow(moved.membrane + moved.bending, "half")
-        return credit(cycles, moved.membrane, moved.bending, 1.0, 1.5, rule, moved.shift)
+        return credit(cycles, moved.membrane, moved.bending, 1.0, 1.5, rule, shift=moved.shift)
 
     difference = (of(1.0 + 1e-6).damage - of(1.0 - 1e-6).damage) / 2e-6
     assert float(np.vdot(of(1.0).by_membrane, m)) == pytest.approx(difference, rel=0.01)

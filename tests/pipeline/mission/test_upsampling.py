@@ -18,6 +18,7 @@ from fatigue.pipeline.mission.upsampling import factor_for, peak_forms
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.weld_groups import weld_groups
+from fatigue.readers.neutral.event.event_record import EventRecord
 from fatigue.results import read_provenance, upsampling_factors
 from fatigue.spectrum.moments import moment_matrices, point_moments, segment_spectra, spectra_above
 from fatigue.spectrum.outside import peak_rate
@@ -31,7 +32,7 @@ def loaded(q, upper_hz=15.0, segment_s=1.0, step=0.01):
     history = ModalHistory("e", np.arange(len(q)), q, step, 0.0)
     is_long = q.shape[1] * step >= segment_s
     spectra = segment_spectra(history, segment_s, upper_hz) if is_long else None
-    return of_samples(history, HowCounted("repeat"), spectra, None)
+    return of_samples(EventRecord(history, history.duration), HowCounted("repeat"), spectra, None)
 
 
 def factors_of(case, folder, residue=None):

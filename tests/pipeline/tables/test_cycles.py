@@ -45,7 +45,8 @@ def load():
     """Record of one event in single precision that starts at 3 s, stress factor 1.5, with constants beside it."""
     q = np.random.default_rng(4).normal(0.0, 20.0, (3, 9000)).cumsum(axis=1).astype(np.float32)
     history = ModalHistory("run", np.array([1, 2, 7]), OnlySlices(q), 0.01, 3.0)
-    return SimpleNamespace(counted=history, stress_factor=1.5, residue="repeat", offset=np.array([20.0, -1.0, 3.0]))
+    offset = np.array([20.0, -1.0, 3.0])
+    return SimpleNamespace(counted=history, stress_factor=1.5, residue="repeat", vertex=False, offset=offset)
 
 
 @pytest.mark.parametrize("samples_at_once", [1, 40_000, 4_000_000])
