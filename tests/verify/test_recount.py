@@ -74,6 +74,9 @@ CASES = {
 }
 
 
+OF_SMALL_CYCLES = 1e-8  # a class below 1e-3 MPa holds small cycles alone: 1e-14 of the largest is as much of them
+
+
 def assessed(folder: Path, tiny: TinyCase) -> Path:
     """Assess a tiny case; return its result folder."""
     assess(load_case(write_case(folder / "case", tiny)), folder / "result", threads=1, report=False)
@@ -95,8 +98,9 @@ def test_pipeline_and_recount_agree(tmp_path, name):
     assert of_few.passed, of_few.as_text()
     assert {"nodes, all rows", "damage, all rows", "welds, all rows"} <= {column.table for column in of_few.columns}
     assert found.points == found.points_in_all > 40
-    rounding = {c.column: c.difference for c in found.columns if c.column != "load_factor"}
+    rounding = {c.column: c.difference for c in found.columns if c.column not in ("load_factor", "power_sum_per_pass")}
     assert max(rounding.values()) < 1e-10, rounding
+    assert all(c.difference < OF_SMALL_CYCLES for c in found.columns if c.column == "power_sum_per_pass")
     load_factors = [c for c in found.columns if c.column == "load_factor"]
     assert all(c.difference < (1e-10 if name == "straight" else 0.02) for c in load_factors)
 
@@ -106,7 +110,8 @@ def test_the_shipped_example_agrees(example_result):
     found = recount(example_result, sample=5)
     assert found.passed, found.as_text()
     assert 14 + 5 <= found.points < found.points_in_all
-    assert max(column.difference for column in found.columns) < 1e-9
+    assert max(column.difference for column in found.columns if column.column != "power_sum_per_pass") < 1e-9
+    assert all(c.difference < OF_SMALL_CYCLES for c in found.columns if c.column == "power_sum_per_pass")
 
 
 def test_the_recount_shares_no_code_with_the_pipeline():
@@ -220,9 +225,11 @@ def test_a_row_too_few_or_too_many_is_found(copy_of_short, table, fault):
 
 
 def test_a_dropped_cycle_is_found(copy_of_short):
-    """A cycle that is missing shows in every column of the table of cycles."""
+    """A cycle that is missing shows in every column but those that loops alone fill."""
     edit(copy_of_short, "cycles", lambda frame: frame.drop(index=frame["range_MPa"].idxmax()))
-    assert differing(recount(copy_of_short, sample=None)) == {f"cycles.{column}" for column in CHECKED["cycles"]}
+    assert differing(recount(copy_of_short, sample=None)) == {
+        f"cycles.{column}" for column in CHECKED["cycles"] if column not in ("start_event", "end_event")
+    }
 
 
 def test_a_weld_without_cycles_is_found(copy_of_short):

@@ -82,7 +82,7 @@ def count(
                 if _is_treated(station)
                 else one
             )
-    return counted, events + _count_loops(inputs, stations, counted, stored, cycles_of)
+    return counted, events + _count_loops(inputs, stations, counted, stored, cycles_of, histogram_of)
 
 
 def _classes_of(stored: Stored, event: int, points: Sequence[int]) -> dict[int, pd.DataFrame]:
@@ -96,6 +96,7 @@ def _count_loops(
     counted: Mapping[int, Passes],
     stored: Stored,
     cycles_of: frozenset[int],
+    histogram_of: frozenset[int],
 ) -> list[RecountEvent]:
     """Runs of every loop at every point, and what they do at most where no order is known."""
     case, mean_stress = inputs.case["mission"], mean_stress_of(inputs)
@@ -105,17 +106,21 @@ def _count_loops(
         (RecountEvent(name, None, loop["per_1000_km"] / 1000), [number[entry] for entry in loop["order"]])
         for name, loop in zip(loop_names(inputs), case.get("sequence", []), strict=True)
     ]
-    some = [point for point in stations if point in cycles_of]
+    some, few = ([point for point in stations if point in of] for of in (cycles_of, histogram_of))
     there = [
-        stored.cycles.of_event(event, some, CYCLE_COLUMNS) for event in range(len(number), len(number) + len(loops))
+        (stored.cycles.of_event(event, some, CYCLE_COLUMNS), _classes_of(stored, event, few))
+        for event in range(len(number), len(number) + len(loops))
     ]
     for point, station in stations.items():
         key, of = stored.body.key(point), counted[point]
         passes, raw = list(of.treated), list(of.raw)
-        for (event, order), found in zip(loops, there, strict=True):
+        for (event, order), (found, binned) in zip(loops, there, strict=True):
             one, net = loop_pass(_treated(station, key[3]), order, passes, mean_stress)
             if point in found:
                 of.cycles += loop_rows(key, event, one, net, found[point], list(number))
+            if point in binned:
+                k = station.weld.curve.slopes[0]
+                of.histograms += histogram_rows(key, event, one, k, binned[point], of_loop=True)
             of.treated.append(replace(one, rows={}))
             of.raw.append(loop_pass(_raw(station, key[3]), order, raw, mean_stress)[0] if _is_treated(station) else one)
         if stints:

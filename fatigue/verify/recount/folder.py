@@ -131,7 +131,10 @@ def _recount(
     most = max(2, most_samples // samples)
     choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, most=most)
     sampling = list(zip(fastest_peaks(folder, inputs, events), upsampling_factors(record), strict=True))
-    cycles_of, histogram_of = with_cycles(stored, governing, record), with_histogram(stored, record)
+    cycles_of, histogram_of = (
+        with_cycles(stored, governing, record),
+        with_histogram(stored, record, _toes(inputs, body)),
+    )
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share

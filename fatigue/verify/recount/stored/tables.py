@@ -155,11 +155,11 @@ def has_histogram(record: Mapping[str, Any]) -> bool:
     return str(record["rules"].get("histogram", "none")) != "none"
 
 
-def with_histogram(stored: Stored, record: Mapping[str, Any]) -> frozenset[int]:
-    """Points whose classes of ranges are compared: those that have some, and those that have to."""
+def with_histogram(stored: Stored, record: Mapping[str, Any], toe: NDArray[np.bool_]) -> frozenset[int]:
+    """Points whose classes of ranges are compared: those that have some, and those that have to; ``toe``, (p,)."""
     if stored.histogram is None:
         return frozenset()
-    counted, (toe, utilisation) = is_counted(stored), toes_and_utilisation(stored)
+    counted, (_, utilisation) = is_counted(stored), toes_and_utilisation(stored)
     if not record["rules"]["histogram"].startswith("every"):
         worst = np.zeros(len(counted), dtype=bool)
         worst[worst_points(stored.body, toe, np.where(counted, utilisation, -1.0))] = True

@@ -49,8 +49,7 @@ class Chained:
 def chain_bounds(of: Chained, damage: float, largest: float, R_largest: float, curve: RecountCurve) -> Bounds:
     """Bounds on the columns of a loop; its damage is a difference of sums that may be far larger."""
     rho, k = 2.0 * of.delta, curve.slopes[0]
-    highest = float(np.abs(of.stress).max()) if of.mean_stress else 0.0
-    d_dS = equivalent_bound(of.size, rho, rho, highest)
+    d_dS = _equivalent_bound(of, rho)
     n, points = np.abs(of.counts), len(of.stress)
     of_cycles = damage_bound(of.equivalent, n, d_dS, points, curve)
     of_sums = SUMMED * UNIT * (2.0 * of.of_events + abs(damage))
@@ -66,6 +65,16 @@ def chain_bounds(of: Chained, damage: float, largest: float, R_largest: float, c
 
 
 def chain_cycle_bounds(of: Chained) -> Bounds:
-    """``delta`` and ``ties`` as of ``rounding.cycle_bounds``; equal stresses of two events are always ties."""
+    """Those of ``rounding.cycle_bounds`` but of a damage; equal stresses of two events are always ties."""
     rho = 2.0 * of.delta
-    return {"delta": of.delta, "ties": float(np.count_nonzero(np.diff(np.sort(of.stress)) <= rho))}
+    return {
+        "delta": of.delta,
+        "ties": float(np.count_nonzero(np.diff(np.sort(of.stress)) <= rho)),
+        "range_MPa": rho,
+        "equivalent_range_dS": _equivalent_bound(of, rho),
+    }
+
+
+def _equivalent_bound(of: Chained, rho: float) -> float:
+    """Bound on the equivalent range."""
+    return equivalent_bound(of.size, rho, rho, float(np.abs(of.stress).max()) if of.mean_stress else 0.0)
