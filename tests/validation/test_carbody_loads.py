@@ -99,7 +99,7 @@ def test_shipped_forces_are_those_of_the_shell_model(shipped):
 @pytest.mark.slow
 def test_the_body_with_all_its_loads_is_recounted(tmp_path):
     """Offsets, a tunnel on a grid of its own, a static load case and a sequence: the independent recount agrees."""
-    assess(load_case(FOLDER / "case_loads.toml"), tmp_path, report=False)
+    assess(FOLDER / "case_loads.toml", tmp_path, report=False)
     found = recount(tmp_path)
     assert found.passed, found.as_text()
     nodes = pd.read_parquet(tmp_path / "nodes.parquet")
