@@ -16,7 +16,7 @@ from fatigue.errors import CaseError, DataError
 from fatigue.pipeline.mission.events import event_load
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.model import read_model
-from fatigue.results import json_ready
+from fatigue.results import json_ready, read_provenance
 from fatigue.spectrum.bands import third_octaves
 from fatigue.why.attribute import Attribution, Bins, attribute_event
 from fatigue.why.findings import Diagnosis
@@ -413,11 +413,13 @@ def test_what_the_example_says_at_a_hanger_and_at_the_roof_bracket(example_resul
     rows = worst[["W2_hanger3_att", "W1_roof_bracket_att"]].to_numpy()
     points = points_of(model, rows // 2, rows % 2, np.array(["worst", "worst"], dtype=object))
     plan, _ = mission_plan(model.body)
+    factors = read_provenance(example_result)["rules"]["upsampled"]
+    loads = [event_load(model.body, event, factors[event.name]) for event in model.case.mission.event]
     found = Attribution(
         points,
         tuple(
-            attribute_event(points, event_load(model.body, event, 1), one, model.modes, Bins(third_octaves(), 0.1))
-            for event, one in zip(model.case.mission.event, plan.passes, strict=True)
+            attribute_event(points, load, one, model.modes, Bins(third_octaves(), 0.1))
+            for load, one in zip(loads, plan.passes, strict=True)
         ),
     )
     assert found.damage == pytest.approx(nodes["damage_per_km"].to_numpy()[rows], rel=1e-12)
