@@ -106,10 +106,9 @@ def extents(points: Points, loads: Sequence[EventLoad], plan: Plan) -> Extent:
     events = Extent().over(extent_of(counted.cycles) for load in loads for _, counted in recounted(points, load))
     residues = residues_of(points, loads, plan.loops)
     return events.over(
-        extent_of(counted.cycles)
+        extent_of(loop_cycles(points, i, loop, loads, residues).cycles)
         for loop in plan.loops
         for i in range(len(points))
-        for counted in loop_cycles(points, i, loop, loads, residues)
     )
 
 
@@ -133,8 +132,7 @@ def spectra_of_points(
     for loop in plan.loops:
         for i, exponent in enumerate(exponents):
             own = _nothing(classes, len(exponent))
-            for counted in loop_cycles(points, i, loop, loads, residues):
-                own.add(counted, classes, exponent, first_slope(points, i))
+            own.add(loop_cycles(points, i, loop, loads, residues), classes, exponent, first_slope(points, i))
             alone = damage_equivalent(own.power_sum, exponent, 1.0), "1 per run"
             of_events[i].append(_of_event(own, (loop.name, loop.runs_per_km), alone, classes))
     for i, events in enumerate(of_events):

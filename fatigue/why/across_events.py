@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.attribution import CycleCredit, cycle_credit
 from fatigue.life.mission import Loop, Plan
-from fatigue.pipeline.count.joined.chains import Chain, ChainCycles, loop_cycles, residue_chains
+from fatigue.pipeline.count.joined.chains import Chain, ChainCycles, chains_of_loops, loop_cycles
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.why.attribute import EventAttribution
 from fatigue.why.points import Points
@@ -25,7 +25,7 @@ def attribute_loops(points: Points, loads: Sequence[EventLoad], plan: Plan) -> t
     """Damage that every loop of a mission adds at some points, shared out; nothing without loops."""
     if not plan.loops:
         return ()
-    chains = _chains(points.membrane, points.bending, points.side, loads, plan)
+    chains = chains_of_loops(points.membrane, points.bending, points.side, loads, plan.loops)
     coordinates = {event: _Coordinates(loads[event], of_points) for event, of_points in chains.items()}
     return tuple(_attribute(points, loads, loop, chains, coordinates) for loop in plan.loops)
 
@@ -36,20 +36,12 @@ def loop_damages(points: Points, scale: Floats, loads: Sequence[EventLoad], plan
     if not plan.loops:
         return damage
     side = np.full(len(scale), points.side[0])
-    chains = _chains(scale * points.membrane, scale * points.bending, side, loads, plan)
+    chains = chains_of_loops(scale * points.membrane, scale * points.bending, side, loads, plan.loops)
     for loop in plan.loops:
         for i in range(len(scale)):
             cycles = loop_cycles(_at(chains, i), loop.order, side[i], loads)
             damage[i] += loop.runs_per_km * _credit(cycles, points, 0).damage.sum()
     return damage
-
-
-def _chains(
-    membrane: Floats, bending: Floats, side: Floats, loads: Sequence[EventLoad], plan: Plan
-) -> dict[int, list[Chain]]:
-    """Residues of the points in every event that a loop passes."""
-    events = sorted({event for loop in plan.loops for event in loop.order})
-    return {event: residue_chains(membrane, bending, side, loads[event], event) for event in events}
 
 
 def _at(chains: dict[int, list[Chain]], point: int) -> dict[int, Chain]:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Loop, Plan
-from fatigue.pipeline.count.joined.chains import Chain, loop_cycles, residue_chains
+from fatigue.pipeline.count.joined.chains import Chain, chains_of_loops, loop_cycles
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.tables.cycle_rows import CycleParts, KeptPoint, cycle_rows
 from fatigue.results import coded
@@ -21,8 +21,7 @@ def sequence_rows(points: Sequence[KeptPoint], loads: Sequence[EventLoad], plan:
     """
     side = np.array([1.0 if point.face == 0 else -1.0 for point in points])
     membrane, bending = (np.stack([getattr(p, name) for p in points]) for name in ("membrane", "bending"))
-    events = sorted({event for loop in plan.loops for event in loop.order})
-    chains = {event: residue_chains(membrane, bending, side, loads[event], event) for event in events}
+    chains = chains_of_loops(membrane, bending, side, loads, plan.loops)
     for loop in plan.loops:
         for i, point in enumerate(points):
             residues = {event: of_points[i] for event, of_points in chains.items()}

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.counting.residue import residue_indices
+from fatigue.life.mission import Loop
 from fatigue.life.records.history import Residue, stress_chunks
 from fatigue.pipeline.mission.event_load import EventLoad
 
@@ -64,6 +65,14 @@ def residue_chains(membrane: Floats, bending: Floats, side: Floats, load: EventL
         Chain(chain.membrane + constant[i], chain.bending + constant[n + i], chain.event, chain.sample)
         for i, chain in enumerate(chains)
     ]
+
+
+def chains_of_loops(
+    membrane: Floats, bending: Floats, side: Floats, loads: Sequence[EventLoad], loops: Sequence[Loop]
+) -> dict[int, list[Chain]]:
+    """Residues at n points of every event that is in a loop, by its number; arguments as of ``residue_chains``."""
+    events = sorted({event for loop in loops for event in loop.order})
+    return {event: residue_chains(membrane, bending, side, loads[event], event) for event in events}
 
 
 def loop_cycles(
