@@ -22,6 +22,7 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.group import has_checks
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.joined.matters import Transitions
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
@@ -41,6 +42,7 @@ from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
+from fatigue.pipeline.tables.checks import check_table_rows
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
@@ -297,8 +299,9 @@ def write_tables(
     folder: Path, key: str, assessed: Generator[Group], work: Work, done: Tally, threads: int | None
 ) -> None:
     """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
-    wants_histograms = work.histogram != "none"
-    with result_tables(folder, key, [*ASSESSED, *["histogram"] * wants_histograms]) as tables, closing(assessed):
+    wants_histograms, wants_checks = work.histogram != "none", has_checks(work.groups.body.case)
+    wanted = [*ASSESSED, *["histogram"] * wants_histograms, *["checks"] * wants_checks]
+    with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
         for group in assessed:
@@ -326,6 +329,8 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
         tables["damage"].write(damage_rows(stations, result, plan, some))
         tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     tables["welds"].write(weld_rows(model, plan, result, worst))
+    if "checks" in tables and result.checks.size:
+        tables["checks"].write(check_table_rows(result.checks, model.body.curves))
     return worst
 
 

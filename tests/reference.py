@@ -50,6 +50,10 @@ CASE_TABLES = {  # of case.toml, and the models that describe them
     "[[mission.event.unit_load]]": "GivenLoad",
     "[[mission.unit_load]]": "MissionLoad",
     "[[mission.sequence]]": "Sequence",
+    "[multiaxial]": "Multiaxial",
+    "[checks]": "Checks",
+    "[[checks.interaction]]": "Interaction",
+    "[[checks.endurance]]": "EnduranceCheck",
 }
 
 

@@ -1,10 +1,13 @@
 """A case: what is assessed, with which curve, over which mission.
 
-``tables`` are the tables of ``case.toml`` as frozen models, ``unit_loads`` and ``sequences`` those of loads beside the
-modes and of the order of events, ``load`` reads and checks a case file, ``problems`` says
-what is wrong with it in the words of the file, ``plausibility`` what is allowed and hardly meant.
+``tables`` are the tables of ``case.toml`` as frozen models, ``curves`` and ``checks`` those of S-N curves and of what
+is checked beside the normal stress at the toe, ``unit_loads`` and ``sequences`` those of loads beside the modes and of
+the order of events. ``load`` reads and checks a case file, ``problems`` says what is wrong with it in the words of the
+file, ``plausibility`` what is allowed and hardly meant.
 """
 
+from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
+from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
 from fatigue.case.tables import (
@@ -12,8 +15,6 @@ from fatigue.case.tables import (
     Body,
     Case,
     Counting,
-    Curve,
-    CustomCurve,
     Event,
     MeanOfQ,
     Mission,
@@ -24,12 +25,16 @@ __all__ = [
     "LARGEST_UPSAMPLE",
     "Body",
     "Case",
+    "Checks",
     "Counting",
     "Curve",
     "CustomCurve",
+    "EnduranceCheck",
     "Event",
+    "Interaction",
     "MeanOfQ",
     "Mission",
+    "Multiaxial",
     "Spectrum",
     "case_schema",
     "case_warnings",

@@ -9,12 +9,14 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
+from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.sequence_problems import sequence_problems
 from fatigue.case.sequences import Sequence
-from fatigue.case.tables import Body, Case, Counting, Curve, CustomCurve, Event, Mission, Spectrum
+from fatigue.case.tables import Body, Case, Counting, Event, Mission, Spectrum
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.files.mishaps import refusal
@@ -38,6 +40,10 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
     ("mission", "unit_load"): MissionLoad,
     ("mission", "event", "unit_load"): GivenLoad,
     ("body", "unit_load"): UnitLoad,
+    ("multiaxial",): Multiaxial,
+    ("checks",): Checks,
+    ("checks", "interaction"): Interaction,
+    ("checks", "endurance"): EnduranceCheck,
 }
 
 

@@ -3,23 +3,35 @@
 Nothing is converted silently: a text is never taken for a number, and an unknown key is always an error.
 """
 
-import itertools
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, field_validator
 
+from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
+from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
 from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.sequences import Sequence
 from fatigue.case.table import NotNegative, Positive, Table, Text
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import Problem
-from fatigue.life.curves import Applies, Extension, Survival, ThicknessRule
 from fatigue.life.records.history import Residue
 
-BODY_FILES = ("modes", "welds", "weld_nodes", "nodal_forces", "element_forces", "weld_elements", "nodes", "elements")
+BODY_FILES = (
+    "modes",
+    "welds",
+    "weld_nodes",
+    "nodal_forces",
+    "element_forces",
+    "weld_elements",
+    "nodes",
+    "elements",
+    "weld_throats",
+    "stress_points",
+    "modal_stresses",
+)
 MeanOfQ = Literal["keep", "remove"]
 LARGEST_UPSAMPLE = 64  # peaks come at half the sampling rate at most: 128 samples per peak, of the damage 1e-4 k lost
 
@@ -46,6 +58,13 @@ class Body(Table):
     elements: Text | None = Field(
         default=None,
         description="the file of the elements' nodes and thickness, for the comparison with the welds and pictures",
+    )
+    weld_throats: Text | None = Field(default=None, description="the file of the throats of fillet welds")
+    stress_points: Text | None = Field(
+        default=None, description="the file of points beside welds and in parent metal, with modal_stresses"
+    )
+    modal_stresses: Text | None = Field(
+        default=None, description="the file of the stress of each mode at the stress points [MPa]"
     )
     weld_register: Text | None = Field(
         default=None,
@@ -79,77 +98,11 @@ class Body(Table):
         if self.elements and not self.nodes:
             what = f"the key is missing although elements = {self.elements!r} is given"
             yield absent("nodes", what, "Give the file of the nodes the elements refer to")
+        if (self.stress_points is None) != (self.modal_stresses is None):
+            without = "stress_points" if self.stress_points is None else "modal_stresses"
+            yield absent(without, "stress_points and modal_stresses need each other", "Give both or neither")
         yield from forms_of_forces(self.unit_load, by_elements=self.element_forces is not None)
         yield from one_gravity(self.unit_load)
-
-
-class Curve(Table):
-    """The S-N curve of every weld that names no other, and how it is used."""
-
-    name: Text = Field(description="the key of a curve of the catalogue or of [curves]")
-    survival: Survival | None = Field(
-        default=None,
-        description="the survival level; left out: mean-2sigma on curves with scatter, as tabulated on the others",
-    )
-    thickness_rule: ThicknessRule = Field(
-        default="actual", description="the thickness in dS: 'actual', or 'asme' (at least 16 mm, at most 150 mm)"
-    )
-    extension: Extension = Field(
-        default="none", description="the curve beyond knee_cycles: 'none', 'haibach' or 'cutoff'"
-    )
-    knee_cycles: Positive = Field(
-        default=1e7, description="the number of cycles [-] at the knee of the extension, above 0"
-    )
-    mean_stress: Literal["none", "asme"] = Field(
-        default="none", description="the mean stress correction: 'none' or 'asme'"
-    )
-    yield_MPa: Positive | None = Field(  # noqa: N815  (the unit keeps its spelling)
-        default=None, description="the yield strength [MPa], above 0"
-    )
-
-    def _contradictions(self) -> Iterator[Problem]:
-        if self.mean_stress == "asme" and self.yield_MPa is None:
-            what = "the key is missing although mean_stress = 'asme' is given"
-            yield absent("yield_MPa", what, "Give the yield strength [MPa] or set mean_stress = 'none'")
-
-
-class CustomCurve(Table):
-    """An S-N curve of the user: straight lines in log-log, the first one fixed by its range at 2e6 cycles."""
-
-    slopes: Annotated[tuple[Positive, ...], Field(strict=False, min_length=1)] = Field(
-        description="a list of the slopes [-] from large ranges to small ones, each above 0"
-    )
-    knees_cycles: Annotated[tuple[Positive, ...], Field(strict=False)] = Field(
-        default=(),
-        description="a list of the cycles [-] at the knees, ascending; as many as slopes: the last one is a cut-off",
-    )
-    range_at_2e6_MPa: Positive = Field(  # noqa: N815
-        description="the range at 2e6 cycles, of stress [MPa] or of dS [MPa mm^-0.222], above 0"
-    )
-    applies: Applies = Field(
-        description="the range the curve is for: 'structural' (stress) or 'dS' (equivalent structural stress)"
-    )
-    source: Text = Field(description="the source: document, edition, clause")
-    log10_scatter: Positive | None = Field(
-        default=None,
-        description="the standard deviation of log10 of the cycles [-], above 0; the curve is then the mean",
-    )
-    thickness_reference_mm: Positive | None = Field(
-        default=None, description="the thickness [mm] above which the range is increased by (t / reference) ^ exponent"
-    )
-    thickness_exponent: NotNegative | None = Field(default=None, description="the thickness exponent [-], at least 0")
-
-    def _contradictions(self) -> Iterator[Problem]:
-        knees, slopes = self.knees_cycles, self.slopes
-        if any(after <= before for before, after in itertools.pairwise(knees)):
-            yield clash("knees_cycles", f"{list(knees)} does not ascend", "Sort the knees by cycles")
-        if len(knees) not in (len(slopes) - 1, len(slopes)):
-            what = f"{len(knees)} knees do not go with {len(slopes)} slopes"
-            yield clash("knees_cycles", what, "Give one knee less than slopes, or as many for a cut-off at the last")
-        if (self.thickness_reference_mm is None) != (self.thickness_exponent is None):
-            without = "thickness_reference_mm" if self.thickness_reference_mm is None else "thickness_exponent"
-            what = "thickness_reference_mm and thickness_exponent need each other"
-            yield absent(without, what, "Give both or neither")
 
 
 class Counting(Table):
@@ -304,6 +257,8 @@ class Case(Table):
     curves: dict[str, CustomCurve] = Field(default={}, description="one [curves.<name>] table per curve of your own")
     counting: Counting = Field(default=Counting(), description="a [counting] table")
     spectrum: Spectrum = Field(default=Spectrum(), description="a [spectrum] table")
+    multiaxial: Multiaxial = Field(default=Multiaxial(), description="a [multiaxial] table")
+    checks: Checks = Field(default=Checks(), description="a [checks] table")
     mission: Mission = Field(description="a [mission] table")
     _path: Path = PrivateAttr(Path())
     _text: str = PrivateAttr("")
@@ -331,6 +286,7 @@ class Case(Table):
         """Path of every file the case names, by its key: ``body.modes``, ``mission.event[1].history``."""
         body = {f"body.{key}": getattr(self.body, key) for key in BODY_FILES}
         body["body.register"] = self.body.weld_register
+        body |= {f"checks.{key}": getattr(self.checks, key) for key in CHECK_FILES}
         for i, load in enumerate(self.body.unit_load, 1):
             body |= {f"body.unit_load[{i}].{key}": getattr(load, key) for key in ("nodal_forces", "element_forces")}
         histories: dict[str, str | None] = {}

@@ -13,13 +13,16 @@ from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, Problem
 
-Applies = Literal["structural", "dS"]
+Applies = Literal["structural", "dS", "nominal", "hot_spot", "throat", "parent"]
+Quantity = Literal["normal", "shear"]
+CurveStatus = Literal["verified", "user", "unverified"]
 Survival = Literal["mean", "mean-1sigma", "mean-2sigma", "mean-3sigma"]
 Extension = Literal["none", "haibach", "cutoff"]
 ThicknessRule = Literal["actual", "asme"]
 
 DEFAULT_SURVIVAL: Survival = "mean-2sigma"
 TABULATED = "as tabulated"
+SHIPPED = "cross-checked"  # status of the shipped curves: recalled, compared with each other and with publications
 SIGMAS_BELOW_MEAN: dict[str, int] = {"mean": 0, "mean-1sigma": 1, "mean-2sigma": 2, "mean-3sigma": 3}
 
 
@@ -38,6 +41,8 @@ class SNCurve:
     reference_range : range at the reference cycles for each survival level, or for "as tabulated" only
     thickness_reference, thickness_exponent : f = (t / reference)**exponent on the range, t above the reference [mm]
     source : where the numbers come from, edition and clause
+    edition, clause : of the source
+    status : what the numbers rest on; the shipped ones were compared with each other and with publications
     """
 
     name: str
@@ -49,6 +54,9 @@ class SNCurve:
     source: str
     thickness_reference: float | None = None
     thickness_exponent: float = 0.0
+    edition: str = ""
+    clause: str = ""
+    status: str = "user"
 
     @property
     def has_scatter(self) -> bool:
@@ -89,6 +97,9 @@ def user_curve(
     log10_scatter: float | None = None,
     thickness_reference: float | None = None,
     thickness_exponent: float = 0.0,
+    edition: str = "",
+    clause: str = "",
+    status: str = "user",
 ) -> SNCurve:
     """Describe a curve by its range at 2e6 cycles, as European classes are.
 
@@ -111,6 +122,9 @@ def user_curve(
         source=source,
         thickness_reference=thickness_reference,
         thickness_exponent=thickness_exponent,
+        edition=edition,
+        clause=clause,
+        status=status,
     )
 
 
@@ -131,6 +145,9 @@ def catalogue() -> Mapping[str, SNCurve]:
                 reference_cycles=1.0,
                 reference_range=table["C"],
                 source=source,
+                edition=table["edition"],
+                clause=table["clause"],
+                status=SHIPPED,
             )
         else:
             curves[name] = user_curve(
@@ -142,6 +159,9 @@ def catalogue() -> Mapping[str, SNCurve]:
                 source=source,
                 thickness_reference=table.get("thickness_reference_mm"),
                 thickness_exponent=table.get("thickness_exponent", 0.0),
+                edition=table["edition"],
+                clause=table["clause"],
+                status=SHIPPED,
             )
     return MappingProxyType(curves)
 

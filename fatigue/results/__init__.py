@@ -32,16 +32,16 @@ from fatigue.results.columns import (
     DIAGNOSIS,
     HISTOGRAM,
     LEVERS,
-    NODES,
     OPTIONAL,
     STRUCTURAL_STRESS,
     TABLES,
     TRACK,
-    WELDS,
 )
 from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
+from fatigue.results.dictionary.nodes import NODES
+from fatigue.results.dictionary.welds import WELDS
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case

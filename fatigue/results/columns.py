@@ -1,119 +1,12 @@
 """The data dictionary: every column of every result table with its type, unit and meaning."""
 
 from fatigue.results.dictionary.bench import BENCHED
+from fatigue.results.dictionary.checks import CHECKED
 from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
-
-NODES = (
-    *_POINT,
-    Column("toe", "flag", "-", "the face carries a weld toe; a face without one never governs"),
-    Column("arc_length_mm", "float", "mm", "distance along the part from its first node"),
-    Column("x_mm", "float", "mm", "position"),
-    Column("y_mm", "float", "mm", "position"),
-    Column("z_mm", "float", "mm", "position"),
-    Column("thickness_mm", "float", "mm", "thickness of the assessed plate"),
-    Column("damage_per_km", "float", "1/km", "Miner sum per km of the mission, rainflow, bending ratio of each cycle"),
-    Column("life_km", "float", "km", "damage limit / damage_per_km; infinite where nothing damages"),
-    Column("life_years", "float", "a", "life_km / km_per_year of the mission"),
-    Column("utilisation", "float", "-", "Miner sum at target_km / damage limit"),
-    Column("fulfilled", "flag", "-", "utilisation <= 1"),
-    Column(
-        "load_factor",
-        "float",
-        "-",
-        "largest factor on all stresses, dead load included, up to which the target is met; infinite where nothing "
-        "damages; a lower bound where a bound stands for counting",
-    ),
-    Column(
-        "life_km_dirlik",
-        "float",
-        "km",
-        "life by Dirlik's formula with one bending ratio per event, events with a spectrum, without mean stress and "
-        "without sequences; empty where the spectra miss more than 90 % of the damage (dirlik_verdict outside_band)",
-    ),
-    Column("life_km_tb", "float", "km", "life by Tovo-Benasciutti 2005, likewise; empty where that by Dirlik is"),
-    Column("life_km_same_ratio", "float", "km", "rainflow life, likewise"),
-    Column("dirlik_ratio", "float", "-", "D_dirlik / D_rainflow at the same bending ratio"),
-    Column(
-        "dirlik_verdict",
-        "text",
-        "-",
-        "may the frequency domain be trusted here: not_assessed, valid, or the first reason why not (outside_band, "
-        "sampling, quasi_static, single_event, non_stationary, harmonic, non_gaussian, bandwidth), of the event with "
-        "the largest share of the damage; outside_band too where all spectra together miss too much",
-    ),
-    Column("max_range_MPa", "float", "MPa", "largest structural stress range of all events and sequences"),
-    Column(
-        "equivalent_range_2e6_MPa",
-        "float",
-        "MPa",
-        "(sum n S^k / 2e6)^(1/k) over target_km, k the first slope: the constant structural stress range that does the "
-        "same in 2e6 cycles on one slope, sequences included; knees, mean stress and scatter of the bending ratio left "
-        "out",
-    ),
-    Column(
-        "mean_stress_MPa",
-        "float",
-        "MPa",
-        "time mean of the structural stress in the governing event, constants included; empty where a sequence governs",
-    ),
-    Column("R_largest_cycle", "float", "-", "minimum / maximum structural stress of the largest cycle of all"),
-    Column(
-        "damage_factor_if_mean_stress",
-        "float",
-        "-",
-        "damage with the ASME mean-stress factor / without; 1 where it is on, empty on curves in structural stress",
-    ),
-    Column("shear_ratio", "float", "-", "rms shear stress / rms structural stress in the governing event"),
-    Column(
-        "damage_factor_if_shear",
-        "float",
-        "-",
-        "damage with shear combined as in ASME VIII-2 5.5.5.3 / without; empty with sequences: what shear adds to a "
-        "cycle between two events is not known",
-    ),
-    Column(
-        "governing_event",
-        "text",
-        "-",
-        "event with the largest share of the damage, or the sequence whose cycles across events have it",
-    ),
-    Column("bending_ratio", "float", "-", "std(sigma_b) / (std(sigma_m) + std(sigma_b)) in the governing event"),
-    Column(
-        "damage_per_km_transitions",
-        "float",
-        "1/km",
-        "part of damage_per_km from cycles across the events of sequences, less those they replace; may be negative; "
-        "empty without sequences",
-    ),
-    Column(
-        "damage_per_km_transitions_bound",
-        "float",
-        "1/km",
-        "what no order of the events with stints_per_1000_km adds more than; not in damage_per_km; empty without them",
-    ),
-    Column(
-        "life_km_raw_end",
-        "float",
-        "km",
-        "life without the end treatment; empty where it is proven to use up a small share of the limit (screening)",
-    ),
-    Column("at_end", "flag", "-", "inside the treated zone of a weld end, or the end node itself"),
-    Column("at_corner", "flag", "-", "at a kink of the weld line above 30 degrees"),
-    Column(
-        "summed_corner",
-        "flag",
-        "-",
-        "at a kink where the nodal forces of both legs are one sum: the stress there is of neither leg, and unbounded",
-    ),
-    Column(
-        "screened",
-        "text",
-        "-",
-        "empty: counted exactly; else the tier of the proven bound that stands for counting, in some events at least",
-    ),
-)
+from fatigue.results.dictionary.nodes import NODES
+from fatigue.results.dictionary.welds import WELDS
 
 DAMAGE = (
     *_POINT,
@@ -223,48 +116,6 @@ STRUCTURAL_STRESS = (
         Column(name.replace("_MPa", "_raw_MPa"), "float", "MPa", f"{meaning}, per unit of the coordinate, as solved")
         for name, meaning in _COMPONENTS
     ),
-)
-
-WELDS = (
-    Column("weld", "text", "-", "weld line"),
-    Column("status", "text", "-", "assessed, or excluded (not assessed; also candidates)"),
-    Column("reason", "text", "-", "why a weld is not assessed"),
-    Column("description", "text", "-", "as given"),
-    Column("closed", "flag", "-", "the line closes on itself"),
-    Column("parts", "int", "-", "straight parts after splitting at kinks"),
-    Column("nodes", "int", "-", "nodes on the line"),
-    Column("length_mm", "float", "mm", "length of the line"),
-    Column("thickness_min_mm", "float", "mm", "smallest plate thickness"),
-    Column("thickness_max_mm", "float", "mm", "largest plate thickness"),
-    Column("surface", "text", "-", "faces that carry a weld toe"),
-    Column("curve", "text", "-", "S-N curve"),
-    Column("survival", "text", "-", "survival level of the curve"),
-    Column("end_length_mm", "float", "mm", "length of the end treatment; empty: plate thickness"),
-    Column("life_km", "float", "km", "shortest life of the weld's toe points"),
-    Column("life_years", "float", "a", "the same in years"),
-    Column("utilisation", "float", "-", "largest utilisation of the weld's toe points"),
-    Column("fulfilled", "flag", "-", "every toe point meets the target"),
-    Column(
-        "load_factor",
-        "float",
-        "-",
-        "smallest load factor of the weld's counted toe points: of the worst one, or of one that comes first to a knee "
-        "or to high mean tension",
-    ),
-    Column(
-        "worst_is_proven",
-        "flag",
-        "-",
-        "no other toe point can be worse; else that with the largest estimate was counted, all being proven below the "
-        "share of the limit that needs no counting",
-    ),
-    Column("worst_part", "int", "-", "worst point: part"),
-    Column("worst_order", "int", "-", "worst point: position"),
-    Column("worst_node", "int", "-", "worst point: FE node"),
-    Column("worst_surface", "text", "-", "worst point: face"),
-    Column("worst_arc_length_mm", "float", "mm", "worst point: distance along the part"),
-    Column("worst_summed_corner", "flag", "-", "worst point: at a kink where the forces of both legs are one sum"),
-    Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
 )
 
 HISTOGRAM = (
@@ -428,5 +279,5 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "diagnosis": DIAGNOSIS,
     "levers": LEVERS,
 }
-OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM}  # of an assessment, unless it is not wanted
+OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, **CHECKED}  # of an assessment that asks for them
 TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

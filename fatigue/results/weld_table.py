@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from fatigue.results.columns import WELDS
+from fatigue.results.dictionary.welds import WELDS
 from fatigue.results.tables import read_table
 
 _TYPES = {"int": np.int64, "flag": np.bool_}

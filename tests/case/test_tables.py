@@ -421,7 +421,7 @@ WRONG_CURVES = [
     (
         'applies = "structural"',
         'applies = "hot spot"',
-        "curves.mine.applies: \"hot spot\" should be 'structural' or 'dS'",
+        "curves.mine.applies: \"hot spot\" should be 'structural', 'dS'",
     ),
     ('source = "a book, edition, clause"', "", "curves.mine.source: the key is missing. Give the source: document"),
     ('source = "a book, edition, clause"', 'source = ""', 'curves.mine.source: "" is empty. Give the source: document'),

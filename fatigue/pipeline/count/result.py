@@ -51,6 +51,7 @@ class GroupResult:
     of_mission : (f, n, 2) the fields of the ``MissionBlock`` but the two that follow
     governing, verdict : (n, 2) of the mission
     tier : (n,) index into ``block.TIERS``, 0 where cycles were counted
+    checks : rows of the other checks of these welds, ``checks.rows``; none unless the case asks for them
     """
 
     event_columns: NDArray[np.float64]
@@ -60,6 +61,7 @@ class GroupResult:
     governing: NDArray[np.int64]
     verdict: NDArray[np.int8]
     tier: NDArray[np.int8]
+    checks: NDArray[Any]
 
     @classmethod
     def empty(cls, events: int, stations: int, loops: int = 0) -> Self:
@@ -72,6 +74,7 @@ class GroupResult:
             governing=np.empty((stations, 2), np.int64),
             verdict=np.empty((stations, 2), np.int8),
             tier=np.empty(stations, np.int8),
+            checks=np.empty(0),
         )
 
     def of_events(self, column: str) -> NDArray[np.float64]:

@@ -2,12 +2,13 @@
 
 import logging
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from fatigue.case import Case
 from fatigue.life.bounds.screening import modal_extent
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.group import group_checks, has_checks
 from fatigue.pipeline.count.bounds import Screening
 from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
@@ -64,7 +65,10 @@ class Work:
     def group(self, number: int) -> tuple[Model, GroupResult]:
         """One group of welds, solved, and its result."""
         model = solve_group(self.groups, number)
-        return model, assess_group(model, self.loads, self.plan, self.screening)
+        result = assess_group(model, self.loads, self.plan, self.screening)
+        if has_checks(model.case):
+            result = replace(result, checks=group_checks(model, result, self.loads, self.plan))
+        return model, result
 
 
 def open_work(

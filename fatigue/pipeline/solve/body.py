@@ -8,7 +8,7 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
-from fatigue.pipeline.solve.rated_curves import RatedCurve, curves_of_case, rated_curves
+from fatigue.pipeline.solve.rated_curves import RatedCurve, asked_curves, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.coordinates import Coordinates
@@ -87,7 +87,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
     warnings += plan.warnings
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
-    curves = rated_curves(case, known_curves, plan.welds)
+    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds))
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:

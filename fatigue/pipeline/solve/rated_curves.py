@@ -8,7 +8,16 @@ from numpy.typing import NDArray
 
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import DamageLaw, SNCurve, ThicknessRule, catalogue, damage_law, survival_level, user_curve
+from fatigue.life.curves import (
+    DamageLaw,
+    Quantity,
+    SNCurve,
+    ThicknessRule,
+    catalogue,
+    damage_law,
+    survival_level,
+    user_curve,
+)
 from fatigue.life.rule import CycleRule, size_factor
 from fatigue.readers.neutral.body.welds import Weld
 
@@ -25,6 +34,33 @@ class RatedCurve:
     def size(self, thickness: NDArray[np.float64]) -> NDArray[np.float64]:
         """Factor of plates of some thickness [mm] on the range, see ``size_factor``."""
         return size_factor(thickness, self.curve, self.thickness_rule)
+
+
+@dataclass(frozen=True, slots=True)
+class AskedCurve:
+    """A curve that something asks for: its name, where that is said, and the stress it is to serve.
+
+    ``use`` is ``toe`` or one of ``Applies`` other than ``dS`` and ``structural``, which serve a toe.
+    """
+
+    name: str
+    where: str
+    use: str = "toe"
+    quantity: Quantity = "normal"
+
+
+def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
+    """Curves that the case and its welds ask for, normal stress and shear at the toe."""
+    file = case.body.welds
+    return [
+        AskedCurve(case.curve.name, f"{case.path.name}: curve.name"),
+        *(AskedCurve(w.curve, f"{file}: weld {w.name}: curve") for w in welds if w.curve),
+        *(
+            AskedCurve(w.curve_shear, f"{file}: weld {w.name}: curve_shear", quantity="shear")
+            for w in welds
+            if w.curve_shear
+        ),
+    ]
 
 
 def curves_of_case(case: Case) -> dict[str, SNCurve]:
@@ -57,16 +93,17 @@ def _own_curve(name: str, given: CustomCurve) -> SNCurve:
         log10_scatter=given.log10_scatter,
         thickness_reference=given.thickness_reference_mm,
         thickness_exponent=given.thickness_exponent or 0.0,
+        edition=given.edition,
+        clause=given.clause,
+        status=given.status,
     )
 
 
-def rated_curves(case: Case, curves: Mapping[str, SNCurve], welds: Sequence[Weld]) -> dict[str, RatedCurve]:
-    """Every curve that a weld asks for, rated; all that is wrong with them is refused at once."""
-    asked = {case.curve.name: f"{case.path.name}: curve.name"}
-    asked |= {weld.curve: f"{case.body.welds}: weld {weld.name}: curve" for weld in welds if weld.curve}
+def rated_curves(case: Case, curves: Mapping[str, SNCurve], asked: Sequence[AskedCurve]) -> dict[str, RatedCurve]:
+    """Every curve that is asked for, rated; all that is wrong with them is refused at once."""
     rated: dict[str, RatedCurve] = {}
     problems: list[Problem] = []
-    for name, where in asked.items():
+    for name, where in {one.name: one.where for one in asked}.items():
         if name not in curves:
             known = ", ".join(sorted(curves))
             problems.append(

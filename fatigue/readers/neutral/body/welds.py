@@ -12,6 +12,8 @@ from fatigue.readers.neutral.tables import open_table
 
 Surface: TypeAlias = Literal["top", "bottom", "both"]
 SURFACES = ("top", "bottom", "both")
+QUALITY = ("joint_type", "performance_class", "inspection_class")
+OPTIONAL = ("closed", "surface", "curve", "end_length_mm", "description", "curve_shear", *QUALITY)
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +21,8 @@ class Weld:
     """One weld: which faces carry a toe, its own curve and end length where it has them.
 
     ``surface`` is top, bottom or both; ``end_length`` in mm, None: the plate thickness, 0: no end treatment.
+    ``curve_shear`` is the S-N curve of its shear stress; ``joint_type``, ``performance_class`` and ``inspection_class``
+    are quality data as given, empty where there are none.
     """
 
     name: str
@@ -27,25 +31,33 @@ class Weld:
     curve: str | None
     end_length: float | None
     description: str
+    curve_shear: str | None = None
+    joint_type: str = ""
+    performance_class: str = ""
+    inspection_class: str = ""
 
 
 def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> tuple[tuple[Weld, ...], list[Problem]]:
-    """Read ``weld`` and, where present, ``closed, surface, curve, end_length_mm, description``, in the file's order.
+    """Read the column ``weld`` and, where present, those of ``OPTIONAL``, in the file's order.
 
     ``curves`` are the names a weld's curve may have; None: any, for they are looked at later.
     """
-    table = open_table(path, texts=("weld", "surface", "curve", "description"))
-    table.expect(("weld",), ("closed", "surface", "curve", "end_length_mm", "description"), strict=strict)
+    texts = ("weld", "surface", "curve", "description", "curve_shear", *QUALITY)
+    table = open_table(path, texts=texts)
+    table.expect(("weld",), OPTIONAL, strict=strict)
     names, code = table.groups("weld")
     table.unique({"weld": code}, {"weld": names})
     closed = table.flags("closed", default=False)
     surface = table.texts("surface", default="both")
     table.choices("surface", surface, SURFACES)
     curve, curve_code = table.groups("curve", default="")
+    shear, shear_code = table.groups("curve_shear", default="")
     if curves is not None:
         table.known("curve", curve, curve_code, {"", *curves}, "the curves")
+        table.known("curve_shear", shear, shear_code, {"", *curves}, "the curves")
     end_length = table.numbers("end_length_mm", default=np.nan, least=0.0)
     description = table.texts("description", default="")
+    joint_type, performance, inspection = (table.texts(name, default="") for name in QUALITY)
     table.refuse()
     welds = tuple(
         Weld(
@@ -55,6 +67,10 @@ def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> t
             curve=curve[curve_code[i]] or None,
             end_length=None if np.isnan(end_length[i]) else float(end_length[i]),
             description=description[i],
+            curve_shear=shear[shear_code[i]] or None,
+            joint_type=joint_type[i],
+            performance_class=performance[i],
+            inspection_class=inspection[i],
         )
         for i in range(table.rows)
     )
