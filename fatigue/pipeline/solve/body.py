@@ -15,6 +15,7 @@ from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.throats import WeldThroat, assessed_throats, check_throats, read_throats
 from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
 from fatigue.readers.neutral.register.conversion import convert_record
@@ -33,9 +34,9 @@ class Body:
 
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
-    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
-    the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
-    ``warnings`` are about these files.
+    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``throats`` are
+    those of the welds that have one, by their names; ``mesh`` serves the balance check and pictures; ``conversion`` is
+    what ``fatigue convert`` recorded, its audit included; ``warnings`` are about these files.
     """
 
     case: Case
@@ -46,6 +47,7 @@ class Body:
     joints: Joints
     lines: LineFile
     curves: Mapping[str, RatedCurve]
+    throats: Mapping[str, WeldThroat]
     mesh: Mesh | None
     conversion: Mapping[str, Any] | None
     strict: bool
@@ -87,7 +89,9 @@ def read_body(case: Case, *, strict: bool) -> Body:
     warnings += plan.warnings
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds))
+    throats, of_throats = _throats(case, in_tables, plan, strict=strict)
+    warnings += of_throats
+    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds, throats.values()))
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
@@ -95,6 +99,8 @@ def read_body(case: Case, *, strict: bool) -> Body:
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
     welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
     warnings += of_lines + of_mesh
+    if throats:
+        check_throats(throats, lines, str(files.weld_throats))
     give_back()
     record = conversion_file(case)
     return Body(
@@ -106,11 +112,26 @@ def read_body(case: Case, *, strict: bool) -> Body:
         joints=joints,
         lines=lines,
         curves=curves,
+        throats=throats,
         mesh=mesh,
         conversion=read_record(record) if record else None,
         strict=strict,
         warnings=tuple(warnings),
     )
+
+
+def _throats(
+    case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
+) -> tuple[dict[str, WeldThroat], list[Problem]]:
+    """Throats of the welds to assess, and the warnings about the table."""
+    file = case.body.weld_throats
+    if file is None:
+        return {}, []
+    assessed = {weld.name for weld in plan.welds}
+    known = assessed | {weld.name for weld in in_tables} | {row.weld for row in plan.left_out}
+    throats, warnings = read_throats(case.resolve(file), known, strict=strict)
+    some, of_others = assessed_throats(throats, assessed, file)
+    return some, [*warnings, *of_others]
 
 
 def _lines_on_disk(
