@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, Problem
+from fatigue.life.allowances import NOTHING, Allowances
 
 Applies = Literal["structural", "dS", "nominal", "hot_spot", "throat", "parent"]
 Quantity = Literal["normal", "shear"]
@@ -33,8 +34,8 @@ class SNCurve:
     Attributes
     ----------
     name : key in the catalogue or in the case
-    applies : "dS", the equivalent structural stress range of the master curve [MPa mm^-0.222], or "structural", the
-        structural stress range itself [MPa]
+    applies : "dS", the equivalent structural stress range of the master curve [MPa mm^-0.222], "structural", the
+        structural stress range itself [MPa], or the range [MPa] of another stress
     slopes : k of each segment of N = A / range**k, from few cycles to many
     knees_cycles : cycles where the next segment begins; as many knees as slopes: no damage beyond the last one
     reference_cycles : cycles at which ``reference_range`` holds
@@ -43,6 +44,10 @@ class SNCurve:
     source : where the numbers come from, edition and clause
     edition, clause : of the source
     status : what the numbers rest on; the shipped ones were compared with each other and with publications
+    quantity : the stress it is for, "normal" or "shear"
+    allowances : what stands between a stress range and the range the curve is entered with
+    damage_limit : the allowed damage sum on this curve; None: that of the mission
+    checked_by, checked_on : who compared the numbers with the source, and when
     """
 
     name: str
@@ -57,6 +62,11 @@ class SNCurve:
     edition: str = ""
     clause: str = ""
     status: str = "user"
+    quantity: Quantity = "normal"
+    allowances: Allowances = NOTHING
+    damage_limit: float | None = None
+    checked_by: str = ""
+    checked_on: str = ""
 
     @property
     def has_scatter(self) -> bool:

@@ -8,13 +8,21 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
-from fatigue.pipeline.solve.rated_curves import RatedCurve, asked_curves, curves_of_case, rated_curves
+from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings
+from fatigue.pipeline.solve.rated_curves import (
+    RatedCurve,
+    asked_curves,
+    attachment_problems,
+    curves_of_case,
+    rated_curves,
+)
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.strength_factors import StrengthFactor, read_strength_factors
 from fatigue.readers.neutral.body.throats import WeldThroat, assessed_throats, check_throats, read_throats
 from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
@@ -91,7 +99,14 @@ def read_body(case: Case, *, strict: bool) -> Body:
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
     throats, of_throats = _throats(case, in_tables, plan, strict=strict)
     warnings += of_throats
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds, throats.values()))
+    factors: tuple[StrengthFactor, ...] = ()
+    if case.checks.strength_factors is not None:
+        table = case.resolve(case.checks.strength_factors)
+        factors, of_factors = read_strength_factors(table, known_curves, strict=strict)
+        warnings += of_factors
+    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds, throats.values()), factors)
+    refuse(DataError, attachment_problems(case, plan.welds, curves))
+    warnings += cutoff_warnings(case, curves)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
@@ -154,8 +169,9 @@ def _lines_on_disk(
     warnings += checked_lines(lines, path.name)
     refuse(DataError, unit_problems(lines, case.body.weld_nodes))
     warnings += unit_warnings(lines, case.body.weld_nodes)
+    rated = [curves[weld.curve or case.curve.name] for weld in welds]
+    warnings += thin_plate_warnings(lines, rated, path.name)
     if case.body.nodal_forces is not None:
-        rated = [curves[weld.curve or case.curve.name] for weld in welds]
         warnings += summed_corners(lines, [float(one.rule.law.slopes[0]) for one in rated], path.name)
     if mesh is not None:
         names = TableNames(path.name, Path(case.body.nodes or "").name, Path(case.body.elements or "").name)
