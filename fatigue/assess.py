@@ -330,7 +330,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
         tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     tables["welds"].write(weld_rows(model, plan, result, worst))
     if "checks" in tables and result.checks.size:
-        tables["checks"].write(check_table_rows(result.checks, model.body.curves))
+        tables["checks"].write(check_table_rows(result.checks, model.body.curves, model.body.compared.lines))
     return worst
 
 

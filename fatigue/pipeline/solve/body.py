@@ -8,6 +8,7 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
+from fatigue.pipeline.solve.compared_cases import Compared, endurance_curves, read_compared, refuse_wrong_checks
 from fatigue.pipeline.solve.rated_curves import RatedCurve, asked_curves, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
@@ -33,7 +34,8 @@ class Body:
 
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
-    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
+    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for;
+    ``compared`` static load cases and endurance lines; ``mesh`` serves
     the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
     ``warnings`` are about these files.
     """
@@ -46,6 +48,7 @@ class Body:
     joints: Joints
     lines: LineFile
     curves: Mapping[str, RatedCurve]
+    compared: Compared
     mesh: Mesh | None
     conversion: Mapping[str, Any] | None
     strict: bool
@@ -87,14 +90,17 @@ def read_body(case: Case, *, strict: bool) -> Body:
     warnings += plan.warnings
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds))
+    curves = rated_curves(case, known_curves, [*asked_curves(case, plan.welds), *endurance_curves(case)])
+    loads = tuple(load.name for load in case.body.unit_load)
+    compared, of_compared = read_compared(case, Coordinates(modes, loads), known_curves, strict=strict)
+    refuse_wrong_checks(case, plan.welds, (), compared, curves)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
     welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
-    warnings += of_lines + of_mesh
+    warnings += of_compared + of_lines + of_mesh
     give_back()
     record = conversion_file(case)
     return Body(
@@ -106,6 +112,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
         joints=joints,
         lines=lines,
         curves=curves,
+        compared=compared,
         mesh=mesh,
         conversion=read_record(record) if record else None,
         strict=strict,
