@@ -346,7 +346,7 @@ def write_group(
         tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     of_checks = None
     if "checks" in tables:
-        tables["checks"].write(check_table_rows(result.checks, model.body.curves))
+        tables["checks"].write(check_table_rows(result.checks, model.body.curves, model.body.compared.lines))
         of_checks = verdicts(joined([result.checks, apart]), stations.names, model.case.checks.counts)
     tables["welds"].write(weld_rows(model, plan, result, worst, of_checks))
     return worst

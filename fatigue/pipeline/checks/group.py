@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 from fatigue.case import Case
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.endurance import weld_endurance
+from fatigue.pipeline.checks.interaction import weld_interaction
 from fatigue.pipeline.checks.rows import CheckRows, joined
 from fatigue.pipeline.checks.throats import throat_checks
 from fatigue.pipeline.count.result import GroupResult
@@ -23,5 +25,11 @@ def group_checks(model: Model, result: GroupResult, loads: Sequence[EventLoad], 
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    del result
-    return joined([throat_checks(model, loads, plan)])
+    rows = []
+    if model.body.throats:
+        rows.append(throat_checks(model, loads, plan))
+    if model.case.checks.interaction:
+        rows.append(weld_interaction(model, result, loads, plan))
+    if model.case.checks.endurance:
+        rows.append(weld_endurance(model))
+    return joined(rows)

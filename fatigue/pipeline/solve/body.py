@@ -8,6 +8,7 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
+from fatigue.pipeline.solve.compared_cases import Compared, endurance_curves, read_compared, refuse_wrong_checks
 from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings
 from fatigue.pipeline.solve.rated_curves import (
     RatedCurve,
@@ -43,8 +44,9 @@ class Body:
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
     in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``throats`` are
-    those of the welds that have one, by their names; ``mesh`` serves the balance check and pictures; ``conversion`` is
-    what ``fatigue convert`` recorded, its audit included; ``warnings`` are about these files.
+    those of the welds that have one, by their names; ``compared`` static load cases and endurance lines; ``mesh``
+    serves the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
+    ``warnings`` are about these files.
     """
 
     case: Case
@@ -56,6 +58,7 @@ class Body:
     lines: LineFile
     curves: Mapping[str, RatedCurve]
     throats: Mapping[str, WeldThroat]
+    compared: Compared
     mesh: Mesh | None
     conversion: Mapping[str, Any] | None
     strict: bool
@@ -104,16 +107,20 @@ def read_body(case: Case, *, strict: bool) -> Body:
         table = case.resolve(case.checks.strength_factors)
         factors, of_factors = read_strength_factors(table, known_curves, strict=strict)
         warnings += of_factors
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds, throats.values()), factors)
+    asked = [*asked_curves(case, plan.welds, throats.values()), *endurance_curves(case)]
+    curves = rated_curves(case, known_curves, asked, factors)
     refuse(DataError, attachment_problems(case, plan.welds, curves))
     warnings += cutoff_warnings(case, curves)
+    loads = tuple(load.name for load in case.body.unit_load)
+    compared, of_compared = read_compared(case, Coordinates(modes, loads), known_curves, strict=strict)
+    refuse_wrong_checks(case, plan.welds, (), compared, curves)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
     welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
-    warnings += of_lines + of_mesh
+    warnings += of_compared + of_lines + of_mesh
     if throats:
         check_throats(throats, lines, str(files.weld_throats))
     give_back()
@@ -128,6 +135,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
         lines=lines,
         curves=curves,
         throats=throats,
+        compared=compared,
         mesh=mesh,
         conversion=read_record(record) if record else None,
         strict=strict,
