@@ -1,6 +1,6 @@
 """The body of a case as its small files describe it: modes, welds, lines, curves, mesh; forces are read later."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,8 @@ from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
 from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
+from fatigue.readers.neutral.points.beside_welds import assessed_names, compared_with_welds
+from fatigue.readers.neutral.points.stress_points import StressPoints, read_stress_points
 from fatigue.readers.neutral.register.conversion import convert_record
 from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.register.registered import Registered, registered, unregistered
@@ -35,7 +37,7 @@ class Body:
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
     in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
     the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
-    ``warnings`` are about these files.
+    ``warnings`` are about these files; ``points`` are the stress points, None without them.
     """
 
     case: Case
@@ -50,6 +52,7 @@ class Body:
     conversion: Mapping[str, Any] | None
     strict: bool
     warnings: tuple[Problem, ...]
+    points: StressPoints | None = None
 
     @property
     def coordinates(self) -> Coordinates:
@@ -87,7 +90,9 @@ def read_body(case: Case, *, strict: bool) -> Body:
     warnings += plan.warnings
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds))
+    points, of_points = _points(case, plan, in_tables, known_curves, strict=strict)
+    warnings += of_points
+    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds, points))
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
@@ -95,6 +100,10 @@ def read_body(case: Case, *, strict: bool) -> Body:
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
     welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
     warnings += of_lines + of_mesh
+    if points:
+        of_frames, doubts = compared_with_welds(points, lines)
+        refuse(DataError, of_frames)
+        warnings += doubts
     give_back()
     record = conversion_file(case)
     return Body(
@@ -110,7 +119,19 @@ def read_body(case: Case, *, strict: bool) -> Body:
         conversion=read_record(record) if record else None,
         strict=strict,
         warnings=tuple(warnings),
+        points=points,
     )
+
+
+def _points(
+    case: Case, plan: Registered, in_tables: Sequence[Weld], curves: Collection[str], *, strict: bool
+) -> tuple[StressPoints | None, list[Problem]]:
+    """The stress points of a case, and the warnings about their table; their welds as they are assessed."""
+    if case.body.stress_points is None:
+        return None, []
+    others = [*(weld.name for weld in in_tables), *(row.weld for row in plan.left_out)]
+    welds = assessed_names(plan.names, others)
+    return read_stress_points(case.resolve(case.body.stress_points), welds, curves, strict=strict)
 
 
 def _lines_on_disk(

@@ -1,6 +1,6 @@
 """The S-N curves a case asks for, at its survival level and with its extension."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,6 +20,7 @@ from fatigue.life.curves import (
 )
 from fatigue.life.rule import CycleRule, size_factor
 from fatigue.readers.neutral.body.welds import Weld
+from fatigue.readers.neutral.points.stress_points import CHECK_OF, StressPoints
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +50,8 @@ class AskedCurve:
     quantity: Quantity = "normal"
 
 
-def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
-    """Curves that the case and its welds ask for, normal stress and shear at the toe."""
+def asked_curves(case: Case, welds: Sequence[Weld], points: StressPoints | None = None) -> list[AskedCurve]:
+    """Curves that the case, its welds and its stress points ask for, of normal stress and of shear."""
     file = case.body.welds
     return [
         AskedCurve(case.curve.name, f"{case.path.name}: curve.name"),
@@ -60,7 +61,23 @@ def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
             for w in welds
             if w.curve_shear
         ),
+        *(() if points is None else _of_points(points)),
     ]
+
+
+def _of_points(points: StressPoints) -> Iterator[AskedCurve]:
+    """Curves that stress points ask for, each use of them once."""
+    quantities: tuple[tuple[Quantity, str, tuple[str, ...]], ...] = (
+        ("normal", "curve", points.curve),
+        ("shear", "curve_shear", points.curve_shear),
+    )
+    for quantity, column, curves in quantities:
+        first: dict[tuple[str, str], str] = {}
+        for name, kind, point in zip(curves, points.kind, points.name, strict=True):
+            first.setdefault((name, CHECK_OF[kind]), point)
+        for (name, use), point in first.items():
+            if name:
+                yield AskedCurve(name, f"{points.file}: point {point}: {column}", use, quantity)
 
 
 def curves_of_case(case: Case) -> dict[str, SNCurve]:
