@@ -54,29 +54,6 @@ def counted_mission(signals: Signals, loads: Sequence[EventLoad], plan: Plan, na
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    block = _block(signals, loads, plan, names)
-    settled = sorted(block.all_counted(), key=lambda one: int(one.rows[0]) if one.rows.size else 0)
-    missions = [one.mission for one in settled]
-    if len(missions) == 1:
-        return missions[0]
-    fields = MissionBlock.__dataclass_fields__
-    return MissionBlock(**{name: np.concatenate([getattr(one, name) for one in missions]) for name in fields})
-
-
-def counted_damage(
-    signals: Signals, loads: Sequence[EventLoad], plan: Plan, names: str
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Damage per km and largest range (n, 2) of some signals, for a search among many; as of ``counted_mission``.
-
-    Raises
-    ------
-    NumericalError : stress or damage exceeds double precision
-    """
-    return _block(signals, loads, plan, names).damage_and_range()
-
-
-def _block(signals: Signals, loads: Sequence[EventLoad], plan: Plan, names: str) -> Block:
-    """The signals as stations without raw ends and without shear."""
     n, shape = len(signals.size), signals.membrane.shape
     no_shear, no_rows = np.zeros(shape), np.zeros((0, shape[1]))
     stress = ModalStress(
@@ -90,4 +67,10 @@ def _block(signals: Signals, loads: Sequence[EventLoad], plan: Plan, names: str)
         raw_end_matters=np.zeros(0, dtype=np.bool_),
     )
     counted = [without_spectrum(load) for load in loads]
-    return Block(stress, np.zeros(n, dtype=np.int64), np.ones((n, 2), dtype=np.bool_), counted, plan, names)
+    block = Block(stress, np.zeros(n, dtype=np.int64), np.ones((n, 2), dtype=np.bool_), counted, plan, names)
+    settled = sorted(block.all_counted(), key=lambda one: int(one.rows[0]) if one.rows.size else 0)
+    missions = [one.mission for one in settled]
+    if len(missions) == 1:
+        return missions[0]
+    fields = MissionBlock.__dataclass_fields__
+    return MissionBlock(**{name: np.concatenate([getattr(one, name) for one in missions]) for name in fields})

@@ -12,7 +12,7 @@ from fatigue.pipeline.count.estimate import Estimate, estimate_event, member_var
 from fatigue.pipeline.count.event_block import EventBlock, bounded_event, count_event, judged
 from fatigue.pipeline.count.joined.loops import Joined, LoopBlock, joined_events
 from fatigue.pipeline.count.load_factor import bounded_load_factor, counted_load_factor
-from fatigue.pipeline.count.mission_block import MissionBlock, damage_and_range, mission_block
+from fatigue.pipeline.count.mission_block import MissionBlock, mission_block
 from fatigue.pipeline.count.overflow import no_overflow
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.modal_stress import ModalStress
@@ -81,20 +81,6 @@ class Block:
             stress = self.stress.at(some)
             events = [self._counted(stress, number, estimates[number].at(some)) for number in range(len(self.loads))]
             yield self._settled(some, self._judged(stress, events), 0)
-
-    def damage_and_range(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Damage per km and largest range of all stations, (n, 2), all of their events counted, and nothing else.
-
-        Where many signals are tried, this goes without the load factor, which on curves with knees takes most time.
-        """
-        estimates, found = self.estimated(), []
-        for some in self._at_once(np.arange(len(self))):
-            stress = self.stress.at(some)
-            events = [self._counted(stress, number, estimates[number].at(some)) for number in range(len(self.loads))]
-            with no_overflow("mission", self.welds):
-                found.append(damage_and_range(events, self.plan, self._joined(stress, events)))
-        damage, largest = zip(*found, strict=True)
-        return np.concatenate(damage), np.concatenate(largest)
 
     def counted_while_unsettled(
         self, rows: NDArray[np.intp], estimates: Sequence[Estimate], bounds: Bounds

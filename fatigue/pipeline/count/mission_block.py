@@ -117,17 +117,6 @@ def mission_block(
     )
 
 
-def damage_and_range(
-    events: Sequence[EventBlock], plan: Plan, joined: Joined
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Damage per km and largest range (n, 2) of counted stations, as ``mission_block`` has them."""
-    counts, loops = [event.count for event in events], [loop.count for loop in joined.loops]
-    transitions = _of_loops([loop.damage for loop in loops], plan, counts[0].damage)
-    damage = mission_sum(np.stack([count.damage for count in counts]), plan.passes) + transitions
-    ranges = [*(count.max_range for count in counts), *(loop.max_range for loop in loops)]
-    return damage, np.stack(ranges).max(axis=0)
-
-
 def _of_loops(per_run: Sequence[NDArray[np.float64]], plan: Plan, like: NDArray[np.float64]) -> NDArray[np.float64]:
     """Sum of a quantity of one run of every loop over the mission [1/km]; 0 without loops."""
     total = np.zeros_like(like)

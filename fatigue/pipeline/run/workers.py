@@ -5,11 +5,10 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any
 
 from numpy.typing import NDArray
 
-from fatigue.pipeline.checks.rows import CheckRows, joined
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.orders import Order, fulfil
@@ -26,13 +25,6 @@ class Group:
     model: Model
     result: GroupResult
     reused: bool
-
-    def with_checks(self, rows: CheckRows) -> Self:
-        """The same with more rows of checks, behind those of the group."""
-        if not rows.size:
-            return self
-        checks = joined([self.result.checks, rows])
-        return replace(self, result=replace(self.result, checks=checks))
 
 
 def by_threads(work: Work, state: Checkpoint, threads: int | None) -> Generator[Group]:
