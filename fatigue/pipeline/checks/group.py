@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from fatigue.case import Case
 from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.rows import CheckRows, joined
+from fatigue.pipeline.checks.throats import throat_checks
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
@@ -22,5 +23,5 @@ def group_checks(model: Model, result: GroupResult, loads: Sequence[EventLoad], 
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    del model, result, loads, plan
-    return joined([])
+    del result
+    return joined([throat_checks(model, loads, plan)])

@@ -13,15 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.checks.directions import critical
+from fatigue.pipeline.checks.planes import critical_planes, face_pairs
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined, no_rows
-from fatigue.pipeline.checks.signals import Signals, counted_damage, counted_mission
+from fatigue.pipeline.checks.signals import counted_mission
 from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.overflow import no_overflow
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
-from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.points.modal_stresses import PointStress
 from fatigue.readers.neutral.points.stress_points import AT_TOE, CHECK_OF, HAZ, StressPoints
 from fatigue.side_by_side import in_order
@@ -49,37 +48,19 @@ class Batch:
     shear: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PointChecks:
-    """Rows of the checks of all stress points, and the welds of the body, to whose rows they are to be joined."""
-
-    rows: CheckRows
-    welds: tuple[str, ...]
-
-    def of_welds(self, welds: Sequence[Weld]) -> CheckRows:
-        """Rows of the points that belong to some welds, in the order of the points."""
-        return self.rows[np.isin(self.rows["weld"], [weld.name for weld in welds])]
-
-    @property
-    def beside_no_weld(self) -> CheckRows:
-        """Rows of the points that belong to no weld, or to one that is not assessed."""
-        return self.rows[~np.isin(self.rows["weld"], self.welds)]
-
-
 def point_checks(
     body: Body, stress: PointStress | None, loads: Sequence[EventLoad], plan: Plan, threads: int | None
-) -> PointChecks:
-    """Checks of the stress points of a body; no rows without ``stress`` at such points.
+) -> CheckRows:
+    """Rows of the checks of the stress points of a body, none without ``stress`` at such points.
 
     Raises
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    welds = tuple(weld.name for weld in body.welds)
     if body.points is None or stress is None:
-        return PointChecks(no_rows(), welds)
+        return no_rows()
     stage("counting stress at %d points beside welds and in parent metal", len(body.points))
-    return PointChecks(point_rows(body.points, stress, body.curves, loads, plan, threads), welds)
+    return point_rows(body.points, stress, body.curves, loads, plan, threads)
 
 
 def point_rows(
@@ -121,17 +102,16 @@ def _checked(
     size, planes = batch.rated.size(points.thickness[batch.points]), len(batch.planes)
     worst = np.zeros((len(batch.points), 2), dtype=np.intp)
     if planes > 1:
-        tried = _pairs(signals.reshape(-1, *signals.shape[2:]), np.repeat(size, planes), batch.rated)
-        damage, largest = (x.reshape(-1, planes, 2) for x in counted_damage(tried, loads, plan, names))
-        worst = critical(damage, largest)
+        worst = critical_planes(signals, size, batch.rated.rule, loads, plan, names)
     of_components = {_COMPONENT[batch.planes]: worst} if not batch.shear else {"shear": worst}
     if batch.planes == TOE_DEG:
         of_components = {"normal": np.zeros_like(worst), **of_components}
     first = planes * np.arange(len(worst))[:, None]  # of each point, among all signals
     at = {component: first + plane for component, plane in of_components.items()}
     kept = np.unique(np.concatenate([x.ravel() for x in at.values()]))
-    of_kept = _pairs(signals.reshape(-1, *signals.shape[2:])[kept], size[kept // planes], batch.rated)
-    mission = counted_mission(of_kept, loads, plan, names)
+    of_kept = signals.reshape(-1, *signals.shape[2:])[kept]
+    pairs = face_pairs(of_kept, size[kept // planes], batch.rated.rule)
+    mission = counted_mission(pairs, loads, plan, names)
     found = [
         _rows(batch, points, stress, plan, mission, np.searchsorted(kept, rows), of_components[component], component)
         for component, rows in at.items()
@@ -147,11 +127,6 @@ def _on_planes(batch: Batch, stress: PointStress) -> Floats:
     planes = np.array(batch.planes, dtype=np.float64)
     on_planes = shear_stress(tensor, planes) if batch.shear else normal_stress(tensor, planes)
     return on_planes.swapaxes(1, 2)
-
-
-def _pairs(signals: Floats, size: Floats, rated: RatedCurve) -> Signals:
-    """Stress (n, 2, c) at the two faces, to be counted."""
-    return Signals.of_pairs(signals[:, 0], signals[:, 1], size, rated.rule)
 
 
 def _rows(

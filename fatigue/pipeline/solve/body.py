@@ -8,6 +8,7 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
+from fatigue.pipeline.solve.point_curves import point_curves
 from fatigue.pipeline.solve.rated_curves import RatedCurve, asked_curves, curves_of_case, rated_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
@@ -15,6 +16,7 @@ from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.throats import WeldThroat, assessed_throats, check_throats, read_throats
 from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
 from fatigue.readers.neutral.points.beside_welds import assessed_names, compared_with_welds
@@ -35,9 +37,10 @@ class Body:
 
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
-    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
-    the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
-    ``warnings`` are about these files; ``points`` are the stress points, None without them.
+    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``throats`` are
+    those of the welds that have one, by their names; ``mesh`` serves the balance check and pictures; ``conversion`` is
+    what ``fatigue convert`` recorded, its audit included; ``warnings`` are about these files; ``points`` are the stress
+    points, None without them.
     """
 
     case: Case
@@ -48,6 +51,7 @@ class Body:
     joints: Joints
     lines: LineFile
     curves: Mapping[str, RatedCurve]
+    throats: Mapping[str, WeldThroat]
     mesh: Mesh | None
     conversion: Mapping[str, Any] | None
     strict: bool
@@ -90,9 +94,11 @@ def read_body(case: Case, *, strict: bool) -> Body:
     warnings += plan.warnings
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
+    throats, of_throats = _throats(case, in_tables, plan, strict=strict)
     points, of_points = _points(case, plan, in_tables, known_curves, strict=strict)
-    warnings += of_points
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds, points))
+    warnings += of_throats + of_points
+    asked = [*asked_curves(case, plan.welds, throats.values()), *point_curves(points)]
+    curves = rated_curves(case, known_curves, asked)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
@@ -100,6 +106,8 @@ def read_body(case: Case, *, strict: bool) -> Body:
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
     welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
     warnings += of_lines + of_mesh
+    if throats:
+        check_throats(throats, lines, str(files.weld_throats))
     if points:
         of_frames, doubts = compared_with_welds(points, lines)
         refuse(DataError, of_frames)
@@ -115,12 +123,27 @@ def read_body(case: Case, *, strict: bool) -> Body:
         joints=joints,
         lines=lines,
         curves=curves,
+        throats=throats,
         mesh=mesh,
         conversion=read_record(record) if record else None,
         strict=strict,
         warnings=tuple(warnings),
         points=points,
     )
+
+
+def _throats(
+    case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
+) -> tuple[dict[str, WeldThroat], list[Problem]]:
+    """Throats of the welds to assess, and the warnings about the table."""
+    file = case.body.weld_throats
+    if file is None:
+        return {}, []
+    assessed = {weld.name for weld in plan.welds}
+    known = assessed | {weld.name for weld in in_tables} | {row.weld for row in plan.left_out}
+    throats, warnings = read_throats(case.resolve(file), known, strict=strict)
+    some, of_others = assessed_throats(throats, assessed, file)
+    return some, [*warnings, *of_others]
 
 
 def _points(
