@@ -24,7 +24,7 @@ from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.apart import checks_apart
 from fatigue.pipeline.checks.group import has_checks
-from fatigue.pipeline.checks.rows import CheckRows, joined, no_rows
+from fatigue.pipeline.checks.rows import CheckRows, joined
 from fatigue.pipeline.checks.verdict import Decisive, verdicts
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.joined.matters import Transitions
@@ -44,6 +44,7 @@ from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_o
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
+from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.checks import check_table_rows
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
@@ -158,6 +159,7 @@ def assess(
         remember_case(folder, case.path)
         groups = weld_groups(body, scratch=state.folder / "forces")
         check_forces(groups, threads)
+        at_points, of_points = point_stress(body)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
             for line in listed(event_counts(case, plan)):
@@ -167,16 +169,18 @@ def assess(
             stage("preparing the records of the events (%d); %s expected", len(plan.passes), expected)
             work = open_work(groups, plan, options, state.folder, threads)
             gravity, of_gravity = gravity_audit(groups, levels_of(body, work), threads)
+            apart = checks_apart(body, at_points, work.loads, plan, threads)
+            del at_points
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
                 assessed = by_orders(work, state, executor, order_of(case, work, options, key, strict=strict))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
-            done.warnings.add((*body.warnings, *record_warnings, *of_gravity))
+            done.warnings.add((*body.warnings, *of_points, *record_warnings, *of_gravity))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
-            write_tables(unpublished, key, assessed, work, done, threads)
+            write_tables(unpublished, key, assessed, work, apart, done, threads)
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
@@ -302,16 +306,24 @@ class Tally:
 
 
 def write_tables(
-    folder: Path, key: str, assessed: Generator[Group], work: Work, done: Tally, threads: int | None
+    folder: Path,
+    key: str,
+    assessed: Generator[Group],
+    work: Work,
+    apart: CheckRows,
+    done: Tally,
+    threads: int | None,
 ) -> None:
-    """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
+    """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written.
+
+    ``apart`` are the checks at stress points, which belong to no group.
+    """
     body = work.groups.body
     wants_histograms, wants_checks = work.histogram != "none", has_checks(body.case)
     wanted = [*ASSESSED, *["histogram"] * wants_histograms, *["checks"] * wants_checks]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
-        apart = checks_apart(body, work.loads, work.plan) if wants_checks else no_rows()
         done.checks.add(apart, body.case.checks.counts)
         for group in assessed:
             worst = write_group(tables, group, work, apart)
