@@ -51,6 +51,7 @@ from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.tables.sampling_warnings import sampling_warnings
+from fatigue.pipeline.tables.sensitivity import sensitivity_rows
 from fatigue.pipeline.tables.stress_warnings import StressExtent
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
@@ -227,7 +228,7 @@ def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, P
 
 def order_of(case: Case, work: Work, options: ScreeningOptions, key: str, *, strict: bool) -> Order:
     """Order of any group of welds of a job."""
-    return Order(str(case.path.resolve()), strict, options, key, work.factors, group=0)
+    return Order(str(case.path.resolve()), strict, options, key, work.factors, work.sampling.factors, group=0)
 
 
 def write_records(
@@ -300,7 +301,7 @@ def write_tables(
 ) -> None:
     """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
     wants_histograms, wants_checks = work.histogram != "none", has_checks(work.groups.body.case)
-    wanted = [*ASSESSED, *["histogram"] * wants_histograms, *["checks"] * wants_checks]
+    wanted = [*ASSESSED, "sensitivity", *["histogram"] * wants_histograms, *["checks"] * wants_checks]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
@@ -329,6 +330,7 @@ def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> 
         tables["damage"].write(damage_rows(stations, result, plan, some))
         tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
     tables["welds"].write(weld_rows(model, plan, result, worst))
+    tables["sensitivity"].write(sensitivity_rows(model, result, worst, work.sampling))
     if "checks" in tables and result.checks.size:
         tables["checks"].write(check_table_rows(result.checks, model.body.curves))
     return worst
