@@ -228,7 +228,7 @@ def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, P
 
 def order_of(case: Case, work: Work, options: ScreeningOptions, key: str, *, strict: bool) -> Order:
     """Order of any group of welds of a job."""
-    return Order(str(case.path.resolve()), strict, options, key, work.factors, work.sampling.factors, group=0)
+    return Order(str(case.path.resolve()), strict, options, key, work.factors, group=0)
 
 
 def write_records(

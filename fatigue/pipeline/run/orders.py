@@ -24,8 +24,7 @@ class Order:
     """One group of welds to be assessed in a process that sees the same files.
 
     ``key`` is the key of the job: a worker with other inputs or another version of the program is found out by it.
-    ``factors`` by which the records are upsampled, and ``other_factors`` of their other sampling, are told, as finding
-    them may take solving all welds.
+    ``factors`` by which the records are upsampled are told, as finding them may take solving all welds.
     """
 
     case: str
@@ -33,7 +32,6 @@ class Order:
     options: ScreeningOptions
     key: str
     factors: tuple[int, ...]
-    other_factors: tuple[int, ...]
     group: int
 
 
@@ -45,7 +43,7 @@ def fulfil(order: Order) -> dict[str, NDArray[Any]]:
     DataError : this process sees other inputs, or is another version of the program
     """
     with _OPENING:  # the first thread reads, the others wait for it
-        work, _ = _opened(order.case, order.strict, order.options, order.key, order.factors, order.other_factors)
+        work, _ = _opened(order.case, order.strict, order.options, order.key, order.factors)
     _, result = work.group(order.group)
     return arrays_of(result)
 
@@ -55,12 +53,7 @@ _OPENING = Lock()
 
 @lru_cache(maxsize=1)
 def _opened(
-    path: str,
-    strict: bool,
-    options: ScreeningOptions,
-    key: str,
-    factors: tuple[int, ...],
-    other_factors: tuple[int, ...],
+    path: str, strict: bool, options: ScreeningOptions, key: str, factors: tuple[int, ...]
 ) -> tuple[Work, TemporaryDirectory[str]]:
     """The work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
     threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
@@ -78,5 +71,4 @@ def _opened(
     plan, _ = mission_plan(body, threads=1)
     folder = TemporaryDirectory(prefix="fatigue-")
     scratch = Path(folder.name)
-    groups = weld_groups(body, scratch / "forces")
-    return open_work(groups, plan, options, scratch, 1, factors, other_factors), folder
+    return open_work(weld_groups(body, scratch / "forces"), plan, options, scratch, 1, factors), folder

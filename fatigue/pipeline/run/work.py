@@ -82,19 +82,18 @@ def open_work(
     scratch: Path,
     threads: int | None,
     factors: Sequence[int] | None = None,
-    other_factors: Sequence[int] | None = None,
 ) -> Work:
     """The work of a job, with the records of its events read and its screening prepared.
 
     ``scratch`` is a folder for what memory cannot hold; ``threads`` are by default one per processor core; ``factors``
-    as of ``event_loads``; ``other_factors`` as of ``other_sampling``.
+    as of ``event_loads``.
     """
     loads = event_loads(groups, plan, scratch / "histories", threads, factors)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
     share = large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
-    sampling = other_sampling(groups, loads, plan, threads, other_factors)
+    sampling = other_sampling(groups, loads, plan)
     return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling)
 
 

@@ -31,6 +31,7 @@ class Varied:
     ----------
     exact : (n, 2) utilisation where it is known, else NaN
     upper : (n, 2) what it does not exceed where it is not known; +inf: nothing is known
+    lower : (n, 2) what it is at least where it is not known; None: nothing is known
     rule, size : the rule of cycles and the factor of each thickness (n,) to count again with; None: nothing to count
     note : code of what limits every number of it
     """
@@ -40,6 +41,7 @@ class Varied:
     rule: CycleRule | None = None
     size: Floats | None = None
     note: int = NOTHING
+    lower: Floats | None = None
 
 
 def scaled(utilisation: Floats, factor: Floats | float, counted: NDArray[np.bool_]) -> Varied:

@@ -17,7 +17,7 @@ from fatigue.pipeline.sensitivity.recount import counted_again
 from fatigue.pipeline.sensitivity.sampling import OtherSampling
 from fatigue.pipeline.sensitivity.toes import Toes, toes_of_curve
 from fatigue.pipeline.sensitivity.variants import CLOSED, varied
-from fatigue.pipeline.sensitivity.worst import MOST_STATIONS, NOWHERE, Again, Weld, worst_of_welds
+from fatigue.pipeline.sensitivity.worst import FEW_STATIONS, NOWHERE, Again, Weld, worst_of_welds
 from fatigue.pipeline.solve.model import Model
 from fatigue.results.dictionary.sensitivity import AS_ASSESSED, BASES, BOUND, UNDECIDED, VARIANTS
 
@@ -76,34 +76,38 @@ def _unchanged(toes: Toes, note: int) -> list[tuple[float, ...]]:
 
 def _changed(name: str, toes: Toes, under: Varied, job: Job) -> list[tuple[float, ...]]:
     """Welds under a variant, their points counted again where that decides and can be done."""
-    loads = job.sampling.loads if name == job.sampling.variant else job.loads
     again, limit = None, notes.SHEAR_LEFT if name.startswith("shear") else notes.BOUNDED
     if under.rule is not None:
-        if loads is None:
-            limit = job.sampling.note
-        elif not job.counts_again:
+        if not job.counts_again:
             limit = notes.LARGE
         elif toes.case.multiaxial.method not in ("report", "off"):
             limit = notes.SHEAR_DECIDES
         else:
-            again, limit = _again(toes, under, loads, job.plan), notes.MOST_COUNTED
-    welds = worst_of_welds(under, toes.toe, toes.first, toes.utilisation, again)
-    return [_row(_at(toes, weld), limit if _is_limited(weld, again) else under.note) for weld in welds]
+            again = _again(toes, under, job, sampled=name == job.sampling.variant)
+    few = 0 if name == "upsample_auto" else FEW_STATIONS  # upsampling takes as long as counting
+    welds = worst_of_welds(under, toes.toe, toes.first, toes.utilisation, again, few)
+    return [_row(_at(toes, weld), _limit(weld, under, limit, again is not None)) for weld in welds]
 
 
-def _is_limited(weld: Weld, again: Again | None) -> bool:
-    """Whether the number of a weld is limited by what could not be counted, not by what need not be."""
-    is_known = BASES[weld.basis] not in (BOUND, UNDECIDED)
-    return not is_known and (again is None or weld.recounted >= MOST_STATIONS)
+def _limit(weld: Weld, under: Varied, limit: int, counts_again: bool) -> int:
+    """Code of the note about what limits the number of a weld: what could not be counted, not what need not be."""
+    if BASES[weld.basis] not in (BOUND, UNDECIDED):
+        return under.note
+    if not counts_again:
+        return limit
+    if BASES[weld.basis] == UNDECIDED:
+        return notes.MOST_COUNTED if weld.recounted else notes.LONG_RECORDS
+    return under.note
 
 
-def _again(toes: Toes, under: Varied, loads: Sequence[EventLoad], plan: Plan) -> Again:
-    """What counts some stations of a curve again under a variant."""
+def _again(toes: Toes, under: Varied, job: Job, *, sampled: bool) -> Again:
+    """What counts some stations of a curve again under a variant, whose records may be ``sampled`` otherwise."""
     rule, size = under.rule, toes.stress.size if under.size is None else under.size
     assert rule is not None
 
-    def counted(rows: NDArray[np.intp]) -> Floats:
-        return counted_again(toes.stress.at(rows), rule, size[rows], loads, plan)
+    def counted(rows: NDArray[np.intp]) -> Floats | None:
+        loads = job.sampling.sampled() if sampled else job.loads
+        return None if loads is None else counted_again(toes.stress.at(rows), rule, size[rows], loads, job.plan)
 
     return counted
 

@@ -1,58 +1,86 @@
 """The records of the events, sampled otherwise than they were counted: as they were given, or upsampled by ``auto``."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from threading import Lock
 
 import numpy as np
 
+from fatigue.case import Event
 from fatigue.life.mission import Plan
 from fatigue.life.records.spool import time_slices
-from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.mission.events import event_load
+from fatigue.pipeline.mission.event_load import EventLoad, as_counted
+from fatigue.pipeline.mission.events import how_counted
+from fatigue.pipeline.mission.unit_loads import event_files
 from fatigue.pipeline.mission.upsampling import automatic_factors
-from fatigue.pipeline.sensitivity.notes import FINE_ENOUGH, LONG_RECORDS, NOT_UPSAMPLED, NOTHING
+from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.weld_groups import WeldGroups
+from fatigue.readers.neutral.event.event_record import read_event
 
-MOST_BYTES = 64e6  # of all records that are upsampled for it
+MOST_BYTES = 64e6  # of all records that are sampled otherwise
+
+Loads = tuple[EventLoad, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OtherSampling:
-    """What the variant of the sampling counts.
+    """What the variant of the sampling counts; the records are sampled when a weld asks for them first.
+
+    Records of more than ``MOST_BYTES``, or counted in single precision, are not sampled anew: the job is large.
 
     Attributes
     ----------
-    variant : ``upsample_1`` where records were upsampled, ``upsample_auto`` where they were counted as they are
-    loads : the events so sampled; None: as assessed, or not to be had, as ``note`` says
-    factors : by how much each record is upsampled in the variant
+    groups, loads, plan : the job as it is counted
+    variant : ``upsample_1`` where records are upsampled, ``upsample_auto`` where they are counted as they are
+    times : how many samples one of each record has become
     """
 
+    groups: WeldGroups
+    loads: Loads
+    plan: Plan
     variant: str
-    loads: tuple[EventLoad, ...] | None
-    factors: tuple[int, ...]
-    note: int = NOTHING
+    times: tuple[int, ...]
+    _sampled: list[Loads | None] = field(default_factory=list)
+    _lock: Lock = field(default_factory=Lock)
+
+    @property
+    def changes_nothing(self) -> bool:
+        """Whether no record is upsampled although all would be that need it."""
+        return self.variant == "upsample_1" and max(self.times) == 1
+
+    def sampled(self) -> Loads | None:
+        """The events sampled otherwise, in memory; None where they are too large for it."""
+        with self._lock:
+            if not self._sampled:
+                is_thinned = self.variant == "upsample_1"
+                self._sampled.append(self._thinned() if is_thinned else self._upsampled())
+            return self._sampled[0]
+
+    def _thinned(self) -> Loads | None:
+        if _is_large(self.loads, [1.0 / by for by in self.times]):
+            return None
+        return tuple(map(_thinned, self.loads, self.times))
+
+    def _upsampled(self) -> Loads | None:
+        """The events as ``auto`` upsamples them: as many times as the fastest point of the body asks for."""
+        if _is_large(self.loads, self.times):
+            return None
+        found = automatic_factors(self.groups, self.loads, threads=1)
+        refined = [max(1, one.refined) for one in self.plan.passes]
+        factors = [p.factor(by * r) for p, by, r in zip(self.plan.passes, found, refined, strict=True)]
+        if _is_large(self.loads, [by / r for by, r in zip(factors, refined, strict=True)]):
+            return None
+        body = self.groups.body
+        events = zip(body.case.mission.event, self.loads, factors, refined, strict=True)
+        return tuple(load if by <= r else _read_again(body, event, load, by) for event, load, by, r in events)
 
 
-def other_sampling(
-    groups: WeldGroups,
-    loads: Sequence[EventLoad],
-    plan: Plan,
-    threads: int | None,
-    factors: Sequence[int] | None = None,
-) -> OtherSampling:
-    """The other sampling of a job; ``factors``: those of ``upsample_auto`` where they are known.
-
-    Records of more than ``MOST_BYTES``, or counted in single precision, are not sampled anew: the job is large.
-    """
-    as_given = tuple(one.factor(1) for one in plan.passes)
-    times = [load.upsample // max(1, given) for load, given in zip(loads, as_given, strict=True)]
-    if max(times) > 1:
-        if _is_large(loads, [1.0 / by for by in times]):
-            return OtherSampling("upsample_1", None, as_given, LONG_RECORDS)
-        return OtherSampling("upsample_1", tuple(map(_thinned, loads, times)), as_given)
-    if groups.body.case.counting.upsample == "auto":
-        return OtherSampling("upsample_1", None, as_given, NOT_UPSAMPLED)
-    return _upsampled(groups, loads, plan, threads, factors)
+def other_sampling(groups: WeldGroups, loads: Sequence[EventLoad], plan: Plan) -> OtherSampling:
+    """The other sampling of a job, whose events are counted as ``loads``."""
+    as_given = [one.factor(1) for one in plan.passes]
+    times = tuple(load.upsample // max(1, given) for load, given in zip(loads, as_given, strict=True))
+    is_upsampled = max(times) > 1 or groups.body.case.counting.upsample == "auto"
+    return OtherSampling(groups, tuple(loads), plan, "upsample_1" if is_upsampled else "upsample_auto", times)
 
 
 def _is_large(loads: Sequence[EventLoad], times: Sequence[float]) -> bool:
@@ -62,31 +90,15 @@ def _is_large(loads: Sequence[EventLoad], times: Sequence[float]) -> bool:
 
 
 def _thinned(load: EventLoad, times: int) -> EventLoad:
-    """An event with every so many-th sample only, in memory: those that the others were interpolated between."""
+    """An event with every so many-th sample only: those that the others were interpolated between."""
     if times == 1:
         return load
     history = load.counted
-    q = np.concatenate(
-        [history.q[:, part][:, -part.start % times :: times] for part in time_slices(history.q.shape)], 1
-    )
-    counted = replace(history, q=np.ascontiguousarray(q), step=history.step * times)
+    parts = [history.q[:, part][:, -part.start % times :: times] for part in time_slices(history.q.shape)]
+    counted = replace(history, q=np.concatenate(parts, axis=1), step=history.step * times)
     return replace(load, counted=counted, upsample=load.upsample // times)
 
 
-def _upsampled(
-    groups: WeldGroups, loads: Sequence[EventLoad], plan: Plan, threads: int | None, factors: Sequence[int] | None
-) -> OtherSampling:
-    """The events upsampled as ``auto`` would, of records that were counted as they are; they are read again."""
-    as_given = tuple(one.factor(1) for one in plan.passes)
-    if factors is None and not _is_large(loads, [1.0] * len(loads)):
-        found = automatic_factors(groups, loads, threads)
-        factors = [p.factor(factor * max(1, p.refined)) for p, factor in zip(plan.passes, found, strict=True)]
-    if factors is None:
-        return OtherSampling("upsample_auto", None, as_given, LONG_RECORDS)
-    if tuple(factors) == as_given:
-        return OtherSampling("upsample_auto", None, as_given, FINE_ENOUGH)
-    if _is_large(loads, [factor / max(1, given) for factor, given in zip(factors, as_given, strict=True)]):
-        return OtherSampling("upsample_auto", None, tuple(factors), LONG_RECORDS)
-    events = zip(groups.body.case.mission.event, loads, factors, as_given, strict=True)
-    upsampled = [load if by == given else event_load(groups.body, event, by) for event, load, by, given in events]
-    return OtherSampling("upsample_auto", tuple(upsampled), tuple(factors))
+def _read_again(body: Body, event: Event, load: EventLoad, factor: int) -> EventLoad:
+    """An event upsampled in memory; its statistics are those of the samples as they are."""
+    return as_counted(load, read_event(event_files(body, event)), how_counted(body, event, factor))

@@ -27,6 +27,8 @@ from fatigue.pipeline.sensitivity.toes import Toes
 from fatigue.quotient import quotient
 from fatigue.spectrum.trust import sampling_loss, vertex_sampling_loss
 
+TIMES_EXPECTED = 2.0  # the loss by sampling that its samples per peak let expect of a point
+
 
 def varied(name: str, toes: Toes, sampling: OtherSampling) -> Varied | int:
     """A variant at the stations of a curve, or the code of the note why it changes nothing."""
@@ -85,7 +87,8 @@ def _larger(toes: Toes, factor: Floats, rule: CycleRule, size: Floats | None, *,
         steepened(toes.utilisation, factor, law),
         _all_on_first_slope(toes) * factor ** float(law.slopes[0]),
     )
-    return Varied(np.full_like(toes.utilisation, np.nan), upper, rule, size)
+    lower = np.where(toes.counted & (factor >= 1.0), toes.utilisation, 0.0)
+    return Varied(np.full_like(toes.utilisation, np.nan), upper, rule, size, lower=lower)
 
 
 def _haibach(toes: Toes) -> Varied | int:
@@ -104,7 +107,8 @@ def _no_knee(toes: Toes) -> Varied | int:
     upper = _all_on_first_slope(toes)
     if rated.curve.knees_cycles:
         return notes.OWN_KNEES
-    return Varied(np.full_like(upper, np.nan), upper, rule)
+    lower = np.where(toes.counted, toes.utilisation, 0.0)
+    return Varied(np.full_like(upper, np.nan), upper, rule, lower=lower)
 
 
 def _damage_limit(toes: Toes) -> Varied | int:
@@ -119,16 +123,18 @@ def _sampled(toes: Toes, sampling: OtherSampling) -> Varied | int:
     Samples between others only add to the damage of a count by ranges: what is counted without them is at most what is
     counted with them, but for the bending ratio, which every cycle has of its own reversals.
     """
-    if sampling.loads is None and sampling.note != notes.LONG_RECORDS:
-        return sampling.note
+    if sampling.changes_nothing:
+        return notes.NOT_UPSAMPLED
     rule, is_vertex = toes.rated.rule, toes.case.counting.reversals == "vertex"
     k = float(rule.law.slopes.max())
     ratios = float(ratio_factor(1.0) / ratio_factor(0.0)) ** k if rule.uses_bending_ratio else 1.0
-    loss = (vertex_sampling_loss if is_vertex else sampling_loss)(toes.samples_per_peak, k)
-    gain = 1.0 if sampling.variant == "upsample_1" else 1.0 / np.maximum(1.0 - 2.0 * loss, 0.1)
-    is_proven = sampling.variant == "upsample_1" and not (is_vertex or rule.law.cutoff > 0.0 or rule.mean_stress)
     unknown = np.full_like(toes.utilisation, np.nan)
-    return Varied(unknown, toes.utilisation * ratios * gain, rule, note=notes.NOTHING if is_proven else notes.EXPECTED)
+    if sampling.variant == "upsample_auto":
+        loss = (vertex_sampling_loss if is_vertex else sampling_loss)(toes.samples_per_peak, k)
+        upper = toes.utilisation / np.maximum(1.0 - TIMES_EXPECTED * loss, 0.1)
+        return Varied(unknown, upper, rule, note=notes.EXPECTED, lower=toes.utilisation / ratios)
+    is_proven = not (is_vertex or rule.law.cutoff > 0.0 or rule.mean_stress)
+    return Varied(unknown, toes.utilisation * ratios, rule, note=notes.NOTHING if is_proven else notes.EXPECTED)
 
 
 def _all_on_first_slope(toes: Toes) -> Floats:
