@@ -55,6 +55,7 @@ from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.tables.sampling_warnings import sampling_warnings
+from fatigue.pipeline.tables.sensitivity import sensitivity_rows
 from fatigue.pipeline.tables.stress_warnings import StressExtent
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
@@ -320,7 +321,7 @@ def write_tables(
     """
     body = work.groups.body
     wants_histograms, wants_checks = work.histogram != "none", has_checks(body.case)
-    wanted = [*ASSESSED, *["histogram"] * wants_histograms, *["checks"] * wants_checks]
+    wanted = [*ASSESSED, "sensitivity", *["histogram"] * wants_histograms, *["checks"] * wants_checks]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
@@ -361,6 +362,7 @@ def write_group(
         tables["checks"].write(check_table_rows(result.checks, model.body.curves, model.body.compared.lines))
         of_checks = verdicts(joined([result.checks, apart]), stations.names, model.case.checks.counts)
     tables["welds"].write(weld_rows(model, plan, result, worst, of_checks))
+    tables["sensitivity"].write(sensitivity_rows(model, result, worst, work.sampling))
     return worst
 
 

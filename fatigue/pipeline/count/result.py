@@ -52,6 +52,7 @@ class GroupResult:
     governing, verdict : (n, 2) of the mission
     tier : (n,) index into ``block.TIERS``, 0 where cycles were counted
     checks : rows of the other checks of these welds, ``checks.rows``; none unless the case asks for them
+    sensitivity : (v, w, f) every weld under every variant, ``sensitivity.group``
     """
 
     event_columns: NDArray[np.float64]
@@ -62,6 +63,7 @@ class GroupResult:
     verdict: NDArray[np.int8]
     tier: NDArray[np.int8]
     checks: NDArray[Any]
+    sensitivity: NDArray[np.float64]
 
     @classmethod
     def empty(cls, events: int, stations: int, loops: int = 0) -> Self:
@@ -75,6 +77,7 @@ class GroupResult:
             verdict=np.empty((stations, 2), np.int8),
             tier=np.empty(stations, np.int8),
             checks=np.empty(0),
+            sensitivity=np.empty((0, 0, 0)),
         )
 
     def of_events(self, column: str) -> NDArray[np.float64]:

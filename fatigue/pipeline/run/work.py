@@ -16,6 +16,8 @@ from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.event_load import EventLoad, held_copies, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.run.checkpoint import state_key
+from fatigue.pipeline.sensitivity.group import Job, group_sensitivity
+from fatigue.pipeline.sensitivity.sampling import OtherSampling, other_sampling
 from fatigue.pipeline.solve.body import conversion_file, register_file
 from fatigue.pipeline.solve.model import Model, solve_group
 from fatigue.pipeline.solve.weld_groups import BLOCK, GROUPS, LARGEST_GROUP, SMALLEST_GROUP, WeldGroups
@@ -47,7 +49,7 @@ class Work:
 
     ``screening`` is None where every point is to be counted. ``kept_from`` is the utilisation from which the cycles of
     the worst point of a weld are kept: the cycles of all welds of a train would fill the disk. ``histogram`` says of
-    which points histograms are kept.
+    which points histograms are kept. ``sampling`` has the records sampled otherwise than they are counted.
     """
 
     groups: WeldGroups
@@ -56,6 +58,7 @@ class Work:
     screening: Screening | None
     kept_from: float
     histogram: HistogramPoints
+    sampling: OtherSampling
 
     @property
     def factors(self) -> tuple[int, ...]:
@@ -68,7 +71,8 @@ class Work:
         result = assess_group(model, self.loads, self.plan, self.screening)
         if has_checks(model.case):
             result = replace(result, checks=group_checks(model, result, self.loads, self.plan))
-        return model, result
+        job = Job(self.loads, self.plan, self.screening, self.sampling, counts_again=self.kept_from == 0.0)
+        return model, replace(result, sensitivity=group_sensitivity(model, result, job))
 
 
 def open_work(
@@ -89,7 +93,8 @@ def open_work(
     share = large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
-    return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram)
+    sampling = other_sampling(groups, loads, plan)
+    return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling)
 
 
 def screening_of(
