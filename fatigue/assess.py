@@ -34,6 +34,7 @@ from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.multiaxial.doubt import ModelDoubt
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
@@ -47,6 +48,7 @@ from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.histogram import HistogramWriter
+from fatigue.pipeline.tables.path_cycles import PathWriter, kept_paths
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
@@ -258,7 +260,7 @@ class Tally:
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
     ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
     forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss,
-    ``transitions`` those at which the order of the events may matter.
+    ``transitions`` those at which the order of the events may matter, ``shear`` those where the model of shear does.
     """
 
     total: int
@@ -273,6 +275,7 @@ class Tally:
     extents: list[LoadExtent] = field(default_factory=list)
     stress: StressExtent = field(default_factory=StressExtent)
     transitions: Transitions = field(default_factory=Transitions)
+    shear: ModelDoubt = field(default_factory=ModelDoubt)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -288,6 +291,7 @@ class Tally:
         self.extents += group.model.extents
         self.stress.add(group.model, result)
         self.transitions.add(group.model.stations, result)
+        self.shear.add(group.model.stations, result)
         self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
@@ -300,22 +304,28 @@ def write_tables(
 ) -> None:
     """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
     wants_histograms, wants_checks = work.histogram != "none", has_checks(work.groups.body.case)
-    wanted = [*ASSESSED, *["histogram"] * wants_histograms, *["checks"] * wants_checks]
+    optional = {"histogram": wants_histograms, "checks": wants_checks, "path_cycles": work.shear is not None}
+    wanted = [*ASSESSED, *(table for table, is_wanted in optional.items() if is_wanted)]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
+        paths = PathWriter(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
         for group in assessed:
             worst = write_group(tables, group, work)
             cycles.add(points_kept_of(worst, group, work))
             if histograms:
                 binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
                 histograms.add([kept_point(group.model, point) for point in binned])
+            if paths:
+                paths.add(kept_paths(group))
             done.add(group, work, worst)
             del group  # not to be held until the next one is there
             give_back()
         cycles.flush()
         if histograms:
             histograms.flush()
+        if paths:
+            paths.flush()
         tables["welds"].write(excluded_rows(work.groups.body.excluded))
 
 
@@ -347,7 +357,8 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     of_order = done.transitions.warnings(work.plan)
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
-    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order]
+    of_shear = done.shear.warnings()
+    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order, *of_shear]
 
 
 def one_blas_thread() -> threadpool_limits:
