@@ -34,7 +34,8 @@ from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.multiaxial.doubt import ModelDoubt
+from fatigue.pipeline.multiaxial.doubt import ShearTally
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
@@ -77,6 +78,8 @@ from fatigue.weld.load_extent import LoadExtent
 log = logging.getLogger(__name__)
 
 ROWS_AT_ONCE = 512  # stations whose rows are made at a time, as many for each as there are events or modes
+
+SCREEN = "Leave out share (--screen), or give method = 'report'"
 
 Progress = Callable[[str, int, int], None]
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
@@ -143,6 +146,7 @@ def assess(
     """
     refuse(CaseError, _senseless(threads, share, executor, histogram))
     case, folder = given_case(case), given_path(folder, "folder")
+    refuse(CaseError, _screened_shear(case, share))
     settle_folder(folder, no_lock=no_lock)
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
@@ -177,10 +181,11 @@ def assess(
             unpublished = state.folder / "tables"
             write_tables(unpublished, key, assessed, work, done, threads)
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
+            log.info("shear at the toes: %s", done.shear.as_text())
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
             record = {"program": "fatigue", "result": key} | provenance_record(
-                body, work, done.stations, folder, inputs.register, warnings, gravity
+                body, work, done.stations, folder, inputs.register, warnings, gravity, done.shear.statuses
             )
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
@@ -219,6 +224,14 @@ def _senseless(threads: object, share: object, executor: object, histogram: obje
     if not (isinstance(histogram, str) and histogram in known):
         what, remedy = f"{histogram!r} are no points to keep", f"Give one of {', '.join(map(repr, known))}"
         yield Problem("argument", "histogram", what, remedy)
+
+
+def _screened_shear(case: Case, share: float | None) -> Iterator[Problem]:
+    """Refusal of a share beside a method for shear that decides: bounds of the normal stress say nothing of it."""
+    method = case.multiaxial.method
+    if share and method in DECIDING:
+        where, what = f"{case.path.name}: multiaxial.method", f"method = {method!r} needs every point counted"
+        yield Problem("argument", where, f"{what}, and points below {share:g} of the limit were not to be", SCREEN)
 
 
 def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
@@ -275,7 +288,7 @@ class Tally:
     extents: list[LoadExtent] = field(default_factory=list)
     stress: StressExtent = field(default_factory=StressExtent)
     transitions: Transitions = field(default_factory=Transitions)
-    shear: ModelDoubt = field(default_factory=ModelDoubt)
+    shear: ShearTally = field(default_factory=ShearTally)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -357,7 +370,7 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     of_order = done.transitions.warnings(work.plan)
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
-    of_shear = done.shear.warnings()
+    of_shear = done.shear.warnings(work.loads)
     return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order, *of_shear]
 
 

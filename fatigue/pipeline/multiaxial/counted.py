@@ -1,12 +1,13 @@
 """Half cycles of the paths of few points, and their Miner sums by range, by length and by path moment."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.errors import Problem
 from fatigue.life.path.count import COUNT, PathCycles, count_path
 from fatigue.life.records.history import stress_history
 from fatigue.life.rule import CycleRule, bending_ratio, cycle_damage
@@ -15,7 +16,7 @@ from fatigue.pipeline.multiaxial.found import Found, nothing_found
 
 Floats = NDArray[np.float64]
 
-SAMPLES_AT_ONCE = 1_000_000  # of each of the four stresses: 32 MB
+SAMPLES_AT_ONCE = 250_000  # of each of the four stresses: 8 MB
 LONGEST_PATH = 2_000_000  # samples of a record whose paths are counted: some 250 bytes for each
 LONG_PATH = 200_000  # samples, from which on one thread counts at a time
 
@@ -46,6 +47,19 @@ class PathParts:
     ratio: Floats
     shear_ratio: Floats
     x: Floats
+
+
+def long_paths(case: str, events: Iterable[tuple[str, int, int]]) -> Iterator[Problem]:
+    """Refusals of events whose records are too long for the path counter.
+
+    ``case`` is the name of the case file, ``events`` have their names, samples as they are counted and upsampling.
+    """
+    for event, samples, factor in events:
+        if samples > LONGEST_PATH:
+            what = f"the record of event '{event}' has {samples} samples as it is counted, upsampled "
+            what += f"{factor} times; paths are counted in records of {LONGEST_PATH} samples at most"
+            remedy = "Upsample less, divide the record into events, or give method = 'asme' or 'report'"
+            yield Problem("path_too_long", f"{case}: multiaxial.method", what, remedy)
 
 
 def paths_of(

@@ -10,7 +10,8 @@ from fatigue.life.records.spool import Samples
 
 Floats = NDArray[np.float64]
 
-POINTS_AT_ONCE = 256  # whose stress in a chunk takes 8 MB with 60 modes
+POINTS_AT_ONCE = 64  # whose stress in a chunk takes 2 MB with 60 modes, 16 MB with few
+STRESSES_AT_ONCE = 256  # in single precision
 IN_DOUBT = 1e-4  # of a range in single precision
 
 
@@ -58,7 +59,11 @@ def ranges(weights: Floats, q: Samples, limit: Floats) -> Floats:
 
     In single precision, but where that leaves in doubt whether a range is above its ``limit`` (k,).
     """
-    found = _ranges(weights, q, np.dtype(np.float32))
+    single = [
+        _ranges(weights[first : first + STRESSES_AT_ONCE], q, np.dtype(np.float32))
+        for first in range(0, len(weights), STRESSES_AT_ONCE)
+    ]
+    found = np.concatenate(single)
     doubt = np.flatnonzero(np.abs(found - limit) <= IN_DOUBT * _reach(weights, q))
     if doubt.size:
         found[doubt] = _ranges(weights[doubt], q, np.dtype(np.float64))

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from fatigue.case import Case
+from fatigue.errors import DataError, refuse
 from fatigue.life.bounds.path_extent import path_extent
 from fatigue.life.bounds.screening import modal_extent
 from fatigue.life.mission import Plan
@@ -16,6 +17,8 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.event_load import EventLoad, held_copies, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
+from fatigue.pipeline.multiaxial.counted import long_paths
+from fatigue.pipeline.multiaxial.found import MODELS
 from fatigue.pipeline.multiaxial.group import Shear, group_multiaxial
 from fatigue.pipeline.multiaxial.method import DECIDING, decided_by
 from fatigue.pipeline.run.checkpoint import state_key
@@ -94,18 +97,27 @@ def open_work(
     """
     loads = event_loads(groups, plan, scratch / "histories", threads, factors)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
-    share = large if options.share is None else options.share
+    named = groups.body.case.multiaxial.method in DECIDING  # no bound says what shear does to the points it settles
+    share = 0.0 if named else large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
-    shear = shear_of(groups.body.case, loads, large, threads)
+    shear = shear_of(groups.body.case, loads, 0.0 if named else large, threads)
     return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram, shear=shear)
 
 
 def shear_of(case: Case, loads: Sequence[EventLoad], counted_from: float, threads: int | None) -> Shear | None:
-    """How the case wants shear at the toes, with the records prepared for its bounds on some threads."""
+    """How the case wants shear at the toes, with the records prepared for its bounds on some threads.
+
+    Raises
+    ------
+    DataError : a method of the path counter is named, and a record is too long for it
+    """
     asked = case.multiaxial
     if asked.method == "off":
         return None
+    if asked.method in MODELS:
+        as_counted = ((load.counted.event, load.counted.q.shape[1], load.upsample) for load in loads)
+        refuse(DataError, long_paths(case.path.name, as_counted))
     extents = in_order(lambda load: path_extent(load.counted.q, load.residue, load.covariance), loads, threads)
     return Shear(asked.method, asked.beta, asked.alpha, tuple(extents), counted_from)
 
