@@ -376,7 +376,8 @@ def write_group(
     """
     model, result, plan = group.model, group.result, work.plan
     stations, worst = model.stations, worst_points(model.stations, result)
-    tables["nodes"].write(node_rows(stations, result, plan))
+    statuses = [rated.curve.status for rated in model.curve_of_weld]
+    tables["nodes"].write(node_rows(stations, result, plan, statuses))
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))

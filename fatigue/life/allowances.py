@@ -50,6 +50,15 @@ class Allowances:
 
 
 NOTHING = Allowances()
+ALLOWANCE_KEYS = {  # attribute of ``Allowances`` by the key of a curve entry
+    "thickness_effective": "thickness_effective",
+    "bending_factor": "bending_factor",
+    "bending_reference_mm": "bending_reference",
+    "bending_exponent": "bending_exponent",
+    "mean_stress": "stress_ratio",
+    "gamma_Ff": "gamma_Ff",
+    "gamma_Mf": "gamma_Mf",
+}
 
 
 def effective_thickness(thickness: Floats, attachment: Floats) -> Floats:

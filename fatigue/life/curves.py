@@ -2,17 +2,17 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, Problem
-from fatigue.life.allowances import NOTHING, Allowances
+from fatigue.life.allowances import ALLOWANCE_KEYS, NOTHING, Allowances
 
 Applies = Literal["structural", "dS", "nominal", "hot_spot", "throat", "parent"]
 Quantity = Literal["normal", "shear"]
@@ -143,37 +143,45 @@ def catalogue() -> Mapping[str, SNCurve]:
     """Read the curves shipped with the program, each with edition, clause and source, from ``curves.toml``."""
     with (Path(__file__).parent / "curves.toml").open("rb") as file:
         tables = tomllib.load(file)
-    curves = {}
-    for name, table in tables.items():
-        source = f"{table['source']}, edition {table['edition']}, {table['clause']}"
-        if "C" in table:  # master curve, N = (C / dS)**(1 / h): C is the range at one cycle
-            curves[name] = SNCurve(
-                name=name,
-                applies="dS",
-                slopes=(1.0 / table["h"],),
-                knees_cycles=(),
-                reference_cycles=1.0,
-                reference_range=table["C"],
-                source=source,
-                edition=table["edition"],
-                clause=table["clause"],
-                status=SHIPPED,
-            )
-        else:
-            curves[name] = user_curve(
-                name=name,
-                slopes=tuple(table["slopes"]),
-                knees_cycles=tuple(table["knees_cycles"]),
-                range_at_2e6=table["range_at_2e6_MPa"],
-                applies="structural",
-                source=source,
-                thickness_reference=table.get("thickness_reference_mm"),
-                thickness_exponent=table.get("thickness_exponent", 0.0),
-                edition=table["edition"],
-                clause=table["clause"],
-                status=SHIPPED,
-            )
-    return MappingProxyType(curves)
+    return MappingProxyType({name: _shipped(name, table) for name, table in tables.items()})
+
+
+def _shipped(name: str, table: Mapping[str, Any]) -> SNCurve:
+    """Curve of a table of ``curves.toml``, of which the keys are those of ``[curves.<name>]`` in a case."""
+    source = f"{table['source']}, edition {table['edition']}, {table['clause']}"
+    if "C" in table:  # master curve, N = (C / dS)**(1 / h): C is the range at one cycle
+        curve = SNCurve(
+            name=name,
+            applies="dS",
+            slopes=(1.0 / table["h"],),
+            knees_cycles=(),
+            reference_cycles=1.0,
+            reference_range=table["C"],
+            source=source,
+        )
+    else:
+        curve = user_curve(
+            name=name,
+            slopes=tuple(table["slopes"]),
+            knees_cycles=tuple(table["knees_cycles"]),
+            range_at_2e6=table["range_at_2e6_MPa"],
+            applies=table.get("applies", "structural"),
+            source=source,
+            log10_scatter=table.get("log10_scatter"),
+            thickness_reference=table.get("thickness_reference_mm"),
+            thickness_exponent=table.get("thickness_exponent", 0.0),
+        )
+    return replace(
+        curve,
+        edition=table["edition"],
+        clause=table["clause"],
+        status=table.get("status", SHIPPED),
+        quantity=table.get("quantity", "normal"),
+        allowances=Allowances(**{ours: table[key] for key, ours in ALLOWANCE_KEYS.items() if key in table}),
+        damage_limit=table.get("damage_limit"),
+        checked_by=table.get("checked_by", ""),
+        checked_on=table.get("checked_on", ""),
+    )
 
 
 def survival_level(curve: SNCurve, survival: Survival | None) -> str:

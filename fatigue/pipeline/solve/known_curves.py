@@ -5,21 +5,12 @@ from dataclasses import fields, replace
 
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.allowances import Allowances
-from fatigue.life.curves import SHIPPED, TABULATED, SNCurve, catalogue, user_curve
+from fatigue.life.allowances import ALLOWANCE_KEYS, Allowances
+from fatigue.life.curves import TABULATED, SNCurve, catalogue, user_curve
 
 TEXTS = ("source", "edition", "clause", "status", "checked_by", "checked_on")  # of a curve; all else are its numbers
 LINE = {"slopes", "knees_cycles", "range_at_2e6_MPa", "log10_scatter"}  # keys that say where its line lies
-ALLOWANCES = {  # of a curve, by the key of the case
-    "thickness_effective": "thickness_effective",
-    "bending_factor": "bending_factor",
-    "bending_reference_mm": "bending_reference",
-    "bending_exponent": "bending_exponent",
-    "mean_stress": "stress_ratio",
-    "gamma_Ff": "gamma_Ff",
-    "gamma_Mf": "gamma_Mf",
-}
-OTHERS = {  # likewise
+OTHERS = {  # of a curve, by the key of the case
     "applies": "applies",
     "quantity": "quantity",
     "thickness_reference_mm": "thickness_reference",
@@ -34,7 +25,7 @@ def curves_of_case(case: Case) -> dict[str, SNCurve]:
 
     A curve of the case that has the name of one of the catalogue is that curve with the keys of the case in the place
     of its own. Where any number of it is another one then, its status is ``user``; where none is, the case may say who
-    compared it.
+    compared it. An unverified curve stays that as long as its line does, whatever factors the case puts on it.
 
     Raises
     ------
@@ -72,7 +63,7 @@ def _with_keys(curve: SNCurve, given: CustomCurve, keys: set[str]) -> SNCurve:
     values = {ours: getattr(given, key) for key, ours in OTHERS.items() if key in keys}
     if values.get("thickness_exponent", 0.0) is None:
         values["thickness_exponent"] = 0.0
-    allowances = {ours: getattr(given, key) for key, ours in ALLOWANCES.items() if key in keys}
+    allowances = {ours: getattr(given, key) for key, ours in ALLOWANCE_KEYS.items() if key in keys}
     if allowances.get("bending_exponent", 0.0) is None:
         allowances["bending_exponent"] = 0.0
     return replace(curve, **values, allowances=replace(curve.allowances, **allowances))
@@ -98,9 +89,10 @@ def _changed(shipped: SNCurve, given: CustomCurve) -> SNCurve:
         of_line = ("slopes", "knees_cycles", "reference_cycles", "reference_range")
         line = replace(shipped, **{name: getattr(made, name) for name in of_line})
     curve = _with_keys(line, given, keys)
-    if not _same_numbers(curve, shipped):
-        return replace(curve, status=given.status)
-    return curve if "status" in keys else replace(curve, status=SHIPPED)
+    if "status" in keys or _same_numbers(curve, shipped):
+        return curve
+    stays = shipped.status == "unverified" and not keys & LINE  # its line is as unverified as it was
+    return curve if stays else replace(curve, status=given.status)
 
 
 def _same_numbers(one: SNCurve, other: SNCurve) -> bool:

@@ -18,9 +18,17 @@ def changed(folder: Path, name: str, keys: str) -> SNCurve:
     return curves_of_case(load_case(case.write(folder)))[name]
 
 
-def test_a_curve_of_the_catalogue_is_cross_checked() -> None:
-    """Recalled, compared with others; a title of a report does not speak of it."""
-    assert {curve.status for curve in catalogue().values()} == {"cross-checked"}
+def test_what_the_catalogue_rests_on() -> None:
+    """Curves for toes were compared with each other; those for throats are recalled and marked."""
+    by_use = {applies: {c.status for c in catalogue().values() if c.applies == applies} for applies in ("dS", "throat")}
+    assert by_use == {"dS": {"cross-checked"}, "throat": {"unverified"}}
+    assert {c.status for c in catalogue().values() if c.applies == "structural"} == {"cross-checked"}
+
+
+def test_factors_do_not_verify_a_curve(tmp_path: Path) -> None:
+    """A partial factor leaves the word where it is; another line is the user's."""
+    assert changed(tmp_path / "a", "iiw-throat-steel-36", "gamma_Mf = 1.25").status == "unverified"
+    assert changed(tmp_path / "b", "iiw-throat-steel-36", "range_at_2e6_MPa = 30.0").status == "user"
 
 
 @pytest.mark.parametrize(
