@@ -42,4 +42,19 @@ WELDS = (
     Column("worst_arc_length_mm", "float", "mm", "worst point: distance along the part"),
     Column("worst_summed_corner", "flag", "-", "worst point: at a kink where the forces of both legs are one sum"),
     Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
+    Column("joint_type", "text", "-", "kind of joint, as given"),
+    Column("performance_class", "text", "-", "weld performance class, as given"),
+    Column("inspection_class", "text", "-", "weld inspection class, as given"),
+    Column(
+        "stress_utilisation",
+        "float",
+        "-",
+        "largest stress utilisation of the weld: 1 / load_factor of its toe points, or worst_check_utilisation",
+    ),
+    Column(
+        "stress_category",
+        "text",
+        "-",
+        "low, medium or high by stress_utilisation; the limits and their source are in provenance.json",
+    ),
 )

@@ -147,7 +147,7 @@ def _table(
     at = np.array([k for k, _ in rows])
     faces = {"top": stress[:, :, 0], "bottom": stress[:, :, 1], "edge": stress.mean(axis=2)}
     edge_only = np.array([[1.0, 0.0, 0.0] if surface == "edge" else [1.0] * 3 for _, surface in rows])
-    values = np.stack([faces[surface][:, k] for k, surface in rows], axis=1) * edge_only
+    values = np.stack([faces[surface][:, k] for k, surface in rows], axis=1) * edge_only + 0.0  # no negative zero
     modes = results.mode.tolist()
     some = [read_outs[k] for k in at.tolist()] * len(modes)
     columns = {

@@ -14,6 +14,8 @@ from fatigue.readers.neutral.tables import Table, open_table
 Vector = NDArray[np.float64]
 
 FACE, EDGE = "hot_spot_a", "hot_spot_b"
+OF_CHECKS = ("weld", "curve", "curve_shear", "planes")
+"""Columns of the table that only the checks of stress points read."""
 KINDS = (FACE, EDGE, "nominal", "parent", "haz")
 OF_THICKNESS: dict[Density, tuple[float, ...]] = {
     "fine": (0.4, 1.0),
@@ -60,18 +62,17 @@ class StressPoint:
 def read_stress_points(path: Path) -> tuple[tuple[StressPoint, ...], list[Problem]]:
     """Read the table of stress points; and warnings.
 
-    Columns: ``point, kind, x_mm, y_mm, z_mm, thickness_mm, e1_x|y|z, normal_x|y|z`` and, where present, ``weld, curve,
-    curve_shear``.
+    Columns: ``point, kind, x_mm, y_mm, z_mm, thickness_mm, e1_x|y|z, normal_x|y|z``, perhaps those of ``OF_CHECKS``.
 
     Raises
     ------
     DataError : anything missing or impossible, a point given twice, e1 along the normal
     """
-    table = open_table(path, texts=("point", "kind", "weld", "curve", "curve_shear"))
+    table = open_table(path, texts=("point", "kind", *OF_CHECKS))
     axes = {name: [f"{name}_{a}" for a in "xyz"] for name in ("e1", "normal")}
     place = ["x_mm", "y_mm", "z_mm"]
     required = ("point", "kind", *place, "thickness_mm", *axes["e1"], *axes["normal"])
-    table.expect(required, ("weld", "curve", "curve_shear"), strict=False)
+    table.expect(required, OF_CHECKS, strict=False)
     names, code = table.groups("point")
     table.unique({"point": code}, {"point": names})
     kind = table.texts("kind")

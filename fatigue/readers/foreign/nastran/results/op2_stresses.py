@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.shell_stress import REQUEST, ShellStresses, StressBlock
 from fatigue.readers.foreign.nastran.results.analysis import MODES, STATIC, wrong_analysis
-from fatigue.readers.foreign.nastran.results.op2_blocks import Identification, blocks, damaged
+from fatigue.readers.foreign.nastran.results.op2_blocks import Identification, blocks, damaged, heads
 from fatigue.readers.foreign.nastran.results.op2_records import Op2File, Op2Table, Record, read_records
 from fatigue.readers.foreign.nastran.results.stress_kinds import (
     LAYERED,
@@ -24,6 +25,7 @@ from fatigue.readers.foreign.nastran.results.stress_kinds import (
 )
 
 _TABLE = re.compile(r"OES1(X1?|A|C)?\Z")
+_TELLS_ANALYSIS = re.compile(r"OUGV?1|OGPFB1")
 _STRESS, _SORT2 = 5, 1000
 _REAL = 1  # format code
 
@@ -44,6 +46,7 @@ def read_op2_stresses(path: Path, wanted: NDArray[np.int64]) -> ShellStresses:
         what = "the file holds several runs with stresses, one behind the other"
         remedy = "Delete the OP2 file before the run that matters, and repeat it"
         raise DataError(Problem("many_runs", str(path), what, remedy))
+    modes_of = _modes_told(op2)
     found: list[StressBlock] = []
     unread: dict[int, str] = {}
     problems: list[Problem] = []
@@ -55,7 +58,7 @@ def read_op2_stresses(path: Path, wanted: NDArray[np.int64]) -> ShellStresses:
             if (problem := _unusable(op2, table, head)) is not None:
                 problems.append(problem)
             elif kind is not None:
-                found += _block(op2, table, head, body, kind, wanted)
+                found += _block(op2, table, _as_told(head, modes_of), body, kind, wanted)
             else:
                 unread |= dict.fromkeys(_layered(op2, table, head, body, wanted), LAYERED_WHY)
     if not tables or not (found or unread or problems):
@@ -63,6 +66,23 @@ def read_op2_stresses(path: Path, wanted: NDArray[np.int64]) -> ShellStresses:
         what = f"no stresses of these shells (tables OES1, OES1X, OES1X1); tables found: {names}"
         raise DataError(Problem("no_stresses", str(path), what, REQUEST))
     return ShellStresses(str(path), tuple(found), unread, tuple(dict.fromkeys(problems)))
+
+
+def _modes_told(op2: Op2File) -> set[tuple[int, int]]:
+    """Subcase and mode of displacements and forces that are modal, in subcases that are nothing else.
+
+    MYSTRAN states static stresses in a modal run, with the number of the mode where others have that of a load.
+    """
+    told = [head for table in op2.tables if _TELLS_ANALYSIS.match(table.name) for head in heads(op2, table)]
+    static = {head.subcase for head in told if head.approach == STATIC}
+    return {(head.subcase, head.mode) for head in told if head.is_modal and head.subcase not in static}
+
+
+def _as_told(head: Identification, modes_of: set[tuple[int, int]]) -> Identification:
+    """Identification as the displacements and forces of the file have it."""
+    if head.is_modal or (head.subcase, head.mode) not in modes_of:
+        return head
+    return replace(head, approach=MODES, eigenvalue=np.nan)
 
 
 def _unusable(op2: Op2File, table: Op2Table, head: Identification) -> Problem | None:
