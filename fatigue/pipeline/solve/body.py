@@ -20,6 +20,7 @@ from fatigue.pipeline.solve.rated_curves import (
 )
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
+from fatigue.readers.neutral.body.classes import class_warnings
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
@@ -102,6 +103,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
         conversion = convert_record(conversion_file(case))
         plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
     warnings += plan.warnings
+    warnings += class_warnings(plan.welds, plan.file or files.welds)
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
     throats, of_throats = _throats(case, in_tables, plan, strict=strict)

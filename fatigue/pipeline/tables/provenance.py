@@ -5,7 +5,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from fatigue.case import Case
+from fatigue.case import Case, stress_categories
 from fatigue.errors import Problem
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import ABOVE
@@ -84,6 +84,7 @@ def provenance_record(
             "cycles_kept_from_utilisation": work.kept_from,
             "histogram": _HISTOGRAM_RULES[work.histogram],
             "multiaxial": _shear_record(case, work, shear or {}),
+            "stress_category": asdict(stress_categories(case.checks.stress_category)),
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,

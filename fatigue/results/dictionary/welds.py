@@ -60,4 +60,19 @@ WELDS = (
     ),
     Column("worst_check_utilisation", "float", "-", "its utilisation_stress: never a damage sum"),
     Column("checks_not_assessed", "int", "-", "rows of checks.parquet that have no verdict"),
+    Column("joint_type", "text", "-", "kind of joint, as given"),
+    Column("performance_class", "text", "-", "weld performance class, as given"),
+    Column("inspection_class", "text", "-", "weld inspection class, as given"),
+    Column(
+        "stress_utilisation",
+        "float",
+        "-",
+        "largest stress utilisation of the weld: 1 / load_factor of its toe points, or worst_check_utilisation",
+    ),
+    Column(
+        "stress_category",
+        "text",
+        "-",
+        "low, medium or high by stress_utilisation; the limits and their source are in provenance.json",
+    ),
 )
