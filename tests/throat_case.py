@@ -25,10 +25,10 @@ source = "invented"
 """
 
 
-def with_throats(case: SmallCase, folder: Path, rows: list[str], extra: str = "") -> Path:
+def with_throats(case: SmallCase, folder: Path, rows: list[str], extra: str = "", head: str = HEAD) -> Path:
     """Write a case with throats; ``rows`` are those of the table."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "weld_throats.csv").write_text("\n".join([HEAD, *rows]) + "\n")
+    (folder / "weld_throats.csv").write_text("\n".join([head, *rows]) + "\n")
     case.body = case.body | {"weld_throats": "weld_throats.csv"}
     case.extra = case.extra + extra + CURVES
     return case.write(folder)

@@ -18,6 +18,7 @@ from fatigue.pipeline.solve.rated_curves import (
     curves_of_case,
     rated_curves,
 )
+from fatigue.pipeline.solve.throat_curves import path_problems, throat_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.classes import class_warnings
@@ -114,9 +115,9 @@ def read_body(case: Case, *, strict: bool) -> Body:
         table = case.resolve(case.checks.strength_factors)
         factors, of_factors = read_strength_factors(table, known_curves, strict=strict)
         warnings += of_factors
-    of_checks = [*point_curves(points), *endurance_curves(case)]
-    curves = rated_curves(case, known_curves, [*asked_curves(case, plan.welds, throats.values()), *of_checks], factors)
-    refuse(DataError, attachment_problems(case, plan.welds, curves))
+    of_checks = [*throat_curves(case, throats), *point_curves(points), *endurance_curves(case)]
+    curves = rated_curves(case, known_curves, [*asked_curves(case, plan.welds), *of_checks], factors)
+    refuse(DataError, (*attachment_problems(case, plan.welds, curves), *path_problems(case, throats, curves)))
     warnings += cutoff_warnings(case, curves)
     loads = tuple(load.name for load in case.body.unit_load)
     compared, of_compared = read_compared(case, Coordinates(modes, loads), known_curves, strict=strict)
