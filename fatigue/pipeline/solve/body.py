@@ -8,9 +8,9 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
+from fatigue.pipeline.solve.check_curves import path_problems, point_curves, throat_curves
 from fatigue.pipeline.solve.compared_cases import Compared, endurance_curves, read_compared, refuse_wrong_checks
 from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings
-from fatigue.pipeline.solve.point_curves import point_curves
 from fatigue.pipeline.solve.rated_curves import (
     RatedCurve,
     asked_curves,
@@ -18,7 +18,6 @@ from fatigue.pipeline.solve.rated_curves import (
     curves_of_case,
     rated_curves,
 )
-from fatigue.pipeline.solve.throat_curves import path_problems, throat_curves
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.classes import class_warnings
