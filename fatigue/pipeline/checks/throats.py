@@ -32,6 +32,7 @@ from fatigue.weld.throat import Side, ThroatStress, line_force, throat_stress, w
 
 Columns = Mapping[str, Any]
 
+AT_SUMMED_CORNER = "forces of both legs of a corner in one sum, so no bound"
 STEP_DEG = 5.0  # between directions: the range in the worst one is at most 0.1 % low
 
 
@@ -163,6 +164,7 @@ def _rows(check: str, fillets: _Fillets, side: Side, rated: RatedCurve, model: M
     """Rows of a check of the weld on one side, at every station."""
     stations, rows = model.stations, fillets.rows
     surface = {"surface": "throat"} | dict(columns)
+    note = _note(check, fillets.throat, rated)
     return check_rows(
         rows.stop - rows.start,
         check=check,
@@ -171,7 +173,7 @@ def _rows(check: str, fillets: _Fillets, side: Side, rated: RatedCurve, model: M
         order=stations.order[rows],
         side=side,
         curve=rated.curve.name,
-        note=_note(check, fillets.throat, rated),
+        note=np.where(stations.summed_corner[rows], f"{note}; {AT_SUMMED_CORNER}", note),
         **surface,
     )
 

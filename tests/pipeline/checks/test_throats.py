@@ -177,3 +177,20 @@ def test_curves_are_asked_for_with_their_place(tmp_path):
     with pytest.raises(CaseError) as refusal:
         assess(case, tmp_path / "out", report=False)
     assert "weld_throats.csv: weld A: curve_root: there is no curve 'nothing'" in str(refusal.value)
+
+
+def test_a_corner_whose_forces_are_one_sum_says_so(tmp_path):
+    """At a kink the note tells that the forces are of both legs, and nowhere else."""
+    case = tension_only()
+    line = case.weld_nodes
+    turned = (line.weld == "A") & (line.order > 4)
+    line["y_mm"] = line["y_mm"].astype(float)
+    line.loc[turned, "y_mm"] -= 10.0 * (line.loc[turned, "order"] - 4)
+    line.loc[turned, "x_mm"] = 30.0
+    line.loc[turned, ["outward_x", "outward_y"]] = [1.0, 0.0]
+    assess(with_throats(case, tmp_path / "case", [row("A", "both")]), tmp_path / "out", threads=1, report=False)
+    nodes = table(tmp_path / "out", "nodes").query("weld == 'A' and surface == 'top'").set_index("order")
+    checks = table(tmp_path / "out").query("check == 'throat_perp' and side == 'top'").set_index("order")
+    assert nodes.summed_corner.sum() == 1
+    told = checks.note.str.contains("forces of both legs of a corner in one sum")
+    assert told.to_dict() == nodes.summed_corner.to_dict()
