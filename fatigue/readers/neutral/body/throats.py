@@ -176,8 +176,8 @@ def assessed_throats(
     others = [name for name in throats if name not in assessed]
     warnings = []
     if others:
-        what = f"not assessed by the weld register, so are their throats: {few(others, NAMED)}"
-        remedy = "Change the status in the weld register, or remove the rows"
+        what = f"welds of these names are not assessed, so neither are their throats: {few(others, NAMED)}"
+        remedy = "Give the names and the status that the weld register has, or remove the rows"
         warnings = [Problem("throat_not_assessed", f"{file}: column weld", what, remedy, len(others))]
     return {name: throat for name, throat in throats.items() if name in assessed}, warnings
 
