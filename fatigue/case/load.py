@@ -16,6 +16,7 @@ from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.sequence_problems import sequence_problems
 from fatigue.case.sequences import Sequence
+from fatigue.case.shear_problems import shear_problems
 from fatigue.case.tables import Body, Case, Counting, Event, Mission, Spectrum
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
@@ -65,6 +66,7 @@ def load_case(path: Path | str) -> Case:
         problems += mission_problems(raw)
         problems += sequence_problems(raw)
         problems += unit_load_problems(raw)
+        problems += shear_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
         other = misplaced(path, path.name)

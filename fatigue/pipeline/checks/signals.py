@@ -1,7 +1,7 @@
 """Linear stresses of some points, counted over the mission as the stress at a toe is."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -11,7 +11,7 @@ from fatigue.life.mission import Plan
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.count.block import Block
 from fatigue.pipeline.count.mission_block import MissionBlock
-from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.event_load import EventLoad, without_spectrum
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.weld.structural_stress import RawEnds, StructuralStress
 
@@ -38,11 +38,6 @@ class Signals:
     ) -> Self:
         """Two stresses (n, c) that have nothing to do with each other, on a curve that asks for no bending ratio."""
         return cls(0.5 * (one + other), 0.5 * (one - other), size, rule)
-
-
-def without_spectrum(load: EventLoad) -> EventLoad:
-    """The event without what only the frequency domain needs: checks are counted."""
-    return replace(load, moments=None, moment_pairs=(), pairs_above=(), trust=None)
 
 
 def counted_mission(signals: Signals, loads: Sequence[EventLoad], plan: Plan, names: str) -> MissionBlock:
