@@ -24,6 +24,7 @@ from fatigue.verify.recount.counted import Passes, bounds_of, count, loop_names,
 from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
+from fatigue.verify.recount.sheared import Sheared, decided_by_method, paths_to_count, shear_of
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
@@ -34,6 +35,7 @@ from fatigue.verify.recount.stored.rows import (
     stress_rows,
     weld_row,
 )
+from fatigue.verify.recount.stored.shear import shear_rows, stored_shear
 from fatigue.verify.recount.stored.sums import check_load_factors, check_sums
 from fatigue.verify.recount.stored.tables import (
     Stored,
@@ -127,14 +129,17 @@ def _recount(
         return Recount(folder, 0, body.points, tuple(checks), strangers=astray)
 
     toe, utilisation = toes_and_utilisation(stored)
-    worst, governing, samples = worst_points(body, toe, utilisation), governing_points(stored), _samples(record)
+    worst, samples, shear = worst_points(body, toe, utilisation), _samples(record), stored_shear(stored, inputs, record)
+    governing = governing_points(stored)
     most = max(2, most_samples // samples)
-    choice = choose(body, worst, utilisation, governing, sample=sample, seed=seed, most=most)
+    named = governing if shear is None else np.union1d(governing, np.array(sorted(shear.half_cycles), dtype=np.int64))
+    choice = choose(body, worst, utilisation, named, sample=sample, seed=seed, most=most)
     sampling = list(zip(fastest_peaks(folder, inputs, events), upsampling_factors(record), strict=True))
     cycles_of, histogram_of = (
         with_cycles(stored, governing, record),
         with_histogram(stored, record, _toes(inputs, body)),
     )
+    paths_of = paths_to_count(shear, choice.points, samples, everything=sample is None)
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
@@ -150,11 +155,15 @@ def _recount(
         at_once = max(1, min(SAMPLES_AT_ONCE // samples, POINTS_AT_ONCE))
         for first in range(0, len(points), at_once):
             few = {int(point): stations[int(point) // 2] for point in points[first : first + at_once]}
-            passes, mission = count(inputs, coordinates, few, sampling, stored, cycles_of, histogram_of)
+            passes, mission = count(
+                inputs, coordinates, few, sampling, stored, cycles_of, histogram_of, shear, paths_of
+            )
             of_few = values_of(inputs, few, passes, mission)
             rounding = bounds_of(inputs, few, passes, mission, of_few)
+            sheared = shear_of(inputs, body, few, passes, mission, of_few, rounding, shear)
+            of_few = decided_by_method(inputs, few, of_few, sheared, shear)
             steps = _steps(inputs, few.values())
-            found += _compared(few, stored, of_few, rounding, passes, mission, raw_life_enough, steps)
+            found += _compared(few, stored, of_few, rounding, passes, mission, raw_life_enough, steps, sheared)
             values |= {body.key(point): of_few[point] for point in few}
             bounds |= {body.key(point): rounding[point] for point in few}
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
@@ -232,6 +241,7 @@ def _compared(
     events: Sequence[RecountEvent],
     raw_life_enough: float,
     steps: Mapping[str, float],
+    sheared: Mapping[int, Sheared],
 ) -> list[ColumnCheck]:
     """Checks of the stored rows of some points beside the recounted ones."""
     points, e = np.array(list(stations)), len(events)
@@ -242,15 +252,20 @@ def _compared(
     for i, (point, station) in enumerate(stations.items()):
         key, found = stored.body.key(point), of_nodes[i]
         nodes.append(node_row(key, station, values[point], bounds[point], found, raw_life_enough))
+        if point in sheared:
+            own = sheared[point]
+            nodes += shear_rows(key, own.values, own.bounds, found, exact_bound=own.exact_bound, toe=own.toe)
         for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
     cycles = [row for of in passes.values() for row in of.cycles]
     histograms = [row for of in passes.values() for row in of.histograms]
+    half_cycles = [row for of in passes.values() for row in of.half_cycles]
     return [
         *compare("nodes", nodes, steps),
         *compare("damage", damage, steps),
         *compare("cycles", cycles, steps),
         *(compare("histogram", histograms, steps) if histograms else []),
+        *(compare("path_cycles", half_cycles, steps) if half_cycles else []),
     ]
 
 

@@ -1,4 +1,4 @@
-"""One pass of an event at a point with its shear: the half cycles of its path, and the damage they do by three ranges."""
+"""One pass of an event at a point with its shear: half cycles of its path, and their damage by three ranges."""
 
 from dataclasses import dataclass
 
@@ -17,8 +17,9 @@ EQUAL = 1.0 - 1e-9  # ranges that only rounding tells apart
 
 @dataclass(frozen=True, slots=True)
 class ShearRules:
-    """The weights of the case: ``beta`` of the square of the shear, ``alpha`` of the path moment, None where not given."""
+    """What the case says of shear: its method, and the weights of the square of the shear and of the path moment."""
 
+    method: str
     beta: float
     alpha: float | None
 
@@ -32,7 +33,6 @@ class ShearPass:
     by_range, by_length, by_moment : Miner sums of its half cycles; the last NaN without alpha
     top_pair : damage of the most distant pair alone: one cycle of what recurs, else half a cycle
     range : of the largest half cycle [MPa], and its ``factor`` and ``moment``; of equal ones the largest
-    shear_range : largest minus smallest shear stress [MPa]
     rows : the half cycles by the columns of their table
     """
 
@@ -43,13 +43,7 @@ class ShearPass:
     range: float
     factor: float
     moment: float
-    shear_range: float
     rows: dict[str, Floats]
-
-
-def shear_range(point: RecountPoint, record: RecountRecord) -> float:
-    """Largest minus smallest shear stress at the surface in one pass [MPa]."""
-    return float(np.ptp(record.factor * (point.in_plane + point.twist) @ record.counted))
 
 
 def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, mean_stress: MeanStress) -> ShearPass:
@@ -79,7 +73,6 @@ def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, me
         range=float(path.range.max(initial=0.0)),
         factor=float(p[top].max(initial=0.0)),
         moment=float(g[top].max(initial=0.0)),
-        shear_range=float(np.ptp(tau)),
         rows=_rows(path, record)
         | {
             "path_factor": p,

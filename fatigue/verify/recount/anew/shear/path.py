@@ -78,7 +78,7 @@ def most_distant(points: Floats) -> tuple[int, int]:
 def at(z: Floats, t: float) -> Floats:
     """Point of a path at a sample index and fraction."""
     k = int(t)
-    return z[k] if k == t else (1.0 - (t - k)) * z[k] + (t - k) * z[k + 1]
+    return np.asarray(z[k] if k == t else (1.0 - (t - k)) * z[k] + (t - k) * z[k + 1])
 
 
 def _corners(points: Floats) -> NDArray[np.intp]:
