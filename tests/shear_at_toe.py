@@ -31,13 +31,19 @@ def shear_at_toe(multiaxial: str = "alpha = 1.0", **curve: object) -> SmallCase:
             "y_mm": 0.0,
             "z_mm": 0.0,
             "thickness_mm": THICKNESS,
-            **{"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0},
-            **{"outward_x": 0.0, "outward_y": 1.0, "outward_z": 0.0},
+            "normal_x": 0.0,
+            "normal_y": 0.0,
+            "normal_z": 1.0,
+            "outward_x": 0.0,
+            "outward_y": 1.0,
+            "outward_z": 0.0,
         }
     )
     modes = sorted(STRESSES)
     return SmallCase(
-        modes=pd.DataFrame({"mode": modes, "frequency_hz": [5.0, 12.0, 60.0], "kind": ["normal", "normal", "interface"]}),
+        modes=pd.DataFrame(
+            {"mode": modes, "frequency_hz": [5.0, 12.0, 60.0], "kind": ["normal", "normal", "interface"]}
+        ),
         welds=pd.DataFrame({"weld": ["T"], "surface": ["top"]}),
         weld_nodes=nodes,
         nodal_forces=pd.concat([_forces(mode, *STRESSES[mode]) for mode in modes], ignore_index=True),
@@ -65,7 +71,9 @@ def write(case: SmallCase, folder: Path) -> Path:
     return case.write(folder)
 
 
-def _forces(mode: int, membrane: float, bending: float, in_plane: float, twist: float, transverse: float) -> pd.DataFrame:
+def _forces(
+    mode: int, membrane: float, bending: float, in_plane: float, twist: float, transverse: float
+) -> pd.DataFrame:
     """Consistent nodal forces of a uniform line load with these stresses (Eq. 3)."""
     t, tributary = THICKNESS, np.full(NODES, SPACING)
     tributary[[0, -1]] /= 2.0
