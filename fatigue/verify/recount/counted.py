@@ -195,12 +195,21 @@ def _is_treated(station: Station) -> bool:
 def treated_point(station: Station, surface: str) -> RecountPoint:
     """One face of a station, its end treated."""
     thickness = float(station.solved.line.thickness[station.at])
-    return point_of(station.solved.treated[station.at], station.largest, surface, station.weld.curve, thickness)
+    return point_of(
+        station.solved.treated[station.at],
+        station.largest,
+        surface,
+        station.weld.curve,
+        thickness,
+        station.weld.attachment,
+    )
 
 
 def _raw(station: Station, surface: str) -> RecountPoint:
     thickness = float(station.solved.line.thickness[station.at])
-    return point_of(station.solved.raw[station.at], station.largest, surface, station.weld.curve, thickness)
+    return point_of(
+        station.solved.raw[station.at], station.largest, surface, station.weld.curve, thickness, station.weld.attachment
+    )
 
 
 def mean_stress_of(inputs: RecountInputs) -> MeanStress:

@@ -4,27 +4,30 @@ In memory at a time are some welds, one record, and of the result the rows of so
 the keys of its stations and two columns of its points.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from numbers import Integral
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.results import ASSESSED, read_provenance, strangers, upsampling_factors
 from fatigue.verify.recount.anew.body import closed_welds, layout, solved_lines
-from fatigue.verify.recount.anew.curve import curve_named
+from fatigue.verify.recount.anew.curve import curve_named, origin_of
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import Values
 from fatigue.verify.recount.anew.rounding import Bounds
+from fatigue.verify.recount.checked import SHARE, check_table
 from fatigue.verify.recount.choice import MOST_SAMPLES, choose, groups_of_welds, worst_points
 from fatigue.verify.recount.counted import Passes, bounds_of, count, loop_names, mean_stress_of, values_of
-from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs
+from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs, strength_factors
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.sheared import Sheared, decided_by_method, paths_to_count, shear_of
+from fatigue.verify.recount.stored.checks import check_frame, fails, has_checks, of_weld
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
@@ -143,6 +146,7 @@ def _recount(
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
     raw_life_enough = np.inf if share == 0.0 else inputs.case["mission"]["target_km"] / share
+    frame = check_frame(folder) if has_checks(inputs) else None
     found: list[ColumnCheck] = []
     mission: list[RecountEvent] = []
     weld_of_point = body.weld[choice.points // 2]
@@ -169,8 +173,21 @@ def _recount(
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
         found += _compared_stress(coordinates, recounted, stored)
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
-        found += _compared_welds(chosen, stored, values, bounds, all_counted=all_counted)
+        found += _compared_welds(chosen, stored, values, bounds, inputs, frame, all_counted=all_counted)
     checks += merged(found)
+    if frame is not None:
+        checks += check_table(
+            frame,
+            inputs,
+            coordinates,
+            record,
+            body,
+            _station_finder(inputs, coordinates, record),
+            sampling,
+            sample=sample,
+            seed=seed,
+            most=int(SHARE * most_samples) // samples,
+        )
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
     else:
@@ -204,18 +221,41 @@ def _welds(
     parts: dict[str, list[Any]] = {name: [] for name in names}
     for solved in solved_lines(inputs, coordinates, names):
         parts[solved.line.weld].append(solved)
-    welds, closed = {}, closed_welds(inputs, names)
+    welds, closed, factors = {}, closed_welds(inputs, names), strength_factors(inputs)
     for name in names:
         entry = inputs.register.welds[name]
         surface, curve = entry.surface or "both", entry.curve or inputs.case["curve"]["name"]
+        of_curve = curve_named(curve, inputs.case, record, factors)
         welds[name] = RecountWeld(
             given={"closed": name in closed, "surface": surface},
             parts=tuple(parts[name]),
             curve_name=curve,
-            curve=curve_named(curve, inputs.case, record),
+            curve=of_curve,
             toes=TOES[surface],
+            attachment=np.inf if np.isnan(entry.attachment) else entry.attachment,
+            limit=of_curve.limit(inputs.case["mission"]),
+            origin=origin_of(curve, inputs.case, record),
         )
     return welds
+
+
+def _station_finder(
+    inputs: RecountInputs, coordinates: RecountCoordinates, record: Mapping[str, Any]
+) -> Callable[[str, int, int], Station]:
+    """Function that finds a station by weld, part and order; a weld is solved when it is asked for."""
+    of_weld: dict[str, dict[tuple[int, int], Station]] = {}
+
+    def find(weld: str, part: int, order: int) -> Station:
+        if weld not in of_weld:
+            solved = _welds(inputs, coordinates, record, [weld])[weld]
+            of_weld[weld] = {
+                (one.line.part, number): Station(solved, one, at, largest_stress(one))
+                for one in solved.parts
+                for at, number in enumerate(one.line.order.tolist())
+            }
+        return of_weld[weld][part, order]
+
+    return find
 
 
 def _stations(body: Layout, welds: Mapping[str, RecountWeld], group: Sequence[int]) -> dict[int, Station]:
@@ -293,20 +333,20 @@ def _compared_welds(
     stored: Stored,
     values: Mapping[Key, Values],
     bounds: Mapping[Key, Bounds],
+    inputs: RecountInputs,
+    frame: pd.DataFrame | None,
     *,
     all_counted: bool,
 ) -> list[ColumnCheck]:
-    """Checks of the stored rows of some welds beside the recounted ones."""
-    rows = [
-        weld_row(
-            weld,
-            {key: of for key, of in values.items() if key[0] == name},
-            bounds,
-            stored.welds.loc[name].to_dict(),
-            all_counted=all_counted,
-        )
-        for name, weld in welds.items()
-    ]
+    """Checks of the stored rows of some welds beside the recounted ones; ``frame`` is the table of checks."""
+    rows, asked = [], inputs.case.get("checks", {})
+    for name, weld in welds.items():
+        found = stored.welds.loc[name].to_dict()
+        of_checks = of_weld(frame, name, found["load_factor"], asked) | dict(inputs.register.welds[name].quality)
+        fails_check = fails(frame, name, asked.get("counts", ()))
+        own = {key: of for key, of in values.items() if key[0] == name}
+        more = of_checks | {"a check fails": fails_check}
+        rows.append(weld_row(weld, own, bounds, found, more, all_counted=all_counted))
     return compare("welds", rows, {})
 
 

@@ -79,11 +79,11 @@ def shear_values(
 
     The bound is that of the exact path; the stored one may be larger where the paths were not counted.
     """
-    of_target = mission["target_km"] / mission.get("damage_limit", 1.0)
+    of_target: float = mission["target_km"] / of.point.curve.limit(mission)
     weights = of_target * np.array([event.passes_per_km for event in events])
     across = of_target * float(np.nan_to_num(normal["damage_per_km_transitions"]))
     curve = of.point.curve
-    size = curve.size_factor(of.point.thickness)
+    size = of.point.size
 
     def summed(of_events: Sequence[float]) -> float:
         return float(weights @ np.array(of_events)) + across
@@ -141,7 +141,7 @@ def decided(
     used = max(values["utilisation"], float(np.nan_to_num(by_method)))
     changed: Values = {}
     if used > values["utilisation"]:
-        limit = mission.get("damage_limit", 1.0)
+        limit = curve.limit(mission)
         damage = used * limit / mission["target_km"]
         changed = {"damage_per_km": damage, "life_km": limit / damage}
         changed["life_years"] = changed["life_km"] / mission["km_per_year"]

@@ -56,12 +56,14 @@ def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, me
     d = b - a
     normal, shear = np.abs(d[0] + d[1]), np.abs(d[2] + d[3])
     r, r_shear = (_share(np.abs(d[i]), np.abs(d[i + 1])) for i in (0, 2))
-    x = curve.size_factor(point.thickness) * np.sqrt(
+    x = point.size * np.sqrt(
         (normal / curve.bending_factor(r)) ** 2 + rules.beta * (shear / curve.bending_factor(r_shear)) ** 2
     )
+    level = float(record.factor * (point.membrane + point.bending) @ record.offset)
+    ends = a[0] + a[1] + level, b[0] + b[1] + level
+    x = x / curve.stress_ratio_factor(*ends)
     if mean_stress.counts:
-        level = record.factor * (point.membrane + point.bending) @ record.offset
-        x = x / mean_stress.factor(a[0] + a[1] + level, b[0] + b[1] + level)
+        x = x / mean_stress.factor(*ends)
     p, g = np.maximum(path.length / path.range, 1.0), path.moment
     damage = curve.damage(x)
     top = path.range >= EQUAL * path.range.max(initial=0.0)
