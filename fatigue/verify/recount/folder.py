@@ -27,8 +27,9 @@ from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs, stren
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.sheared import Sheared, decided_by_method, paths_to_count, shear_of
-from fatigue.verify.recount.stored.checks import check_frame, fails, has_checks, of_weld
+from fatigue.verify.recount.stored.checks import check_frame, has_checks, of_weld
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
+from fatigue.verify.recount.stored.decisive import failed_by_checks
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
     Station,
@@ -339,13 +340,12 @@ def _compared_welds(
     all_counted: bool,
 ) -> list[ColumnCheck]:
     """Checks of the stored rows of some welds beside the recounted ones; ``frame`` is the table of checks."""
-    rows, asked = [], inputs.case.get("checks", {})
+    rows, asked, failed = [], inputs.case.get("checks", {}), failed_by_checks(stored.folder, inputs.case)
     for name, weld in welds.items():
         found = stored.welds.loc[name].to_dict()
         of_checks = of_weld(frame, name, found["load_factor"], asked) | dict(inputs.register.welds[name].quality)
-        fails_check = fails(frame, name, asked.get("counts", ()))
         own = {key: of for key, of in values.items() if key[0] == name}
-        more = of_checks | {"a check fails": fails_check}
+        more = of_checks | {"a check fails": name in failed}
         rows.append(weld_row(weld, own, bounds, found, more, all_counted=all_counted))
     return compare("welds", rows, {})
 

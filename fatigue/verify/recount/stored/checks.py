@@ -110,14 +110,6 @@ def of_weld(
     }
 
 
-def fails(frame: pd.DataFrame | None, weld: str, counts: Sequence[str]) -> bool:
-    """Whether a check of a weld that counts is not fulfilled."""
-    if frame is None or not counts:
-        return False
-    rows = frame[(frame["weld"] == weld) & frame["check"].isin(list(counts))]
-    return bool((rows["fulfilled"] == False).any())  # noqa: E712 - None is neither
-
-
 def _check(frame: pd.DataFrame, name: str, rows: NDArray[np.bool_], expected: Floats) -> ColumnCheck:
     at = np.flatnonzero(rows)
     found = frame[name].to_numpy()[at].astype(float)
