@@ -1,9 +1,7 @@
-"""The worked example of shear at one toe point: a straight weld under uniform line loads, three coordinates, two events.
+"""The worked example of shear at a toe: a straight weld under uniform line loads, three coordinates, two events.
 
 Its structural stress per unit coordinate is the same at every node, so that nodal forces follow by hand.
 """
-
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -31,13 +29,17 @@ def shear_at_toe(multiaxial: str = "alpha = 1.0", **curve: object) -> SmallCase:
             "y_mm": 0.0,
             "z_mm": 0.0,
             "thickness_mm": THICKNESS,
-            **{"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0},
-            **{"outward_x": 0.0, "outward_y": 1.0, "outward_z": 0.0},
+            "normal_x": 0.0,
+            "normal_y": 0.0,
+            "normal_z": 1.0,
+            "outward_x": 0.0,
+            "outward_y": 1.0,
+            "outward_z": 0.0,
         }
     )
-    modes = sorted(STRESSES)
+    modes, kinds = sorted(STRESSES), ["normal", "normal", "interface"]
     return SmallCase(
-        modes=pd.DataFrame({"mode": modes, "frequency_hz": [5.0, 12.0, 60.0], "kind": ["normal", "normal", "interface"]}),
+        modes=pd.DataFrame({"mode": modes, "frequency_hz": [5.0, 12.0, 60.0], "kind": kinds}),
         welds=pd.DataFrame({"weld": ["T"], "surface": ["top"]}),
         weld_nodes=nodes,
         nodal_forces=pd.concat([_forces(mode, *STRESSES[mode]) for mode in modes], ignore_index=True),
@@ -60,12 +62,9 @@ def scaled(case: SmallCase, factor: float) -> SmallCase:
     return case
 
 
-def write(case: SmallCase, folder: Path) -> Path:
-    """Write the case; return the path of its file."""
-    return case.write(folder)
-
-
-def _forces(mode: int, membrane: float, bending: float, in_plane: float, twist: float, transverse: float) -> pd.DataFrame:
+def _forces(
+    mode: int, membrane: float, bending: float, in_plane: float, twist: float, transverse: float
+) -> pd.DataFrame:
     """Consistent nodal forces of a uniform line load with these stresses (Eq. 3)."""
     t, tributary = THICKNESS, np.full(NODES, SPACING)
     tributary[[0, -1]] /= 2.0

@@ -23,7 +23,18 @@ HALF_CYCLES = {  # start and end in samples, range, path factor, moment, ds, dta
         (0.0, 2.0, 66.8993273509, 1.30785494354, 0.488000576353, 64.8, 9.6, 2 / 9, 0.53125, 81.1616478476),
         (2.0, 6.0, 66.8993273509, 1.02035792485, 0.132218169146, 64.8, 9.6, 2 / 9, 0.53125, 81.1616478476),
         (4.0, 5.0, 35.6583790994, 1.0, 0.0, 33.0, 7.8, 3 / 11, 3 / 13, 43.2395447685),
-        (5.0, 5.83102904246, 39.143849758, 1.0, 0.0, 39.1414679001, 0.249308712739, 0.133757961783, 19 / 39, 47.6337612155),
+        (
+            5.0,
+            5.83102904246,
+            39.143849758,
+            1.0,
+            0.0,
+            39.1414679001,
+            0.249308712739,
+            0.133757961783,
+            19 / 39,
+            47.6337612155,
+        ),
     ],
     "load_unload": [(0.0, 1.0, 47.1028661548, 1.0, 0.0, 47.1, 0.3, 0.133757961783, 19 / 39, 57.3190090616)],
 }
@@ -34,7 +45,17 @@ POINTS = [  # of the shipped car body: weld, order, face, sums by normal stress,
     ("W1_roof_bracket_neg", 1, "top", 0.439038915, 0.6571934004, 0.8989804101, 1.370856723, 1.069330234, 6.955003461),
     ("W1_roof_bracket_pos", 1, "top", 0.3551933453, 0.5225465118, 0.7551627618, 1.190677634, 0.9938068767, 6.674349402),
     ("W2_hanger1_att", 1, "bottom", 5.149372622, 5.204400273, 5.215137594, 5.363929557, 5.243568623, 25.4873891),
-    ("W4_roof_stub_loop", 13, "top", 8.822850913e-4, 9.275604844e-4, 1.227175398e-3, 1.850513968e-3, 1.489554775e-3, 1.355942703e-2),
+    (
+        "W4_roof_stub_loop",
+        13,
+        "top",
+        8.822850913e-4,
+        9.275604844e-4,
+        1.227175398e-3,
+        1.850513968e-3,
+        1.489554775e-3,
+        1.355942703e-2,
+    ),
 ]
 FAILING = {"normal": 5, "range": 5, "length": 5, "asme": 6, "mlp": 7}  # welds
 FAILING_POINTS = {"normal": 58, "range": 58, "length": 58, "asme": 60, "mlp": 62}
@@ -66,7 +87,9 @@ def test_sums_of_the_worked_example(worked: Path) -> None:
     assert toes["path_factor_largest"].to_numpy() == pytest.approx(np.full(3, 1.30785494354), rel=1e-8)
     assert toes["path_moment_largest"].to_numpy() == pytest.approx(np.full(3, 0.488000576353), abs=1e-8)
     assert toes["fulfilled"].all()
-    assert others[[*list(MISSION)[1:], "multiaxial_status", "multiaxial_verdict", "shear_required"]].isna().all(axis=None)
+    assert (
+        others[[*list(MISSION)[1:], "multiaxial_status", "multiaxial_verdict", "shear_required"]].isna().all(axis=None)
+    )
 
 
 def test_half_cycles_of_the_worked_example(worked: Path) -> None:
@@ -118,7 +141,9 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for key in ("modes", "welds", "weld_nodes", "nodal_forces", "nodes", "elements"):
         text = text.replace(f'\n{key} = "', f'\n{key} = "{EXAMPLE}/')
     text = text.replace('history = "', f'history = "{EXAMPLE}/')
-    (folder / "case.toml").write_text(f"{text}\n[counting]\nupsample = 1\n[multiaxial]\nalpha = 1.0\n", encoding="utf-8")
+    (folder / "case.toml").write_text(
+        f"{text}\n[counting]\nupsample = 1\n[multiaxial]\nalpha = 1.0\n", encoding="utf-8"
+    )
     assess(folder / "case.toml", folder / "result", threads=2, report=False, histogram="none")
     return folder
 
@@ -146,7 +171,7 @@ def test_what_settles_the_car_body(example: Path) -> None:
 
 
 def test_welds_of_the_car_body_that_fail(example: Path, tmp_path: Path) -> None:
-    """Number of welds and of points by every model, each named; none of them by a smaller sum than normal stress has."""
+    """Number of welds and of points by every model, each named; no sum is smaller than that of the normal stress."""
     text = (example / "case.toml").read_text(encoding="utf-8")
     normal = pd.read_parquet(example / "result" / "nodes.parquet").query("toe")
     assert int((normal["utilisation"] > 1.0).sum()) == FAILING_POINTS["normal"]
@@ -160,4 +185,4 @@ def test_welds_of_the_car_body_that_fail(example: Path, tmp_path: Path) -> None:
         if method != "asme":
             assert nodes[f"utilisation_path_{method}"].notna().all()
         settled = nodes[nodes["multiaxial_status"] == "settled_passes"]
-        assert (settled["utilisation_path_range"].dropna() <= settled["multiaxial_bound"]).all()
+        assert not (settled["utilisation_path_range"] > settled["multiaxial_bound"]).any()

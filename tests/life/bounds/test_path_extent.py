@@ -13,7 +13,9 @@ from fatigue.life.records.spool import create_spool
 def drawn(seed, modes, samples, points):
     """Modal coordinates about a level, and four stresses of some points."""
     rng = np.random.default_rng(seed)
-    q = np.cumsum(rng.normal(size=(modes, samples)), axis=1) * rng.uniform(0.0, 2.0, (modes, 1)) + rng.normal(size=(modes, 1))
+    q = np.cumsum(rng.normal(size=(modes, samples)), axis=1) * rng.uniform(0.0, 2.0, (modes, 1)) + rng.normal(
+        size=(modes, 1)
+    )
     return q, rng.normal(size=(4, points, modes)) * rng.integers(0, 2, (4, points, 1))
 
 
