@@ -10,6 +10,7 @@ from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Method, Mul
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
+from fatigue.case.quality import StressCategory, stress_categories
 from fatigue.case.tables import (
     LARGEST_UPSAMPLE,
     Body,
@@ -37,6 +38,7 @@ __all__ = [
     "Mission",
     "Multiaxial",
     "Spectrum",
+    "StressCategory",
     "case_schema",
     "case_warnings",
     "check_distance",
@@ -44,4 +46,5 @@ __all__ = [
     "event_length_km",
     "given_case",
     "load_case",
+    "stress_categories",
 ]

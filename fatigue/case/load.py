@@ -10,7 +10,8 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
-from fatigue.case.curves import Curve, CustomCurve
+from fatigue.case.counts import counts_problems
+from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
@@ -63,8 +64,10 @@ def load_case(path: Path | str) -> Case:
         raw = tomllib.loads(text)
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
+        problems += own_curve_problems(raw, catalogue())
         problems += mission_problems(raw)
         problems += sequence_problems(raw)
+        problems += counts_problems(raw)
         problems += unit_load_problems(raw)
         problems += shear_problems(raw)
         case = Case.model_validate(raw, context=(path, text))

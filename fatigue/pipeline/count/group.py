@@ -28,7 +28,7 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)
         stress, names = modal_stress(stations, rows, rated), weld_names(stations, rows)
-        block = Block(stress, stations.weld[rows], stations.toe[rows], loads, plan, names)
+        block = Block(stress, stations.weld[rows], stations.toe[rows], loads, rated.plan(plan), names)
         for settled in block.all_counted() if screening is None else settle(block, screening):
             result.put(settled, rows[settled.rows])
     return result

@@ -53,6 +53,7 @@ class GroupResult:
     tier : (n,) index into ``block.TIERS``, 0 where cycles were counted
     multiaxial : (n, 2) what shear adds, ``multiaxial.found``; (0, 2) where the case wants none of it
     checks : rows of the other checks of these welds, ``checks.rows``; none unless the case asks for them
+    sensitivity : (v, w, f) every weld under every variant, ``sensitivity.group``
     """
 
     event_columns: NDArray[np.float64]
@@ -64,6 +65,7 @@ class GroupResult:
     tier: NDArray[np.int8]
     multiaxial: NDArray[Any]
     checks: NDArray[Any]
+    sensitivity: NDArray[np.float64]
 
     @classmethod
     def empty(cls, events: int, stations: int, loops: int = 0) -> Self:
@@ -78,6 +80,7 @@ class GroupResult:
             tier=np.empty(stations, np.int8),
             multiaxial=np.empty((0, 2)),
             checks=np.empty(0),
+            sensitivity=np.empty((0, 0, 0)),
         )
 
     def of_events(self, column: str) -> NDArray[np.float64]:

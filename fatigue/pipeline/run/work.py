@@ -22,6 +22,8 @@ from fatigue.pipeline.multiaxial.found import MODELS
 from fatigue.pipeline.multiaxial.group import Shear, group_multiaxial
 from fatigue.pipeline.multiaxial.method import DECIDING, decided_by
 from fatigue.pipeline.run.checkpoint import state_key
+from fatigue.pipeline.sensitivity.group import Job, group_sensitivity
+from fatigue.pipeline.sensitivity.sampling import OtherSampling, other_sampling
 from fatigue.pipeline.solve.body import conversion_file, register_file
 from fatigue.pipeline.solve.model import Model, solve_group
 from fatigue.pipeline.solve.weld_groups import BLOCK, GROUPS, LARGEST_GROUP, SMALLEST_GROUP, WeldGroups
@@ -53,7 +55,8 @@ class Work:
 
     ``screening`` is None where every point is to be counted. ``kept_from`` is the utilisation from which the cycles of
     the worst point of a weld are kept: the cycles of all welds of a train would fill the disk. ``histogram`` says of
-    which points histograms are kept. ``shear`` says how shear is counted at the toes, None: not at all.
+    which points histograms are kept. ``sampling`` has the records sampled otherwise than they are counted, ``shear``
+    says how shear is counted at the toes, None: not at all.
     """
 
     groups: WeldGroups
@@ -62,6 +65,7 @@ class Work:
     screening: Screening | None
     kept_from: float
     histogram: HistogramPoints
+    sampling: OtherSampling
     shear: Shear | None = None
 
     @property
@@ -79,7 +83,8 @@ class Work:
                 result = decided_by(self.shear.method, model, result, self.plan)
         if has_checks(model.case):
             result = replace(result, checks=group_checks(model, result, self.loads, self.plan))
-        return model, result
+        job = Job(self.loads, self.plan, self.screening, self.sampling, counts_again=self.kept_from == 0.0)
+        return model, replace(result, sensitivity=group_sensitivity(model, result, job))
 
 
 def open_work(
@@ -101,8 +106,11 @@ def open_work(
     share = 0.0 if named else large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
+    sampling = other_sampling(groups, loads, plan)
     shear = shear_of(groups.body.case, loads, 0.0 if named else large, threads)
-    return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram, shear=shear)
+    return Work(
+        groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling, shear=shear
+    )
 
 
 def shear_of(case: Case, loads: Sequence[EventLoad], counted_from: float, threads: int | None) -> Shear | None:

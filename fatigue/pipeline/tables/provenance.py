@@ -5,7 +5,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from fatigue.case import Case
+from fatigue.case import Case, stress_categories
 from fatigue.errors import Problem
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import ABOVE
@@ -62,7 +62,7 @@ def provenance_record(
         },
         "unit_loads": load_records(body),
         "force_convention": case.body.force_convention,
-        "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
+        "curves": {name: _curve_record(rated, plan) for name, rated in body.curves.items()},
         "rules": {
             "structural_stress": "Dong: consistent line forces from nodal forces, membrane + bending",
             "thickness_rule": case.curve.thickness_rule,
@@ -84,6 +84,7 @@ def provenance_record(
             "cycles_kept_from_utilisation": work.kept_from,
             "histogram": _HISTOGRAM_RULES[work.histogram],
             "multiaxial": _shear_record(case, work, shear or {}),
+            "stress_category": asdict(stress_categories(case.checks.stress_category)),
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,
@@ -166,10 +167,11 @@ def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]
     }
 
 
-def _curve_record(rated: RatedCurve) -> dict[str, Any]:
+def _curve_record(rated: RatedCurve, plan: Plan) -> dict[str, Any]:
     curve = rated.curve
     return {
         "applies": curve.applies,
+        "quantity": curve.quantity,
         "slopes": list(curve.slopes),
         "knees_cycles": list(curve.knees_cycles),
         "reference_cycles": curve.reference_cycles,
@@ -177,11 +179,20 @@ def _curve_record(rated: RatedCurve) -> dict[str, Any]:
         "thickness_reference_mm": curve.thickness_reference,
         "thickness_exponent": curve.thickness_exponent,
         "source": curve.source,
+        "edition": curve.edition,
+        "clause": curve.clause,
+        "status": curve.status,
+        "checked_by": curve.checked_by,
+        "checked_on": curve.checked_on,
+        "allowances": asdict(curve.allowances),
+        "factors": [asdict(factor) for factor in rated.factors],
         "used": {
             "survival": rated.survival,
             "slopes": rated.rule.law.slopes,
             "log_constants": rated.rule.law.log_constants,
             "knees": rated.rule.law.knees,
             "cutoff": rated.rule.law.cutoff,
+            "factor_on_range": rated.on_range,
+            "damage_limit": rated.damage_limit(plan.damage_limit),
         },
     }

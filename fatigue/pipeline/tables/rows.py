@@ -1,6 +1,6 @@
 """Rows of the result tables for the stations of a group of welds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -40,9 +40,10 @@ def point_columns(stations: Stations, repeat: int = 1, some: slice = slice(None)
     }
 
 
-def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, Any]:
-    """Rows of ``nodes.parquet``: the whole mission at every point."""
-    block = result.mission
+def node_rows(stations: Stations, result: GroupResult, plan: Plan, status_of_weld: Sequence[str]) -> dict[str, Any]:
+    """Rows of ``nodes.parquet``: the whole mission at every point; ``status_of_weld`` is that of the curve of each."""
+    block, statuses = result.mission, sorted(set(status_of_weld))
+    status = np.array([statuses.index(one) for one in status_of_weld])[stations.weld]
     return {
         **point_columns(stations),
         "toe": stations.toe.ravel(),
@@ -78,6 +79,7 @@ def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, 
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
         "summed_corner": np.repeat(stations.summed_corner, 2),
+        "curve_status": coded(np.repeat(status, 2), statuses),
         "screened": coded(np.repeat(result.tier, 2), TIERS),
     }
 

@@ -155,6 +155,7 @@ NODES = (
         "-",
         "at a kink where the nodal forces of both legs are one sum: the stress there is of neither leg, and unbounded",
     ),
+    Column("curve_status", "text", "-", "what the S-N curve of the weld rests on, as in welds.parquet"),
     Column(
         "screened",
         "text",
