@@ -82,13 +82,13 @@ def path_parts(point: Point, histories: Floats, load: EventLoad, beta: float) ->
     cycles = count_path(membrane + side * bending, in_plane + side * twist, beta, load.residue)
     between = end_ranges(cycles, membrane, bending, in_plane, twist, side)
     x = combined_range(between, point.size, beta, point.rule)
-    if point.rule.yield_of_damage is not None:
+    if point.rule.yield_of_damage is not None or point.rule.stress_ratio != "none":
         x = x / _mean_stress_factor(point, membrane + side * bending, cycles, load)
     return PathParts(cycles, between, x)
 
 
 def _mean_stress_factor(point: Point, normal: Floats, cycles: PathCycles, load: EventLoad) -> Floats:
-    """``f_M`` of half cycles by the normal stress (t,) at their ends, constants included."""
+    """``f_M`` or f(R) of half cycles by the normal stress (t,) at their ends, constants included."""
     side = 1.0 - 2.0 * point.face
     offset = load.stress_factor * float((point.stress[0] + side * point.stress[1]) @ load.offset)
     ends = np.stack([at_instants(normal, t) for t in (cycles.start, cycles.end)]) + offset

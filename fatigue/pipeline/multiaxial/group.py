@@ -71,10 +71,10 @@ def group_multiaxial(model: Model, result: GroupResult, loads: Sequence[EventLoa
     curve_of = np.array([rated.curve.name for rated in model.curve_of_weld])[stations.weld]
     for name, rated in {rated.curve.name: rated for rated in model.curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)
-        toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, plan)
-        names = weld_names(stations, rows)
+        own, names = rated.plan(plan), weld_names(stations, rows)
+        toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, own)
         with no_overflow("mission", names):
-            found[rows] = of_curve(toes, _wanted(rows, worst, result, shear), loads, plan, shear, names)
+            found[rows] = of_curve(toes, _wanted(rows, worst, result, shear), loads, own, shear, names)
     return found
 
 
