@@ -82,9 +82,8 @@ def _points(table: Table, points: StressPoints) -> NDArray[np.int32]:
     there = set(names)
     absent = [name for name in points.name if name not in there]
     if absent and "point" not in table.spoilt:
-        what = (
-            f"{len(absent)} points have no stress: {few(absent)}" if len(absent) > 1 else f"{absent[0]} has no stress"
-        )
+        count = f"{len(absent)} points: " if len(absent) > 1 else ""
+        what = f"no stress is given at {count}{few(absent)}"
         remedy = f"Add its rows, or remove it from {points.file}"
         table.problems.append(Problem("missing_id", table.where("point"), what, remedy))
     number = {name: i for i, name in enumerate(points.name)}
@@ -169,7 +168,8 @@ def _refuse_incomplete(table: Table, rows: Rows, coordinates: Coordinates) -> No
         pair, face, coordinate = missing[0]
         at = _slot(rows, coordinates, (pair * 2 + face) * shape[2] + coordinate)
         points = np.unique(rows.point_of_pair[missing[:, 0]]).size
-        what = f"no stress is given ({len(missing)} such rows are missing, at {points} point{'s' * (points > 1)})"
+        rows_missing = "1 such row is" if len(missing) == 1 else f"{len(missing)} such rows are"
+        what = f"no stress is given ({rows_missing} missing, at {points} point{'s' * (points > 1)})"
         remedy = "Write the stress of every point, read-out, mode, unit load and surface, zeros too"
         table.problems.append(Problem("missing_row", f"{table.path.name}: {at}", what, remedy))
     table.refuse()
