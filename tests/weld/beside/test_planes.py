@@ -87,4 +87,4 @@ def test_planes():
     """Planes at a toe are 25 within 60 deg, the nearest first; in parent metal 36 all around."""
     assert sorted(TOE_DEG) == list(range(-60, 61, 5))
     assert TOE_DEG[:3] == (0, 5, -5)
-    assert PARENT_DEG == tuple(range(0, 180, 5))
+    assert list(PARENT_DEG) == list(range(0, 180, 5))

@@ -39,7 +39,7 @@ def read(path, columns):
 
 @SUFFIXES
 def test_points(tmp_path, suffix):
-    """Points come in the order of the file; frames are unit vectors, e1 in the plate; welds by their name in results."""
+    """Points come in the order of the file; frames are unit vectors, e1 in the plate; welds as they are assessed."""
     points = read(tmp_path / f"p{suffix}", POINTS)
     assert points.name == ("a", "b", "n", "p", "h")
     assert points.weld == ("seam", "ring", "", "", "old")
@@ -71,12 +71,15 @@ def test_optional_columns(tmp_path):
             "column kind, row 3: 'hot_spot_c' is not one of hot_spot_a, hot_spot_b, nominal, parent, haz. Give one of",
         ),
         (changed(POINTS, "weld", 1, "seem"), "column weld, row 1: 'seem' is not one of the welds. Write 'seam'."),
-        (changed(POINTS, "curve", 1, "fat-9"), "column curve, row 1: 'fat-9' is not one of the curves. Write 'fat-90'."),
+        (
+            changed(POINTS, "curve", 1, "fat-9"),
+            "column curve, row 1: 'fat-9' is not one of the curves. Write 'fat-90'.",
+        ),
         (changed(POINTS, "curve", 1, None), "column curve, row 1: the text is missing. Give a text."),
         (changed(POINTS, "curve_shear", 1, "none"), "column curve_shear, row 1: 'none' is not one of the curves."),
         (
             changed(POINTS, "curve_shear", 2, "shear-80"),
-            "column curve_shear, row 2: shear is counted nowhere on the edge of a plate, kind hot_spot_b. Leave it empty",
+            "column curve_shear, row 2: shear is counted nowhere on the edge of a plate, kind hot_spot_b. Leave it",
         ),
         (changed(POINTS, "planes", 1, "all"), "column planes, row 1: 'all' is not one of normal, planes_60. Give one"),
         (changed(POINTS, "thickness_mm", 4, 0.0), "column thickness_mm, row 4: 0 is not above 0. Give more than 0."),
@@ -86,8 +89,7 @@ def test_optional_columns(tmp_path):
         (changed(POINTS, "e1_x", 2, 0.0), "column e1_x, row 2: the vector is zero. Give the direction e1."),
         (
             changed(changed(POINTS, "e1_x", 2, 0.1), "e1_z", 2, 1.0),
-            "column e1_x, row 2: e1 is along the normal (within 10 deg), so that it tells no direction in the plate. "
-            "Give e1 in the plate",
+            "column e1_x, row 2: e1 is along the normal (within 10 deg), so that it tells no direction in the plate.",
         ),
     ],
 )
