@@ -15,16 +15,22 @@ range_at_2e6_MPa = {reference}
 applies = "{applies}"
 quantity = "{quantity}"
 source = "of the test"
+{more}
 """
 
 
 def curve_text(
-    name: str, reference: float, applies: str = "hot_spot", slopes=(3.0,), knees=(), quantity: str = "normal"
+    name: str,
+    reference: float,
+    applies: str = "hot_spot",
+    slopes: tuple[float, ...] = (3.0,),
+    knees: tuple[float, ...] = (),
+    quantity: str = "normal",
+    more: str = "",
 ) -> str:
     """Text of a curve of the user for a case file."""
-    return CURVE.format(
-        name=name, reference=reference, applies=applies, quantity=quantity, slopes=list(slopes), knees=list(knees)
-    )
+    numbers = {"slopes": list(slopes), "knees": list(knees), "reference": reference}
+    return CURVE.format(name=name, applies=applies, quantity=quantity, more=more, **numbers)
 
 
 def point(name: str, kind: str = "hot_spot_a", weld: str = "", **changes: object) -> dict[str, object]:

@@ -17,6 +17,7 @@ from tests.unit_load_case import as_unit_load
 ONE = {1: (1.0, 0.0, 0.0), 2: (0.0, 0.0, 0.0), 7: (0.0, 0.0, 0.0)}  # the stress of mode 1 is that across the weld
 TOE = {"weld": "A", "order": 4}
 KNEES = curve_text("points", 60.0, "structural", slopes=(3.0, 5.0), knees=(5e6,))
+R_CURVE = curve_text("points", 60.0, "structural", more='mean_stress = "iiw_low"\ngamma_Mf = 1.15\ndamage_limit = 0.7')
 LOOP = '[[mission.sequence]]\norder = ["sine", "noise"]\nper_1000_km = 3.0\n'
 
 
@@ -114,14 +115,15 @@ def static_load_case(case: SmallCase) -> tuple[SmallCase, list[str]]:
     return case, forces
 
 
+@pytest.mark.parametrize("curve", [KNEES, R_CURVE], ids=["knees", "R"])
 @pytest.mark.parametrize("of", [plain, loop, constant_load, static_load_case])
-def test_a_hot_spot_with_the_stress_of_a_toe_has_its_mission(tmp_path, of):
-    """All that the engine knows is in the checks: factors, sequences, constants, static load cases, knees."""
+def test_a_hot_spot_with_the_stress_of_a_toe_has_its_mission(tmp_path, of, curve):
+    """All that the engine knows is in the checks: factors, sequences, constants, static load cases, rules of curves."""
 
     def written(folder: Path, points=(), stress=()) -> Path:
         case, forces = of(small_case())
         case.curve = {"name": "points"}
-        case.extra += KNEES
+        case.extra += curve
         folder.mkdir()
         for table in forces:
             table.to_csv(folder / "loads.csv", index=False)
@@ -145,6 +147,24 @@ def test_a_hot_spot_with_the_stress_of_a_toe_has_its_mission(tmp_path, of):
         assert row["utilisation_damage"] == pytest.approx(toe["utilisation"], rel=1e-9)
         assert row["utilisation_stress"] == pytest.approx(1.0 / toe["load_factor"], rel=1e-6)
         assert row["governing_event"] == toe["governing_event"]
+
+
+def test_constants_change_the_stress_ratio(tmp_path):
+    """A constant of the mission changes no range; it changes the damage on a curve with f(R)."""
+    damage = {}
+    for constant in (0.0, 9.0):
+        case, (forces,) = constant_load(small_case())
+        case.extra = case.extra.replace("constant = 9.0", f"constant = {constant}") + R_CURVE
+        folder = tmp_path / f"{constant}"
+        folder.mkdir()
+        forces.to_csv(folder / "loads.csv", index=False)
+        field = {1: (1.0, 0.0, 0.0), 2: (0.0, 0.0, 0.0), "force": (20.0, 0.0, 0.0)}
+        path = write_points(case, folder, [point("P", planes="normal")], [stresses("P", field, (3.2, 8.0))])
+        row = one_row(run(path)[1], component="normal")
+        damage[constant] = row["damage_per_km"]
+        assert row["range_max_MPa"] == pytest.approx(damage.setdefault("range", row["range_max_MPa"]))
+        assert row["damage_limit"] == 0.7
+    assert damage[9.0] > 1.5 * damage[0.0]
 
 
 def many_points(folder: Path, suffix: str = "parquet") -> Path:
