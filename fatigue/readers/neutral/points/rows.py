@@ -56,15 +56,18 @@ def looked_up(table: Table, points: StressPoints, coordinates: Coordinates, igno
     read_out = table.integers("read_out", default=None if "read_out" in table.position else 1)
     coordinate, used = _coordinates(table, coordinates, ignore_modes)
     table.refuse()
-    numbers, rank = np.unique(read_out, return_inverse=True)
-    pairs, pair = np.unique(point.astype(np.int64) * numbers.size + rank, return_inverse=True)
+    numbers = np.unique(read_out)
+    of_all = point * np.int64(numbers.size) + np.searchsorted(numbers, read_out)
+    there = np.bincount(of_all, minlength=len(points) * numbers.size) > 0
+    pairs, pair = np.flatnonzero(there), (np.cumsum(there, dtype=np.int32) - np.int32(1))[of_all]
+    del of_all, read_out
     given = np.zeros((len(points), 2), dtype=np.bool_)
     given[point, face] = True
     rows = Rows(
         names=points.name,
         surface=tuple(("edge", "") if kind == EDGE else FACES for kind in points.kind),
         used=used,
-        pair=pair.astype(np.int32),
+        pair=pair,
         face=face,
         coordinate=coordinate,
         point_of_pair=pairs // numbers.size,
@@ -153,8 +156,8 @@ def _of_modes(
 def _refuse_incomplete(table: Table, rows: Rows, coordinates: Coordinates) -> None:
     """Refuse a table with a (point, read-out, coordinate, surface) that is missing or there twice."""
     shape = (rows.point_of_pair.size, 2, len(coordinates))
-    key = (rows.pair.astype(np.int64) * 2 + rows.face) * shape[2] + rows.coordinate
-    counts = np.bincount(key[rows.used], minlength=shape[0] * shape[1] * shape[2]).reshape(shape)
+    key = (rows.pair * np.int64(2) + rows.face) * shape[2] + rows.coordinate
+    counts = np.bincount(key if rows.used.all() else key[rows.used], minlength=int(np.prod(shape))).reshape(shape)
     if counts.max(initial=0) > 1:
         again = np.flatnonzero(rows.used & (counts.ravel()[key] > 1))
         row = _first_repeat(key, again)
