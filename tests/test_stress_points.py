@@ -251,6 +251,28 @@ def test_same_bytes_whatever_does_the_work(many, tmp_path):
     pd.testing.assert_frame_equal(run(csv)[1], many[1])
 
 
+def test_an_interrupted_run_ends_with_the_same_bytes(many, tmp_path):
+    """Points are counted again when a run goes on, and stand where they would have stood."""
+
+    def stop(label, done, total):
+        raise KeyboardInterrupt
+
+    path, _ = many
+    with pytest.raises(KeyboardInterrupt):
+        assess(path, tmp_path / "out", threads=1, report=False, progress=stop)
+    done = assess(path, tmp_path / "out", threads=1, report=False)
+    assert done.groups_reused > 0
+    before = (path.parent / "out" / "checks.parquet").read_bytes()
+    assert (tmp_path / "out" / "checks.parquet").read_bytes() == before
+
+
+def test_points_are_told_by_check(many):
+    """The number of points is among the sizes of a case."""
+    found = check_case(many[0])
+    assert found.as_record()["stress_points"] == 10
+    assert "  stress points    10, not in the estimates" in found.as_text().splitlines()
+
+
 def test_normal_turned_over(tmp_path):
     """With the normal on the other side top and bottom change places, txy its sign, and the plane that of its angle."""
     rng = np.random.default_rng(8)
