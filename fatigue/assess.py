@@ -41,6 +41,7 @@ from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_o
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
+from fatigue.pipeline.solve.curve_warnings import unverified_problems
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.checks import check_table_rows
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
@@ -106,6 +107,7 @@ def assess(
     proves_worst: bool = True,
     histogram: HistogramPoints = "worst",
     strict: bool = False,
+    require_verified: bool = False,
     force: bool = False,
     report: bool = True,
     no_lock: bool = False,
@@ -127,6 +129,7 @@ def assess(
     histogram : of which counted points ``histogram.parquet`` has the ranges: ``worst``, those that are the worst of
         their weld or use up a tenth of the damage limit; ``all``; ``none``, and there is no such table
     strict : take unknown columns in the tables for errors
+    require_verified : refuse a case that rests on an S-N curve of the status ``unverified``
     force : replace the result of another case, and files of these names that fatigue did not write
     report : write the report and the ParaView file as well
     no_lock : for a file system without locks: trust that no other run writes to the folder, and that a lock file left
@@ -146,6 +149,8 @@ def assess(
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
     (body, plan, record_warnings), inputs = with_inputs(case, partial(read_case, case, threads, strict=strict))
+    if require_verified:
+        refuse(CaseError, unverified_problems(case, body.welds, body.curves))
     options = ScreeningOptions(share, proves_worst, histogram)
     key = key_of(inputs.register, options)
 

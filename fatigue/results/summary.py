@@ -11,6 +11,7 @@ import pandas as pd
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
 from fatigue.results.belonging import refuse_mixed
 from fatigue.results.provenance import read_provenance
+from fatigue.results.recorded_curves import unverified_curves
 from fatigue.results.rows import read_rows, worst_toes
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
 from fatigue.shown import few, shortened, visible
@@ -26,6 +27,8 @@ _POINT_COLUMNS = (
     "bending_ratio", "at_end", "at_corner", "summed_corner",
 )  # fmt: skip
 
+
+_WELD_COLUMNS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event")
 
 _ACROSS = {
     "damage_per_km_transitions": "Cycles across the events of the sequences are",
@@ -43,6 +46,7 @@ class Summary:
     welds: pd.DataFrame
     not_assessed: pd.DataFrame
     points: pd.DataFrame
+    unverified_curves: tuple[str, ...] = ()
 
     @property
     def fulfilled(self) -> bool:
@@ -56,6 +60,7 @@ class Summary:
             "assumptions": self.assumptions,
             "target_km": self.target_km,
             "fulfilled": self.fulfilled,
+            "unverified_curves": list(self.unverified_curves),
             "welds": self.welds.to_dict("records"),
             "not_assessed": self.not_assessed.to_dict("records"),
             "points": self.points.to_dict("records"),
@@ -73,10 +78,11 @@ class Summary:
             [
                 f"{visible(self.title)}: {verdict} of {_km(self.target_km)}",
                 self.assumptions,
+                *self._unverified(),
                 "",
                 _text_table(
                     welds,
-                    ["weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event"],
+                    [*_WELD_COLUMNS, *(["curve_status"] if self.unverified_curves else [])],
                 ),
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
                 *self._at_summed_corners(),
@@ -101,6 +107,15 @@ class Summary:
                 *self._outside_band(),
             ]
         )
+
+    def _unverified(self) -> list[str]:
+        """Say which curves nobody has compared with their source, and which of the welds rest on them."""
+        if not self.unverified_curves:
+            return []
+        welds = self.welds.loc[self.welds["curve"].isin(self.unverified_curves), "weld"].tolist()
+        named = f": {few(welds)}" if welds else ""
+        curves = ", ".join(self.unverified_curves)
+        return [f"Unverified: {curves}; {len(welds)} of {len(self.welds)} welds have their lives from them{named}"]
 
     def _at_summed_corners(self) -> list[str]:
         """Say which welds are judged by a corner where the stress has no bound."""
@@ -176,6 +191,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         welds=welds,
         not_assessed=left_out,
         points=read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas(),
+        unverified_curves=tuple(unverified_curves(record)),
     )
 
 
@@ -190,9 +206,12 @@ def assumptions(record: dict[str, Any]) -> str:
     screened = "" if screening["share_of_limit"] == 0.0 else f"; points proven below {screening['share_of_limit']:g} "
     loops = len(record["mission"].get("sequences", []))
     sequences = f"; cycles across the events of {loops} sequence{'s' * (loops != 1)}" * (loops > 0)
+    common = record["mission"]["damage_limit"]
+    limits = {name: curve["used"].get("damage_limit", common) for name, curve in record["curves"].items()}
+    others = "".join(f", {limit:g} on {name}" for name, limit in limits.items() if limit != common)
     return (
         f"Curve {curves}; thickness {rules['thickness_rule']}; {extension}; mean stress {rules['mean_stress']}; "
-        f"damage limit {record['mission']['damage_limit']:g}{screened and screened + 'of it have bounds only'}"
+        f"damage limit {common:g}{others}{screened and screened + 'of it have bounds only'}"
         f"{sequences}"
     )
 

@@ -8,7 +8,7 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
-from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings
+from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings, unverified_warnings
 from fatigue.pipeline.solve.rated_curves import (
     RatedCurve,
     asked_curves,
@@ -71,7 +71,7 @@ class Body:
 
     def curve_of(self, weld: Weld) -> RatedCurve:
         """Curve of a weld: its own, else the curve of the case."""
-        return self.curves[weld.curve or self.case.curve.name]
+        return self.curves[weld.curve or self.case.curve.name].at(weld)
 
 
 def read_body(case: Case, *, strict: bool) -> Body:
@@ -102,7 +102,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
         warnings += of_factors
     curves = rated_curves(case, known_curves, asked_curves(case, plan.welds), factors)
     refuse(DataError, attachment_problems(case, plan.welds, curves))
-    warnings += cutoff_warnings(case, curves)
+    warnings += unverified_warnings(case, plan.welds, curves) + cutoff_warnings(case, curves)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:

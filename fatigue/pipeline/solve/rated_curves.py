@@ -54,7 +54,8 @@ APPLIES = {
 class RatedCurve:
     """A curve as this assessment uses it: at a survival level, with the rules that turn cycles into damage.
 
-    ``factors`` are those of the table of strength factors.
+    ``factors`` are those of the table of strength factors; ``attachment`` is the length [mm] of what a weld attaches,
+    where the curve is ``at`` a weld and asks for it.
     """
 
     curve: SNCurve
@@ -62,6 +63,12 @@ class RatedCurve:
     rule: CycleRule
     thickness_rule: ThicknessRule
     factors: tuple[StrengthFactor, ...] = ()
+    attachment: float = np.inf
+
+    @property
+    def is_unverified(self) -> bool:
+        """Whether nobody has compared its numbers with their source."""
+        return self.curve.status == "unverified"
 
     @property
     def on_range(self) -> float:
@@ -69,21 +76,28 @@ class RatedCurve:
         of = self.curve.allowances
         return of.gamma_Ff * of.gamma_Mf * on_range(self.factors)
 
+    def at(self, weld: Weld) -> "RatedCurve":
+        """The curve at a weld, whose attachment has a length of its own."""
+        if self.curve.allowances.thickness_effective == "t" or weld.attachment is None:
+            return self
+        return replace(self, attachment=weld.attachment)
+
     def size(
-        self, thickness: NDArray[np.float64], attachment: NDArray[np.float64] | float = np.inf
+        self, thickness: NDArray[np.float64], attachment: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
         """Factor of plates of some thickness [mm] on the range: ``size_factor`` and all that is not a cycle's own.
 
-        ``attachment`` is the length [mm] of what is attached, for a curve that asks for it.
+        ``attachment`` are the lengths of their attachments [mm], by default that of the weld.
         """
-        of_plate = size_factor(thickness, self.curve, self.thickness_rule, attachment)
+        length = self.attachment if attachment is None else attachment
+        of_plate = size_factor(thickness, self.curve, self.thickness_rule, length)
         return of_plate * bending_thickness(thickness, self.curve.allowances) * self.on_range
 
-    def size_exponent(self, thickness: float, attachment: float = np.inf) -> float:
+    def size_exponent(self, thickness: float) -> float:
         """Exponent d ln(size) / d ln(t) of ``size`` at a thickness [mm]."""
         of = self.curve.allowances
         of_bending = of.bending_exponent if of.bending_factor != "none" else 0.0
-        return size_exponent(thickness, self.curve, self.thickness_rule, attachment) + of_bending
+        return size_exponent(thickness, self.curve, self.thickness_rule, self.attachment) + of_bending
 
     def damage_limit(self, of_mission: float) -> float:
         """Allowed damage sum on this curve: its own, else that of the mission, with the factors of the table."""

@@ -111,7 +111,7 @@ def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) 
     stress = stations.treated
     some = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
     raw_ends = stations.raw_ends.at(rows)
-    lengths = [np.inf if weld.attachment is None else weld.attachment for weld in stations.welds]
+    lengths = [rated.at(weld).attachment for weld in stations.welds]
     attachment = np.array(lengths)[stations.weld[some]]
     return ModalStress(
         membrane=stress.membrane[some],
