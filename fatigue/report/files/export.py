@@ -25,7 +25,7 @@ from fatigue.results import (
     row_groups,
 )
 from fatigue.results.belonging import MARK
-from fatigue.results.recorded_curves import unverified_curves
+from fatigue.results.provenance import curves_of_status
 from fatigue.results.tables import table_path
 
 _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
@@ -102,7 +102,7 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
 
 def _title(record: Mapping[str, Any]) -> str:
     """Title of a result, which says so where it rests on unverified curves."""
-    return f"{record['title']} (unverified curves)" if unverified_curves(record) else str(record["title"])
+    return f"{record['title']} (unverified curves)" if curves_of_status(record, "unverified") else str(record["title"])
 
 
 @contextmanager

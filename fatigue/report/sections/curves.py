@@ -14,10 +14,11 @@ from fatigue.report.result import ShownResult
 from fatigue.report.sections.cells import Cell, Heading, PageTable, num, text
 from fatigue.report.wording import number
 from fatigue.results import read_table
-from fatigue.results.recorded_curves import UNVERIFIED, USER, entered_curves, unverified_curves
+from fatigue.results.provenance import curves_of_status
 from fatigue.results.tables import table_path
 from fatigue.shown import few
 
+UNVERIFIED, USER = "unverified", "user"
 LIVES = ("life", "utilisation", "load factor", "Dirlik life")  # headings of what rests on a curve
 WORDS = {UNVERIFIED: "unverified", USER: "values entered by the user"}
 FOR = {
@@ -40,8 +41,8 @@ def curve_sections(result: ShownResult) -> dict[str, Any]:
     """What the page says of curves: the table, the factors, and the sentences about what was not verified."""
     record, unverified = result.record, unverified_welds(result)
     used = {*result.assessed["curve"], *_of_checks(result)["curve"].dropna()}
-    entered = [name for name in entered_curves(record) if name in used]
-    names = [name for name in unverified_curves(record) if name in used]
+    entered = [name for name in curves_of_status(record, USER) if name in used]
+    names = [name for name in curves_of_status(record, UNVERIFIED) if name in used]
     on_top = [f"{event['event']} {number(event['stress_factor'])}" for event in _with_factor(record)]
     return {
         "curves": curve_table(record),
@@ -71,7 +72,7 @@ def _of_checks(result: ShownResult) -> pd.DataFrame:
 
 def of_toes(result: ShownResult) -> list[str]:
     """Welds whose lives rest on an unverified curve."""
-    names = unverified_curves(result.record)
+    names = curves_of_status(result.record, UNVERIFIED)
     return result.assessed.loc[result.assessed["curve"].isin(names), "weld"].tolist() if names else []
 
 
