@@ -20,7 +20,7 @@ def unverified_problems(case: Case, welds: Sequence[Weld], curves: Mapping[str, 
         if rated.is_unverified and (name in of_toes or name != case.curve.name):
             what = f"curve '{name}' is unverified: nobody has compared its numbers with their source"
             remedy = f"Compare them and set status and checked_by under [curves.{name}], or take another curve"
-            yield Problem("unverified_curve", case.path.name, what, remedy)
+            yield Problem("not_verified", case.path.name, what, remedy)
 
 
 def unverified_warnings(case: Case, welds: Sequence[Weld], curves: Mapping[str, RatedCurve]) -> list[Problem]:

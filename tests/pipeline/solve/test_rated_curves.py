@@ -137,7 +137,7 @@ def asked(folder: Path, one: AskedCurve, curve: dict[str, object] | None = None,
         ),
         (
             AskedCurve("iiw-steel-90", "here", quantity="shear"),
-            "is for normal stress (quantity = 'normal'), and the struc",
+            "is for normal stress (quantity = 'normal'), and",
         ),
     ],
 )
@@ -301,9 +301,9 @@ def test_factors_of_a_table_are_on_range_and_limit(tmp_path: Path) -> None:
         ({"value": None}, "factors.csv: column value, row 1: the value is missing or NaN"),
         ({"clause": None}, "factors.csv: column clause, row 1: the text is missing"),
         ({"edition": None}, "factors.csv: column edition, row 1: the text is missing"),
-        ({"role": "strenght"}, "factors.csv: column role, row 1:"),
+        ({"role": "weakness"}, "factors.csv: column role, row 1:"),
         ({"value": 0.0}, "factors.csv: column value, row 1: 0 is not above 0"),
-        ({"curve": "onw"}, "'onw'"),
+        ({"curve": "wno"}, "'wno'"),
     ],
 )
 def test_a_bad_table_of_factors_is_refused(tmp_path: Path, changed: dict[str, object], message: str) -> None:
