@@ -211,3 +211,18 @@ def test_bounds_with_events_in_turn_hold(tmp_path: Path, keys: str) -> None:
     assert (bounded["damage_per_km"] >= exact["damage_per_km"] * (1.0 - 1e-9)).all()
     np.testing.assert_allclose(bounded["damage_per_km"][~settled], exact["damage_per_km"][~settled], rtol=1e-9)
     assert (bounded["load_factor"] <= exact["load_factor"] * (1.0 + 1e-9)).all()
+
+
+def test_a_damage_limit_of_the_curve_holds_for_shear_too(tmp_path: Path) -> None:
+    """A named method leaves life and sums against the limit of the curve, and the rows of its check say which."""
+    case = case_with(strict="damage_limit = 0.25", plain="")
+    case.extra = '[multiaxial]\nmethod = "range"\n' + case.extra
+    welds = assessed(case, tmp_path)
+    nodes = pd.read_parquet(tmp_path / "result" / "nodes.parquet").query("toe")
+    np.testing.assert_allclose(nodes["life_km"] * nodes["utilisation"], 1e6, rtol=1e-9)
+    of_strict = nodes[nodes["weld"] == "A"]
+    np.testing.assert_allclose(of_strict["life_km"] * of_strict["damage_per_km"], 0.25, rtol=1e-9)
+    assert welds.loc["B", "life_km"] <= life(RANGE) * (1.0 + 1e-9)
+    assert (of_strict["utilisation_path_range"].dropna() > 0.0).all()
+    checks = pd.read_parquet(tmp_path / "result" / "checks.parquet")
+    assert checks.groupby("weld")["damage_limit"].unique().map(list).to_dict() == {"A": [0.25], "B": [1.0]}

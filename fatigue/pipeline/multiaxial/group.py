@@ -71,10 +71,11 @@ def group_multiaxial(model: Model, result: GroupResult, loads: Sequence[EventLoa
     curve_of = np.array([rated.curve.name for rated in model.curve_of_weld])[stations.weld]
     for name, rated in {rated.curve.name: rated for rated in model.curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)
-        toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, plan)
+        own = rated.plan(plan)
+        toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, own)
         names = weld_names(stations, rows)
         with no_overflow("mission", names):
-            found[rows] = _of_curve(toes, _wanted(rows, worst, result, shear), loads, plan, shear, names)
+            found[rows] = _of_curve(toes, _wanted(rows, worst, result, shear), loads, own, shear, names)
     return found
 
 

@@ -19,7 +19,8 @@ def decided_by(method: str, model: Model, result: GroupResult, plan: Plan) -> Gr
     mission, of_method = result.mission, result.multiaxial[method]
     utilisation = np.fmax(mission.utilisation, of_method)
     governs = utilisation > mission.utilisation
-    damage = np.where(governs, utilisation * plan.damage_limit / plan.target_km, mission.damage_per_km)
+    limit = model.damage_limits(plan.damage_limit)[:, None]
+    damage = np.where(governs, utilisation * limit / plan.target_km, mission.damage_per_km)
     load_factor = mission.load_factor.copy()
     toe = model.stations.toe
     for weld, rated in enumerate(model.curve_of_weld):
@@ -29,7 +30,7 @@ def decided_by(method: str, model: Model, result: GroupResult, plan: Plan) -> Gr
         load_factor[rows] = np.where(toe[rows], factor, load_factor[rows])
     return result.with_mission(
         damage_per_km=damage,
-        life_km=np.where(governs, life_km(damage, plan.damage_limit), mission.life_km),
+        life_km=np.where(governs, life_km(damage, limit), mission.life_km),
         utilisation=utilisation,
         load_factor=load_factor,
     )

@@ -30,8 +30,9 @@ FITS: dict[str, tuple[str, ...]] = {  # what a curve that serves a use may apply
     "throat": ("throat",),
     "root": ("throat", "structural", "dS"),
     "parent": ("parent",),
-    "endurance": ("structural", "hot_spot", "nominal", "throat", "parent"),
+    "endurance": ("structural", "hot_spot", "nominal", "throat", "parent", "dS"),
 }
+NO_BENDING = ("throat", "endurance")  # uses whose stresses are no membrane and bending stress of a plate
 USES = {
     "toe": "the structural stress at the toe",
     "hot_spot": "a hot-spot stress",
@@ -223,9 +224,11 @@ def _problems(case: Case, curves: Mapping[str, SNCurve], asked: Sequence[AskedCu
             what = f"curve '{name}' allows for the stress ratio by mean_stress = '{of.stress_ratio}', and so does "
             what += "mean_stress = 'asme' of [curve]"
             yield Problem("mean_stress", one.where, what, "Take one of them: they are two rules for the same effect")
-        elif not one.is_main and of.bending_factor != "none":
-            what = f"curve '{name}' has bending_factor = '{of.bending_factor}', and the bending ratio of a cycle is "
-            what += f"known of the normal stress at toes only, not of {USES[one.use]}"
+        elif of.bending_factor != "none" and one.use in NO_BENDING:
+            what = (
+                f"curve '{name}' has bending_factor = '{of.bending_factor}', and no bending ratio of a cycle is known "
+            )
+            what += f"of {USES[one.use]}"
             yield Problem("bending_factor", one.where, what, "Name a curve without bending_factor")
         elif one.use != "toe" and of.thickness_effective == "L_half":
             what = f"curve '{name}' has thickness_effective = 'L_half', and attachments have a length at toes only"

@@ -164,6 +164,18 @@ def test_a_curve_of_the_same_stress_is_rated(tmp_path: Path, one: AskedCurve) ->
     assert asked(tmp_path, one).curve.name == one.name
 
 
+BENDS = 'bending_factor = "bs7608"\nbending_reference_mm = 25.0\nbending_exponent = 0.25\n'
+
+
+def test_an_allowance_for_bending_needs_a_bending_ratio(tmp_path: Path) -> None:
+    """The stress in a throat has none; that at a hot spot has."""
+    bent = OWN.replace('"structural"', '"throat"') + BENDS
+    with pytest.raises(FatigueError, match="no bending ratio of a cycle is known of the stress in the throat"):
+        asked(tmp_path / "throat", AskedCurve("own", "here", "throat"), extra=bent)
+    at_hot_spot = asked(tmp_path / "spot", AskedCurve("own", "here", "hot_spot"), extra=OWN + BENDS)
+    assert at_hot_spot.rule.depends_on_bending
+
+
 def test_settings_of_the_toe_do_not_refuse_a_curve_of_another_check(tmp_path: Path) -> None:
     """A curve without scatter, or with knees, is taken as it is given where it does not serve a toe."""
     settings = {"survival": "mean-3sigma", "extension": "haibach", "mean_stress": "asme", "yield_MPa": 200.0}
