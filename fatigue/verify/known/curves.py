@@ -4,6 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from fatigue.life.allowances import (
+    RATIO_LEVELS,
+    Allowances,
+    StressRatio,
+    bending_allowance,
+    bending_thickness,
+    stress_ratio_factors,
+)
 from fatigue.life.curves import DamageLaw, SNCurve, Survival, ThicknessRule, catalogue, damage_law, user_curve
 from fatigue.life.rule import (
     bending_ratio,
@@ -128,6 +136,24 @@ def _corrections() -> Iterator[Check]:
     yield _curve(
         "t = 50 mm, reference 25 mm, n = 0.3", "factor on the range", "-", 2**0.3, found, ROUNDING, "IIW 2016, 3.5.2"
     )
+    yield from _allowances()
+
+
+def _allowances() -> Iterator[Check]:
+    """What curves allow for in every cycle; both rules are recalled from their editions."""
+    low, high = np.array([-50.0, 0.0, 60.0, -120.0]), np.array([100.0, 100.0, 100.0, 60.0])
+    printed: dict[StressRatio, tuple[float, ...]] = {
+        "iiw_low": (1.4, 1.2, 1.0, 1.6),
+        "iiw_medium": (1.1, 1.0, 1.0, 1.3),
+    }
+    for level, factors in printed.items():
+        found = stress_ratio_factors(low, high, RATIO_LEVELS[level]).tolist()
+        for R, expected, f in zip((-0.5, 0.0, 0.6, -2.0), factors, found, strict=True):
+            yield _curve(f"f(R), {level}, R = {R:g}", "f(R)", "-", expected, f, ROUNDING, "IIW 2016, recalled")
+    of = Allowances(bending_factor="bs7608", bending_reference=25.0, bending_exponent=0.25)
+    k_tb = float(bending_allowance(0.5) / bending_thickness(np.array([50.0]), of)[0])
+    by_hand = 0.5**0.25 * (1.0 + 0.18 * 0.5**1.4)
+    yield _curve("bending ratio 0.5, t = 50 mm", "k_tb", "-", by_hand, k_tb, ROUNDING, "BS 7608:2014, recalled")
 
 
 def _curve(case: str, quantity: str, unit: str, expected: float, found: float, tolerance: float, source: str) -> Check:
