@@ -12,7 +12,7 @@ from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rule import cycle_damage, equivalent_range, ratio_factor, size_factor
 from fatigue.results.summary import result_summary
 from tests.small_case import MEMBRANE, THICKNESS, sine_only, small_case
-from tests.throat_case import A_MM, CLASS, row, with_throats
+from tests.throat_case import A_MM, CLASS, HEAD, row, with_throats
 
 RANGE = 60.0  # of q_1, from -30 to 30
 CYCLES_PER_KM = 60.0 / 0.6  # 5 Hz for 12 s at 180 km/h
@@ -194,3 +194,28 @@ def test_a_corner_whose_forces_are_one_sum_says_so(tmp_path):
     assert nodes.summed_corner.sum() == 1
     told = checks.note.str.contains("forces of both legs of a corner in one sum")
     assert told.to_dict() == nodes.summed_corner.to_dict()
+
+
+@pytest.mark.parametrize("combination", ["direction", "path"])
+def test_limits_and_factors_of_a_curve_hold_once(tmp_path, combination):
+    """Every check has the damage limit of its own curve, with the factor of the table on it, and no factor twice."""
+    extra = '[checks]\nstrength_factors = "factors.csv"\n'
+    rows = [row("A", "both", "throat") + f",{combination}", row("B", "top", "throat") + f",{combination}"]
+    path = with_throats(tension_only(), tmp_path, rows, extra, head=f"{HEAD},combination")
+    text = path.read_text().replace("[curves.throat]\n", "[curves.throat]\ndamage_limit = 0.5\n")
+    path.write_text(text.replace("[curves.throat-shear]\n", "[curves.throat-shear]\ndamage_limit = 0.4\n"))
+    factors = ["throat,safety,limit,0.5", "throat,quality,strength,0.8", "throat-shear,safety,limit,0.5"]
+    head = "curve,factor,role,value,clause,edition,note"
+    (tmp_path / "factors.csv").write_text("\n".join([head, *(f"{one},4.2,first," for one in factors)]) + "\n")
+    assess(path, tmp_path / "out", threads=1, report=False)
+    checks = table(tmp_path / "out")
+    assert checks.groupby("check").damage_limit.agg(set).to_dict() == {
+        "throat_par": {0.2},
+        "throat_perp": {0.25},
+        "throat_root": {0.25},
+    }
+    perp = checks.query("check == 'throat_perp' and weld == 'B'").iloc[0]
+    S = MEMBRANE * THICKNESS * RANGE / A_MM / 0.8
+    assert perp.damage_per_km == pytest.approx(CYCLES_PER_KM * S**3 / (2e6 * CLASS**3), rel=1e-4)
+    assert perp.utilisation_damage == pytest.approx(perp.damage_sum / 0.25)
+    assert perp.utilisation_stress == pytest.approx(perp.utilisation_damage ** (1.0 / 3.0), rel=1e-6)
