@@ -16,6 +16,7 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.stations import size_of
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -83,8 +84,8 @@ def _normal(
     law, limit = rated.rule.law, own.damage_limit
     screened = bool(result.tier[stations].any())
     scales = law.is_straight and rated.rule.yield_of_damage is None
-    if screened or not (scales or plan.damage_limit == limit):
-        stress, size = model.stations.treated, rated.size(model.stations.thickness[stations])
+    if screened or not (scales or rated.damage_limit(plan.damage_limit) == limit):
+        stress, size = model.stations.treated, size_of(model.stations, stations, rated)
         signals = Signals(stress.membrane[stations], stress.bending[stations], size, rated.rule)
         return _counted(signals, loads, own, "normal stress at the toe")
     mission, k = result.mission, float(law.slopes.min())
@@ -95,7 +96,7 @@ def _normal(
 
 def _shear(model: Model, stations: Rows, rated: RatedCurve, loads: Sequence[EventLoad], own: Plan) -> Counted:
     """Shear stress at the surface, in the plane and by twist, on its own curve."""
-    stress, size = model.stations.treated, rated.size(model.stations.thickness[stations])
+    stress, size = model.stations.treated, size_of(model.stations, stations, rated)
     signals = Signals(stress.in_plane_shear[stations], stress.twist_shear[stations], size, rated.rule)
     return _counted(signals, loads, own, "shear stress at the toe")
 

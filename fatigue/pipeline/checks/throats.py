@@ -85,6 +85,7 @@ def throat_stresses(throat: WeldThroat, stations: Stations, rows: slice) -> dict
 def _across(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: Plan) -> Iterator[CheckRows]:
     """Normal and shear stress across the weld, in the direction of the largest damage."""
     rated = model.body.curves[fillets.throat.curve]
+    plan = rated.plan(plan)
     size, names = fillets.size(rated), fillets.names
     psi = half_circle(STEP_DEG)
     sums = np.stack([np.cos(np.radians(psi)), np.sin(np.radians(psi))], axis=1)
@@ -103,6 +104,7 @@ def _across(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: P
 def _along(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: Plan) -> Iterator[CheckRows]:
     """Shear stress along the weld."""
     rated = model.body.curves[fillets.throat.curve_shear]
+    plan = rated.plan(plan)
     stresses = [stress.tau_par for stress in fillets.stress.values()]
     found = counted_each(stresses, fillets.size(rated), rated.rule, loads, plan, fillets.names)
     for side, columns in zip(fillets.stress, found, strict=True):
@@ -115,6 +117,7 @@ def _at_root(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: 
         yield from _bent_and_not_assessed(fillets)
         return
     rated = model.body.curves[fillets.throat.curve_root]
+    plan = rated.plan(plan)
     for side, stress in fillets.stress.items():
         signals = Signals(stress.sigma_perp, stress.bending, fillets.size(rated), rated.rule)
         mission = counted_mission(signals, loads, plan, fillets.names)

@@ -107,7 +107,7 @@ def _again(toes: Toes, under: Varied, job: Job, *, sampled: bool) -> Again:
 
     def counted(rows: NDArray[np.intp]) -> Floats | None:
         loads = job.sampling.sampled() if sampled else job.loads
-        return None if loads is None else counted_again(toes.stress.at(rows), rule, size[rows], loads, job.plan)
+        return None if loads is None else counted_again(toes.stress.at(rows), rule, size[rows], loads, toes.plan)
 
     return counted
 

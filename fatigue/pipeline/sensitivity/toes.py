@@ -73,11 +73,13 @@ def toes_of_curve(
         ends = stress.raw_ends.rows
         if screening is not None and ends.size:
             names = ", ".join(stations.welds[int(weld)].name for weld in welds[:1])
-            block = Block(stress, stations.weld[rows], stations.toe[rows], loads, plan, f"weld {names} and others")
+            block = Block(
+                stress, stations.weld[rows], stations.toe[rows], loads, rated.plan(plan), f"weld {names} and others"
+            )
             bound[ends] = bounded_raw_ends(block, screening)
         yield Toes(
             case=model.case,
-            plan=plan,
+            plan=rated.plan(plan),
             rated=rated,
             welds=welds,
             rows=rows,

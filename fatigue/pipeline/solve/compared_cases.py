@@ -58,7 +58,7 @@ def endurance_curves(case: Case) -> Iterator[AskedCurve]:
     for number, check in enumerate(case.checks.endurance, 1):
         if check.curve is not None:
             where = f"{case.path.name}: checks.endurance[{number}].curve"
-            yield AskedCurve(check.curve, where, quantity=quantity_of(case, check.curve))
+            yield AskedCurve(check.curve, where, "endurance", quantity_of(case, check.curve))
 
 
 def quantity_of(case: Case, curve: str) -> Quantity:
