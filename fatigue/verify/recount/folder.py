@@ -4,7 +4,8 @@ In memory at a time are some welds, one record, and of the result the rows of so
 the keys of its stations and two columns of its points.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from numbers import Integral
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
+from fatigue.verify.recount.stored.decisive import failed_by_checks
 from fatigue.verify.recount.stored.rows import (
     RecountWeld,
     Station,
@@ -160,7 +162,8 @@ def _recount(
         recounted = {number: stations[number] for number in np.unique(points // 2).tolist()}
         found += _compared_stress(coordinates, recounted, stored)
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
-        found += _compared_welds(chosen, stored, values, bounds, all_counted=all_counted)
+        failed = failed_by_checks(folder, inputs.case)
+        found += _compared_welds(chosen, stored, values, bounds, failed, all_counted=all_counted)
     checks += merged(found)
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
@@ -278,10 +281,11 @@ def _compared_welds(
     stored: Stored,
     values: Mapping[Key, Values],
     bounds: Mapping[Key, Bounds],
+    failed: Collection[str],
     *,
     all_counted: bool,
 ) -> list[ColumnCheck]:
-    """Checks of the stored rows of some welds beside the recounted ones."""
+    """Checks of the stored rows of some welds beside the recounted ones; ``failed``: a check that counts has."""
     rows = [
         weld_row(
             weld,
@@ -292,7 +296,11 @@ def _compared_welds(
         )
         for name, weld in welds.items()
     ]
-    return compare("welds", rows, {})
+    with_checks = [
+        replace(row, expected={**row.expected, "fulfilled": row.expected["fulfilled"] and name not in failed})
+        for name, row in zip(welds, rows, strict=True)
+    ]
+    return compare("welds", with_checks, {})
 
 
 def _steps(inputs: RecountInputs, stations: Iterable[Station]) -> dict[str, float]:

@@ -17,6 +17,7 @@ from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.spectral import NEARLY_ALL
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
+from fatigue.verify.recount.stored.decisive import failed_by_checks
 from fatigue.verify.recount.stored.histogram import KINDS as HISTOGRAM_KINDS
 from fatigue.verify.recount.stored.rows import place
 from fatigue.verify.recount.stored.runs import StoredRuns
@@ -72,7 +73,7 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent
     yield from _of_cycles(stored, len(events))
     if stored.histogram is not None:
         yield from _of_histograms(stored, stored.histogram, len(events))
-    yield from _of_welds(stored)
+    yield from _of_welds(stored, case)
     yield _smallest_load_factors(stored, toes_and_utilisation(stored)[0])
 
 
@@ -162,15 +163,20 @@ def _of_histograms(stored: Stored, histogram: StoredRuns, events: int) -> Iterat
             yield Sum("histogram", "count_per_pass", np.bincount(which, of_run), cycles, keys)
 
 
-def _of_welds(stored: Stored) -> Iterator[Sum]:
-    """Row of a weld as the row of its worst point makes it, which no counted point of a toe exceeds."""
+def _of_welds(stored: Stored, case: Mapping[str, Any]) -> Iterator[Sum]:
+    """Row of a weld as the row of its worst point makes it, which no counted point of a toe exceeds.
+
+    Its verdict is that of the point unless a check that counts has failed.
+    """
     welds = stored.welds.loc[list(stored.body.welds)]
     number = np.arange(len(welds))
     point = worst_of_welds(stored, number)
     there = point >= 0
     table = read_rows(stored.folder, "nodes", stored.nodes.of(point[there]), OF_WORST)
+    failed = welds.index.isin(failed_by_checks(stored.folder, case))[there]
     for name, values in _columns(table).items():
-        yield Sum("welds", name, welds[name].to_numpy()[there], values, number[there])
+        expected = values & ~failed if name == "fulfilled" else values
+        yield Sum("welds", name, welds[name].to_numpy()[there], expected, number[there])
     toe, utilisation = toes_and_utilisation(stored)
     toe &= is_counted(stored)
     worst = worst_points(stored.body, toe, utilisation)
