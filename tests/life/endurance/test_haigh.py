@@ -40,7 +40,7 @@ def test_a_line_is_straight_in_the_haigh_plane(ratio, stress_max, amplitude):
     assert 2.0 * found / (1.0 - ratio) == pytest.approx(stress_max, rel=1e-9)
 
 
-def test_between_rows_the_upper_stress_is_not_linear_in_R():
+def test_between_rows_the_upper_stress_is_not_linear():
     """Linear in R it would be 4 % too high at R = -0.7."""
     linear = float(np.interp(-0.7, R, STRESS_MAX))
     assert linear == pytest.approx(69.6923076923)

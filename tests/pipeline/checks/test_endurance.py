@@ -82,7 +82,7 @@ def test_states_are_compared_in_all_pairs(tmp_path):
     assert row(rows, "perp")["governing_event"] == "full / braking"
 
 
-def test_the_static_load_is_in_R(tmp_path):
+def test_the_static_load_is_in_the_stress_ratio(tmp_path):
     """Without it the mean is 0, and the same range is allowed more."""
     with_it = row(rows_of(tmp_path / "a", check(perp="across")), "perp")
     without = CASES.replace("dead,static,ride,1,,,1\n", "")
