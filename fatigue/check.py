@@ -30,6 +30,7 @@ from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
+from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.shown import few, visible
@@ -136,7 +137,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
     warnings = WarningSummary()
-    warnings.add((*body.warnings, *record_warnings))
+    warnings.add((*body.warnings, *point_stress(body)[1], *record_warnings))
     extents: list[LoadExtent] = []
     parts = stations = 0
     stage("solving the weld lines")

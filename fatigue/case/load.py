@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
+from fatigue.case.counts import counts_problems
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems
@@ -64,6 +65,7 @@ def load_case(path: Path | str) -> Case:
         problems += curve_problems(raw, catalogue())
         problems += mission_problems(raw)
         problems += sequence_problems(raw)
+        problems += counts_problems(raw)
         problems += unit_load_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:

@@ -7,6 +7,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.endurance import weld_endurance
 from fatigue.pipeline.checks.interaction import weld_interaction
 from fatigue.pipeline.checks.rows import CheckRows, joined
+from fatigue.pipeline.checks.throats import throat_checks
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
@@ -24,7 +25,7 @@ def group_checks(model: Model, result: GroupResult, loads: Sequence[EventLoad], 
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    rows = []
+    rows = [throat_checks(model, loads, plan)]
     if model.case.checks.interaction:
         rows.append(weld_interaction(model, result, loads, plan))
     if model.case.checks.endurance:

@@ -38,7 +38,7 @@ def no_rows() -> CheckRows:
 def check_rows(
     rows: int,
     *,
-    check: str = "",
+    check: object = "",
     weld: object = "",
     part: object = NOWHERE,
     order: object = NOWHERE,

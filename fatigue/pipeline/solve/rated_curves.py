@@ -1,6 +1,6 @@
 """The S-N curves a case asks for, at its survival level and with its extension."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from fatigue.life.curves import (
     user_curve,
 )
 from fatigue.life.rule import CycleRule, size_factor
+from fatigue.readers.neutral.body.throats import WeldThroat
 from fatigue.readers.neutral.body.welds import Weld
 
 
@@ -40,7 +41,8 @@ class RatedCurve:
 class AskedCurve:
     """A curve that something asks for: its name, where that is said, and the stress it is to serve.
 
-    ``use`` is ``toe`` or one of ``Applies`` other than ``dS`` and ``structural``, which serve a toe.
+    ``use`` is ``toe`` or one of ``Applies`` other than ``dS`` and ``structural``, which serve a toe; ``root`` is the
+    structural stress of a throat, which a curve for throats, for structural stress or for dS may serve.
     """
 
     name: str
@@ -49,9 +51,9 @@ class AskedCurve:
     quantity: Quantity = "normal"
 
 
-def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
-    """Curves that the case and its welds ask for, normal stress and shear at the toe."""
-    file = case.body.welds
+def asked_curves(case: Case, welds: Sequence[Weld], throats: Iterable[WeldThroat] = ()) -> list[AskedCurve]:
+    """Curves that the case and its welds ask for, normal stress and shear at the toe, and those of the throats."""
+    file, of_throats = case.body.welds, case.body.weld_throats
     return [
         AskedCurve(case.curve.name, f"{case.path.name}: curve.name"),
         *(AskedCurve(w.curve, f"{file}: weld {w.name}: curve") for w in welds if w.curve),
@@ -60,7 +62,15 @@ def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
             for w in welds
             if w.curve_shear
         ),
+        *(curve for throat in throats for curve in _of_throat(throat, f"{of_throats}: weld {throat.weld}")),
     ]
+
+
+def _of_throat(throat: WeldThroat, where: str) -> Iterator[AskedCurve]:
+    yield AskedCurve(throat.curve, f"{where}: curve", use="throat")
+    yield AskedCurve(throat.curve_shear, f"{where}: curve_shear", use="throat", quantity="shear")
+    if throat.curve_root:
+        yield AskedCurve(throat.curve_root, f"{where}: curve_root", use="root")
 
 
 def curves_of_case(case: Case) -> dict[str, SNCurve]:

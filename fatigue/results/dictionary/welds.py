@@ -20,7 +20,7 @@ WELDS = (
     Column("life_km", "float", "km", "shortest life of the weld's toe points"),
     Column("life_years", "float", "a", "the same in years"),
     Column("utilisation", "float", "-", "largest utilisation of the weld's toe points"),
-    Column("fulfilled", "flag", "-", "every toe point meets the target"),
+    Column("fulfilled", "flag", "-", "every toe point meets the target, and every check that counts ([checks] counts)"),
     Column(
         "load_factor",
         "float",
@@ -42,4 +42,13 @@ WELDS = (
     Column("worst_arc_length_mm", "float", "mm", "worst point: distance along the part"),
     Column("worst_summed_corner", "flag", "-", "worst point: at a kink where the forces of both legs are one sum"),
     Column("governing_event", "text", "-", "event with the largest share of the worst point's damage"),
+    Column(
+        "worst_check",
+        "text",
+        "-",
+        "check beside the normal stress at the toe with the largest utilisation_stress in checks.parquet; empty where "
+        "none is assessed",
+    ),
+    Column("worst_check_utilisation", "float", "-", "its utilisation_stress: never a damage sum"),
+    Column("checks_not_assessed", "int", "-", "rows of checks.parquet that have no verdict"),
 )
