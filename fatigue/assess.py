@@ -37,6 +37,8 @@ from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.multiaxial.doubt import ShearTally
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
@@ -51,10 +53,12 @@ from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.histogram import HistogramWriter
+from fatigue.pipeline.tables.path_cycles import PathWriter, kept_paths
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.tables.sampling_warnings import sampling_warnings
+from fatigue.pipeline.tables.sensitivity import sensitivity_rows
 from fatigue.pipeline.tables.stress_warnings import StressExtent
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.readers.neutral.spare_memory import give_back
@@ -79,6 +83,8 @@ from fatigue.weld.load_extent import LoadExtent
 log = logging.getLogger(__name__)
 
 ROWS_AT_ONCE = 512  # stations whose rows are made at a time, as many for each as there are events or modes
+
+SCREEN = "Leave out share (--screen), or give method = 'report'"
 
 Progress = Callable[[str, int, int], None]
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
@@ -145,6 +151,7 @@ def assess(
     """
     refuse(CaseError, _senseless(threads, share, executor, histogram))
     case, folder = given_case(case), given_path(folder, "folder")
+    refuse(CaseError, _screened_shear(case, share))
     settle_folder(folder, no_lock=no_lock)
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
@@ -182,10 +189,11 @@ def assess(
             unpublished = state.folder / "tables"
             write_tables(unpublished, key, assessed, work, apart, done, threads)
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
+            log.info("shear at the toes: %s", done.shear.as_text())
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
             record = {"program": "fatigue", "result": key} | provenance_record(
-                body, work, done.stations, folder, inputs.register, warnings, gravity
+                body, work, done.stations, folder, inputs.register, warnings, gravity, done.shear.statuses
             )
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
@@ -227,6 +235,14 @@ def _senseless(threads: object, share: object, executor: object, histogram: obje
         yield Problem("argument", "histogram", what, remedy)
 
 
+def _screened_shear(case: Case, share: float | None) -> Iterator[Problem]:
+    """Refusal of a share beside a method for shear that decides: bounds of the normal stress say nothing of it."""
+    method = case.multiaxial.method
+    if share and method in DECIDING:
+        where, what = f"{case.path.name}: multiaxial.method", f"method = {method!r} needs every point counted"
+        yield Problem("argument", where, f"{what}, and points below {share:g} of the limit were not to be", SCREEN)
+
+
 def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
     """Body and mission of a case, read and checked, and the warnings about its records."""
     body = read_body(case, strict=strict)
@@ -266,7 +282,8 @@ class Tally:
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
     ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
     forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss,
-    ``transitions`` those at which the order of the events may matter, ``checks`` those that decide beside the toe.
+    ``transitions`` those at which the order of the events may matter, ``shear`` those where the model of shear does,
+    ``checks`` those that decide beside the toe.
     """
 
     total: int
@@ -282,6 +299,7 @@ class Tally:
     stress: StressExtent = field(default_factory=StressExtent)
     transitions: Transitions = field(default_factory=Transitions)
     checks: Decisive = field(default_factory=Decisive)
+    shear: ShearTally = field(default_factory=ShearTally)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -298,6 +316,7 @@ class Tally:
         self.extents += group.model.extents
         self.stress.add(group.model, result)
         self.transitions.add(group.model.stations, result)
+        self.shear.add(group.model.stations, result)
         self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
@@ -320,10 +339,12 @@ def write_tables(
     """
     body = work.groups.body
     wants_histograms, wants_checks = work.histogram != "none", has_checks(body.case)
-    wanted = [*ASSESSED, *["histogram"] * wants_histograms, *["checks"] * wants_checks]
+    optional = {"histogram": wants_histograms, "checks": wants_checks, "path_cycles": work.shear is not None}
+    wanted = [*ASSESSED, "sensitivity", *(table for table, is_wanted in optional.items() if is_wanted)]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
+        paths = PathWriter(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
         done.checks.add(apart, body.case.checks.counts)
         for group in assessed:
             worst = write_group(tables, group, work, apart)
@@ -331,12 +352,16 @@ def write_tables(
             if histograms:
                 binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
                 histograms.add([kept_point(group.model, point) for point in binned])
+            if paths:
+                paths.add(kept_paths(group))
             done.add(group, work, worst)
             del group  # not to be held until the next one is there
             give_back()
         cycles.flush()
         if histograms:
             histograms.flush()
+        if paths:
+            paths.flush()
         if wants_checks:
             tables["checks"].write(check_table_rows(apart, body.curves, body.compared.lines))
         tables["welds"].write(excluded_rows(body.excluded))
@@ -351,7 +376,8 @@ def write_group(
     """
     model, result, plan = group.model, group.result, work.plan
     stations, worst = model.stations, worst_points(model.stations, result)
-    tables["nodes"].write(node_rows(stations, result, plan))
+    statuses = [rated.curve.status for rated in model.curve_of_weld]
+    tables["nodes"].write(node_rows(stations, result, plan, statuses))
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))
@@ -361,6 +387,7 @@ def write_group(
         tables["checks"].write(check_table_rows(result.checks, model.body.curves, model.body.compared.lines))
         of_checks = verdicts(joined([result.checks, apart]), stations.names, model.case.checks.counts)
     tables["welds"].write(weld_rows(model, plan, result, worst, of_checks))
+    tables["sensitivity"].write(sensitivity_rows(model, result, worst, work.sampling))
     return worst
 
 
@@ -377,8 +404,10 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     of_order = done.transitions.warnings(work.plan)
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
+    of_shear = done.shear.warnings(work.loads)
     of_checks = done.checks.warnings(body.case.path.name)
-    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order, *of_checks]
+    of_order = [*of_order, *of_shear, *of_checks]
+    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order]
 
 
 def one_blas_thread() -> threadpool_limits:

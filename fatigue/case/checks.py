@@ -13,6 +13,7 @@ from fatigue.case.check_problems import (
     unused_files,
 )
 from fatigue.case.problems import absent, clash, path_problems
+from fatigue.case.quality import StressCategory
 from fatigue.case.table import NotNegative, Positive, Table, Text
 from fatigue.errors import Problem
 
@@ -109,6 +110,10 @@ class Checks(Table):
     )
     endurance: Annotated[tuple[EnduranceCheck, ...], Field(strict=False)] = Field(
         default=(), description="one [[checks.endurance]] table per check between static load cases"
+    )
+
+    stress_category: StressCategory | None = Field(
+        default=None, description="a [checks.stress_category] table; left out: 'medium' from 0.75, 'high' from 0.9 on"
     )
 
     def _contradictions(self) -> Iterator[Problem]:

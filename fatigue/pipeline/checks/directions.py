@@ -4,11 +4,11 @@ The stress in a direction is a sum of a few stresses of the point, linear in all
 sin psi in a throat, three components in a plate. Damage is counted for every direction over the whole mission, and only
 then compared: the worst direction of each event would be another one, and their sum belongs to no crack.
 
-Each record is turned into the few stresses of the point first, which are then summed up in every direction. So a
-direction costs the search for cycles, and not the superposition of all modes once more.
+A record in memory is turned into the few stresses of each point first, which are then summed up in every direction. So
+a direction costs the search for cycles, and not the superposition of all modes once more.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,13 +18,13 @@ from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.life.records.spool import Spool
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.checks.signals import Signals, counted_damage, without_spectrum
-from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.checks.signals import Signals, counted_damage
+from fatigue.pipeline.mission.event_load import EventLoad, without_spectrum
 
 Floats = NDArray[np.float64]
 
 EQUAL = 1.0 - 1e-9  # damages that only rounding tells apart: the first of them is taken
-LONGEST = 4_000_000  # samples of a record of which the stresses of one point are held in memory: 64 MB of two
+AT_ONCE = 4_000_000  # stress samples recovered before directions are counted: 32 MB; those of one point at least
 
 
 def half_circle(step_deg: float) -> Floats:
@@ -54,50 +54,59 @@ def worst_directions(
     NumericalError : stress or damage exceeds double precision
     """
     found = np.zeros(len(parts), dtype=np.intp)
-    for point, of_point in enumerate(parts):
-        size_of_point = float(size[point])
-        value = direction_damage(of_point, sums, size_of_point, rule, loads, plan, names)
-        if not value.any():
-            value = direction_ranges(of_point, sums, loads, plan)
-        found[point] = int((value >= EQUAL * value.max()).argmax())
+    samples = max(load.counted.q.shape[1] for load in loads)
+    on_disk = any(isinstance(load.counted.q, Spool) for load in loads)
+    at_once = 1 if on_disk else max(1, AT_ONCE // (samples * len(loads) * parts.shape[1]))
+    for first in range(0, len(parts), at_once):
+        some = parts[first : first + at_once]
+        records = [[] if on_disk else list(_of_points(load, some)) for load in loads]
+        for number, of_point in enumerate(some):
+            coordinates, stress = loads, sums @ of_point
+            if not on_disk:
+                coordinates, stress = [record[number] for record in records], sums
+            point = first + number
+            value = direction_damage(stress, float(size[point]), rule, coordinates, plan, names)
+            if not value.any():
+                value = direction_ranges(stress, coordinates, plan)
+            found[point] = int((value >= EQUAL * value.max()).argmax())
     return found
 
 
 def direction_damage(
-    parts: Floats, sums: Floats, size: float, rule: CycleRule, loads: Sequence[EventLoad], plan: Plan, names: str
+    stress: Floats, size: float, rule: CycleRule, loads: Sequence[EventLoad], plan: Plan, names: str
 ) -> Floats:
-    """Damage per km (d,) of the stress of one point in every direction, its stresses ``parts`` (p, c)."""
-    short = all(load.counted.q.shape[1] <= LONGEST and not isinstance(load.counted.q, Spool) for load in loads)
-    of_point = [_of_point(load, parts) if short else without_spectrum(load) for load in loads]
-    stress = sums if short else sums @ parts
+    """Damage per km (d,) of the stress in every direction, (d, c) per unit coordinate."""
+    d = len(stress)
     if rule.uses_bending_ratio:  # a pair of directions is no membrane and bending
-        signals = Signals(stress, np.zeros_like(stress), np.full(len(stress), size), rule)
-        return counted_damage(signals, of_point, plan, names)[:, 0]
+        signals = Signals(stress, np.zeros_like(stress), np.full(d, size), rule)
+        return counted_damage(signals, loads, plan, names)[:, 0]
     one, other = stress[0::2], np.zeros_like(stress[0::2])
-    other[: len(stress) // 2] = stress[1::2]
+    other[: d // 2] = stress[1::2]
     signals = Signals.of_pairs(one, other, np.full(len(one), size), rule)
-    return counted_damage(signals, of_point, plan, names).reshape(-1)[: len(stress)]
+    return counted_damage(signals, loads, plan, names).reshape(-1)[:d]
 
 
-def direction_ranges(parts: Floats, sums: Floats, loads: Sequence[EventLoad], plan: Plan) -> Floats:
-    """Largest range (d,) of the stress of one point in every direction [MPa], of the events that occur."""
-    largest = np.zeros(len(sums))
+def direction_ranges(stress: Floats, loads: Sequence[EventLoad], plan: Plan) -> Floats:
+    """Largest range (d,) of the stress in every direction [MPa], of the events that occur."""
+    largest = np.zeros(len(stress))
     for load, one_pass in zip(loads, plan.passes, strict=True):
         if one_pass.passes_per_km > 0.0:
-            chunks = [(c.min(axis=1), c.max(axis=1)) for c in stress_chunks(sums @ parts, load.counted.q)]
+            chunks = [(c.min(axis=1), c.max(axis=1)) for c in stress_chunks(stress, load.counted.q)]
             low, high = (np.array(ends) for ends in zip(*chunks, strict=True))
             largest = np.maximum(largest, load.stress_factor * (high.max(axis=0) - low.min(axis=0)))
     return largest
 
 
-def _of_point(load: EventLoad, parts: Floats) -> EventLoad:
-    """An event with the stresses of one point (p, c) as its coordinates."""
-    record = replace(load.counted, mode=np.arange(len(parts)), q=stress_history(parts, load.counted.q))
-    return replace(
-        without_spectrum(load),
-        counted=record,
-        single=None,
-        mean=parts @ load.mean,
-        offset=parts @ load.offset,
-        covariance=parts @ load.covariance @ parts.T,
-    )
+def _of_points(load: EventLoad, parts: Floats) -> Iterator[EventLoad]:
+    """An event for each of some points, with the stresses of the point, ``parts`` (k, p, c), as its coordinates."""
+    k, p, c = parts.shape
+    stress = stress_history(parts.reshape(k * p, c), load.counted.q).reshape(k, p, -1)
+    for of_point, q in zip(parts, stress, strict=True):
+        yield replace(
+            without_spectrum(load),
+            counted=replace(load.counted, mode=np.arange(p), q=q),
+            single=None,
+            mean=of_point @ load.mean,
+            offset=of_point @ load.offset,
+            covariance=of_point @ load.covariance @ of_point.T,
+        )

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import EnduranceCheck
-from fatigue.life.curves import Quantity
 from fatigue.life.endurance.haigh import (
     COMPONENTS,
     EnduranceLine,
@@ -21,7 +20,7 @@ from fatigue.life.endurance.zonotope import Signs, corner_signs, corners, diamet
 from fatigue.pipeline.checks.case_stress import CaseStress, stress_at_points, stress_at_welds
 from fatigue.pipeline.checks.rows import NOT_ASSESSED, CheckRows, check_rows, joined
 from fatigue.pipeline.solve.body import Body
-from fatigue.pipeline.solve.compared_cases import endurance_range, quantity_of
+from fatigue.pipeline.solve.compared_cases import endurance_range
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.readers.neutral.endurance.static_cases import CaseGroup
@@ -50,28 +49,26 @@ def point_endurance(body: Body, stress: PointStress | None) -> CheckRows:
 def _rows_of(body: Body, check: EnduranceCheck, stress: CaseStress, note: str = "") -> CheckRows:
     """Rows of one check of a body."""
     curve = None if check.curve is None else body.curves[check.curve]
-    quantity = quantity_of(body.case, check.curve or "")
-    return endurance_rows(check, body.compared.lines_of(check), curve, quantity, stress, note)
+    return endurance_rows(check, body.compared.lines_of(check), curve, stress, note)
 
 
 def endurance_rows(
     check: EnduranceCheck,
     lines: Sequence[EnduranceLine],
     curve: RatedCurve | None,
-    quantity: Quantity,
     stress: CaseStress,
     note: str = "",
 ) -> CheckRows:
     """Rows of one endurance check at n points: of each line and of the curve, then of the combination of the lines.
 
-    ``quantity`` is the stress that the curve is for, ``note`` what a reader of the combination has to know.
+    ``note`` is what a reader of the combination has to know.
     """
     if not len(stress):
         return joined([])
     common = dict(stress.place) | {"check": "endurance", "plane_range_MPa": _plane_range(stress)}
     rows = [_line_rows(line, stress, common) for line in lines]
     if curve is not None:
-        rows.append(_curve_rows(curve, quantity, stress, common))
+        rows.append(_curve_rows(curve, stress, common))
     if check.limit is not None:
         rows.append(_combined_rows(check.limit, check.kappa, lines, stress, common, note))
     return joined(rows)
@@ -100,11 +97,15 @@ def _line_rows(line: EnduranceLine, stress: CaseStress, common: Mapping[str, Any
     )
 
 
-def _curve_rows(rated: RatedCurve, quantity: Quantity, stress: CaseStress, common: Mapping[str, Any]) -> CheckRows:
-    """Design range of the worst cycle over the cut-off of a curve, or over its last knee."""
-    component = COMPONENTS.index("perp" if quantity == "normal" else "shear")
+def _curve_rows(rated: RatedCurve, stress: CaseStress, common: Mapping[str, Any]) -> CheckRows:
+    """Design range of the worst cycle over the cut-off of a curve, or over its last knee.
+
+    Where the curve allows for the stress ratio the widest cycle is still the worst one: no cycle inside it is worse.
+    """
+    component = COMPONENTS.index("perp" if rated.curve.quantity == "normal" else "shear")
     minimum, maximum, names = _worst_cycle(stress, component)
-    u = rated.size(stress.thickness) * (maximum - minimum) / endurance_range(rated)
+    of_ratio = rated.rule.mean_stress_factor(minimum, maximum)
+    u = rated.size(stress.thickness) * (maximum - minimum) / of_ratio / endurance_range(rated)
     of = "cut-off" if rated.rule.law.cutoff > 0.0 else "last knee"
     return check_rows(
         len(stress),

@@ -1,7 +1,7 @@
 """Linear stresses of some points, counted over the mission as the stress at a toe is."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -15,7 +15,7 @@ from fatigue.pipeline.count.block import Block
 from fatigue.pipeline.count.joined.loops import PassResidue, joined_events, pass_residue
 from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.overflow import no_overflow
-from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.event_load import EventLoad, without_spectrum
 from fatigue.pipeline.mission.offsets import face_offset
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.weld.structural_stress import RawEnds, StructuralStress
@@ -58,11 +58,6 @@ class Signals:
             raw_ends=RawEnds(np.zeros(0, dtype=np.intp), StructuralStress(*(no_rows,) * 5)),
             raw_end_matters=np.zeros(0, dtype=np.bool_),
         )
-
-
-def without_spectrum(load: EventLoad) -> EventLoad:
-    """The event without what only the frequency domain needs: checks are counted."""
-    return replace(load, moments=None, moment_pairs=(), pairs_above=(), trust=None)
 
 
 def counted_mission(signals: Signals, loads: Sequence[EventLoad], plan: Plan, names: str) -> MissionBlock:

@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.case import Case, EnduranceCheck, Interaction
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import Quantity
+from fatigue.life.curves import SNCurve
 from fatigue.life.endurance.haigh import EnduranceLine
 from fatigue.pipeline.solve.rated_curves import AskedCurve, RatedCurve
 from fatigue.readers.neutral.body.coordinates import Coordinates
@@ -55,17 +55,13 @@ def read_compared(
     return Compared(groups, lines), warnings
 
 
-def endurance_curves(case: Case) -> Iterator[AskedCurve]:
+def endurance_curves(case: Case, curves: Mapping[str, SNCurve]) -> Iterator[AskedCurve]:
     """Curves that the endurance checks of a case ask for, each for the stress that it is a curve of."""
     for number, check in enumerate(case.checks.endurance, 1):
         if check.curve is not None:
             where = f"{case.path.name}: checks.endurance[{number}].curve"
-            yield AskedCurve(check.curve, where, quantity=quantity_of(case, check.curve))
-
-
-def quantity_of(case: Case, curve: str) -> Quantity:
-    """The stress that a curve is for; those of the catalogue are for normal stress."""
-    return case.curves[curve].quantity if curve in case.curves else "normal"
+            quantity = curves[check.curve].quantity if check.curve in curves else "normal"
+            yield AskedCurve(check.curve, where, use="endurance", quantity=quantity)
 
 
 def refuse_wrong_checks(

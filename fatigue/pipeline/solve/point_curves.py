@@ -1,9 +1,10 @@
 """The S-N curves that stress points ask for."""
 
 from collections.abc import Iterator
+from typing import cast
 
 from fatigue.life.curves import Quantity
-from fatigue.pipeline.solve.rated_curves import AskedCurve
+from fatigue.pipeline.solve.rated_curves import AskedCurve, Use
 from fatigue.readers.neutral.points.stress_points import CHECK_OF, StressPoints
 
 
@@ -21,4 +22,4 @@ def point_curves(points: StressPoints | None) -> Iterator[AskedCurve]:
             first.setdefault((name, CHECK_OF[kind]), point)
         for (name, use), point in first.items():
             if name:
-                yield AskedCurve(name, f"{points.file}: point {point}: {column}", use, quantity)
+                yield AskedCurve(name, f"{points.file}: point {point}: {column}", cast(Use, use), quantity)

@@ -6,12 +6,15 @@ from typing import Any
 
 import numpy as np
 
+from fatigue.case import stress_categories
 from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.verdict import Verdicts
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import EQUAL, WorstPoint
 from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.tables.quality import quality_rows
 from fatigue.pipeline.tables.rows import FACES
+from fatigue.readers.neutral.body.welds import QUALITY
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
@@ -56,8 +59,12 @@ def weld_rows(
         "thickness_max_mm": np.maximum.reduceat(stations.thickness, first[:-1]),
         "surface": [weld.surface for weld in welds],
         "curve": [rated.curve.name for rated in curves],
+        "curve_status": [rated.curve.status for rated in curves],
+        "edition": [rated.curve.edition for rated in curves],
         "survival": [rated.survival for rated in curves],
         "end_length_mm": [np.nan if weld.end_length is None else weld.end_length for weld in welds],
+        "attachment_mm": [np.nan if weld.attachment is None else weld.attachment for weld in welds],
+        "damage_limit": [rated.damage_limit(plan.damage_limit) for rated in curves],
         "life_km": life,
         "life_years": life / plan.km_per_year,
         "utilisation": [mission.utilisation[i] for i in at],
@@ -72,6 +79,12 @@ def weld_rows(
         "worst_summed_corner": [bool(stations.summed_corner[p.station]) for p in worst],
         "governing_event": [events[mission.governing[i]] for i in at],
         **_of_checks(checks, len(welds)),
+        **quality_rows(
+            welds,
+            load_factor,
+            None if checks is None else checks.utilisation,
+            stress_categories(model.case.checks.stress_category),
+        ),
     }
 
 
@@ -97,6 +110,7 @@ def excluded_rows(excluded: Sequence[RegisterRow]) -> dict[str, Any]:
         "description": [description_of([row]) for row in excluded],
         "nodes": [row.nodes or None for row in excluded],
         "length_mm": [row.length for row in excluded],
+        **{name: [getattr(row, name) or None for row in excluded] for name in QUALITY},
     }
 
 

@@ -125,7 +125,8 @@ def _refuse_misfits(table: Table, joint: NDArray[np.str_], sides: NDArray[np.str
     what = "both does not go with joint lap: a plate is lapped on one of its faces"
     table.report((joint == "lap") & (sides == "both"), "contradiction", "sides", what, "Give top or bottom")
     what = "the lever t does not go with a weld on one side, which has no couple"
-    table.report((lever == "t") & (sides != "both"), "contradiction", "lever", what, "Leave it empty")
+    one = (sides == "top") | (sides == "bottom")
+    table.report((lever == "t") & one, "contradiction", "lever", what, "Leave it empty")
     for name in SECTION:
         given = ~np.isnan(table.numbers(name, default=np.nan))
         what, remedy = "the value is given although joint is not custom", "Leave it empty, or give joint custom"
