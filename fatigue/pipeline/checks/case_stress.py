@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from fatigue.case import EnduranceCheck
 from fatigue.pipeline.solve.body import Body
-from fatigue.pipeline.solve.compared_cases import looks_at_welds
 from fatigue.pipeline.solve.modal_stress import faces
 from fatigue.pipeline.solve.model import Model
 from fatigue.readers.neutral.endurance.static_cases import CaseGroup
@@ -48,7 +47,7 @@ class CaseStress:
 def stress_at_welds(model: Model, check: EnduranceCheck) -> CaseStress:
     """Stress of the cases of a check at the toes of the welds that it is for: across the weld, and shear."""
     stations, group = model.stations, model.body.compared.groups[check.cases]
-    looked_at = set(check.welds or stations.names) if looks_at_welds(check) else set()
+    looked_at = set(check.welds or stations.names)
     asked = np.array([name in looked_at for name in stations.names])
     at, face = np.nonzero(stations.toe & asked[stations.weld][:, None])
     stress, n = stations.treated, np.arange(at.size)

@@ -20,7 +20,7 @@ from fatigue.life.endurance.zonotope import Signs, corner_signs, corners, diamet
 from fatigue.pipeline.checks.case_stress import CaseStress, stress_at_points, stress_at_welds
 from fatigue.pipeline.checks.rows import NOT_ASSESSED, CheckRows, check_rows, joined
 from fatigue.pipeline.solve.body import Body
-from fatigue.pipeline.solve.compared_cases import endurance_range
+from fatigue.pipeline.solve.compared_cases import endurance_range, looks_at_welds
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.readers.neutral.endurance.static_cases import CaseGroup
@@ -36,7 +36,7 @@ WITHOUT_PAR = "without the stress along the weld, which line forces do not have"
 
 def weld_endurance(model: Model) -> CheckRows:
     """Rows of the endurance checks at the weld toes of some welds: across the weld, and shear."""
-    checks = model.case.checks.endurance
+    checks = [check for check in model.case.checks.endurance if looks_at_welds(check)]
     return joined([_rows_of(model.body, check, stress_at_welds(model, check), WITHOUT_PAR) for check in checks])
 
 

@@ -182,3 +182,15 @@ def test_lines_that_no_weld_is_checked_by_cost_nothing(tmp_path):
     path = write_case(tmp_path, FILES + check(perp="across"), lines=LINES + "other,par,-1,5,e,c\nother,par,0,6,e,c\n")
     assert load_case(path)
     assert len(weld_endurance(read_model(path))) == 6
+
+
+def test_partial_factors_and_the_stress_ratio_are_in_the_design_range(tmp_path):
+    """Gamma multiplies the range; f(R) of low residual stress divides it, with the static load in R."""
+    of_curve = "\n[curves.low-36]\nslopes = [3.0, 5.0]\nknees_cycles = [1e7]\nrange_at_2e6_MPa = 36.0\n"
+    of_curve += 'applies = "structural"\nsource = "invented"\ngamma_Ff = 1.1\nmean_stress = "iiw_low"\n'
+    only = '[checks]\nstatic_cases = "cases.csv"\n'
+    path = write_case(tmp_path, of_curve + only + check(curve="low-36"))
+    rows = weld_endurance(read_model(path))
+    found = row(rows[rows["order"] == 2], "perp")
+    f = 1.2 + 0.4 * 0.661971830986
+    np.testing.assert_allclose(found["utilisation_stress"], 1.1 * 70.8 / f / (36.0 * 0.584803547643), rtol=1e-9)

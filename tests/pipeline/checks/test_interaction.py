@@ -187,3 +187,34 @@ def test_a_plan_of_another_target_scales_the_sums(counted):
     work, model, result = counted
     twice = rows_of(work, model, result, replace(work.plan, target_km=3000.0))
     np.testing.assert_allclose(twice["en1993"]["value"], 2.0 * rows_of(*counted)["en1993"]["value"])
+
+
+def test_a_named_method_of_shear_is_not_counted_twice(tmp_path, counted):
+    """Where the assessment has shear in its damage, the normal stress is counted by itself for the rule."""
+    case = compared_case('[multiaxial]\nmethod = "range"\n' + RULES)
+    work, model, result = opened(tmp_path, case)
+    assert (result.mission.damage_per_km[1] > counted[2].mission.damage_per_km[1]).any()
+    before = rows_of(*counted)
+    for rule, rows in rows_of(work, model, result).items():
+        for name in ("value", "normal_part", "shear_part", "utilisation_stress"):
+            np.testing.assert_allclose(rows[name], before[rule][name], rtol=1e-9, err_msg=f"{rule} {name}")
+
+
+def test_partial_factors_are_on_the_ranges(tmp_path, counted):
+    """Factors of 1.1 and 1.2 on the ranges are 1.1^3 and 1.2^5 in the damage, cut-off aside."""
+    case = compared_case(RULES)
+    for curve, key in (("fillet-36", "gamma_Ff = 1.1"), ("shear-28", "gamma_Mf = 1.2")):
+        case.extra = case.extra.replace(f"[curves.{curve}]", f"[curves.{curve}]\n{key}")
+    after, before = rows_of(*opened(tmp_path, case))["en1993"], rows_of(*counted)["en1993"]
+    np.testing.assert_allclose(after["normal_part"], 1.1**3 * before["normal_part"], rtol=1e-9)
+    np.testing.assert_allclose(after["shear_part"][0], 1.2**5 * before["shear_part"][0], rtol=1e-9)
+
+
+def test_the_limit_of_a_curve_is_not_that_of_a_rule(tmp_path, counted):
+    """A damage limit of a curve is for its own sum; a rule has its own."""
+    case = compared_case(RULES)
+    case.extra = case.extra.replace("[curves.fillet-36]", "[curves.fillet-36]\ndamage_limit = 0.3")
+    after, before = rows_of(*opened(tmp_path, case)), rows_of(*counted)
+    for rule in before:
+        for name in ("value", "utilisation_stress", "limit_value"):
+            np.testing.assert_allclose(after[rule][name], before[rule][name], rtol=1e-9, err_msg=f"{rule} {name}")
