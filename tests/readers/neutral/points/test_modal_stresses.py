@@ -185,10 +185,7 @@ LOAD = row_of(stresses(), unit_load="gravity")
             changed(stresses(), "distance_mm", 4, 9.0),
             "s{}: column distance_mm, row 4: 9 mm of point a, read-out 1 was 10 mm before. Give one distance to each",
         ),
-        (
-            changed(stresses(), "distance_mm", 4, -4.0),
-            "s{}: column distance_mm, row 4: -4 is below 0. Give at least 0.",
-        ),
+        (changed(stresses(), "distance_mm", 4, -4.0), "s{}: column distance_mm, row 4: -4 is below 0. Give at least 0."),
         (changed(stresses(), "read_out", 4, 1.5), "s{}: column read_out, row 4: 1.5 is not a whole number."),
     ],
 )

@@ -71,10 +71,7 @@ def test_optional_columns(tmp_path):
             "column kind, row 3: 'hot_spot_c' is not one of hot_spot_a, hot_spot_b, nominal, parent, haz. Give one of",
         ),
         (changed(POINTS, "weld", 1, "seem"), "column weld, row 1: 'seem' is not one of the welds. Write 'seam'."),
-        (
-            changed(POINTS, "curve", 1, "fat-9"),
-            "column curve, row 1: 'fat-9' is not one of the curves. Write 'fat-90'.",
-        ),
+        (changed(POINTS, "curve", 1, "fat-9"), "column curve, row 1: 'fat-9' is not one of the curves. Write 'fat-90'."),
         (changed(POINTS, "curve", 1, None), "column curve, row 1: the text is missing. Give a text."),
         (changed(POINTS, "curve_shear", 1, "none"), "column curve_shear, row 1: 'none' is not one of the curves."),
         (
