@@ -110,7 +110,7 @@ def test_wrong_endurance_checks(load, text, message):
         ),
         (
             '[checks]\nstatic_cases = "c.csv"\n',
-            "static_cases: static_cases = 'c.csv' is given, and no [[checks.endurance]] compares its cases. Add [[chec",
+            "static_cases: static_cases = 'c.csv' is given, and no [[checks.endurance]] compares its cases. Add",
         ),
         (
             FILES + '[[checks.endurance]]\ncases = "ride"\ncurve = "c"\n',

@@ -1,11 +1,15 @@
 """Static load cases: what the file says arrives, and what it says wrong is told."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from fatigue.case import load_case
 from fatigue.errors import DataError
 from fatigue.readers.neutral.body.coordinates import Coordinates
-from fatigue.readers.neutral.body.modes import Modes
+from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.endurance.endurance_lines import read_endurance_lines
 from fatigue.readers.neutral.endurance.static_cases import read_static_cases
 from tests.readers.neutral_tables import changed, without, write
 
@@ -137,3 +141,17 @@ def test_bad_cases(tmp_path, suffix, columns, message):
     """Every mistake in the cases names file, column, row and value."""
     path = write(tmp_path / f"c{suffix}", columns)
     assert refusal(path).startswith(f"c{suffix}:{' ' * (message[0] != ' ')}{message}")
+
+
+def test_the_tables_of_the_example_are_read():
+    """Static load cases and invented lines of the car body go with its unit loads."""
+    folder = Path(__file__).parents[4] / "data" / "carbody"
+    case = load_case(folder / "case_loads.toml")
+    modes, _ = read_modes(folder / "modes.csv", (), strict=True)
+    loads = Coordinates(modes, tuple(load.name for load in case.body.unit_load))
+    groups, warnings = read_static_cases(folder / "static_cases.csv", loads, ())
+    lines, of_lines = read_endurance_lines(folder / "endurance_lines.csv", (), strict=True)
+    assert warnings + of_lines == []
+    assert {name: len(group.cases) for name, group in groups.items()} == {"ride": 3, "stops": 4}
+    assert {line.component for line in lines.values()} == {"perp", "shear"}
+    assert all("invented" in line.name and "invented" in line.edition for line in lines.values())
