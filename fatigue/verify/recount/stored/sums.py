@@ -35,6 +35,9 @@ _DAMAGE = (*(f"{name}_{per}" for name in PER_PASS for per in ("per_pass", "per_k
 _ROWS_AT_ONCE = 1 << 18  # of the table of points and events
 
 
+_SUMS = {"asme": "utilisation_asme", **{one: f"utilisation_path_{one}" for one in ("range", "length", "mlp")}}
+
+
 class Sum(NamedTuple):
     """Values of a column and what other columns say they are: numbers, (n,), of some keys, (n,)."""
 
@@ -83,7 +86,8 @@ def _of_points(
     """Columns of points as the columns of their events make them, and numbers per km as numbers per pass do."""
     e = len(events)
     keys = (points[:, None] * e + np.arange(e)).ravel()
-    node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), _NODES))
+    sums = [name for method, name in _SUMS.items() if case.get("multiaxial", {}).get("method") == method]
+    node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), [*_NODES, *sums]))
     damage = {
         name: column.reshape(-1, e)
         for name, column in _columns(read_rows(stored.folder, "damage", stored.damage.of(keys), _DAMAGE)).items()
@@ -94,9 +98,11 @@ def _of_points(
         yield Sum("damage", f"{name}_per_km", damage[f"{name}_per_km"].ravel(), per_km.ravel(), keys)
 
     mission, weight = case["mission"], np.array([event.passes_per_km for event in events])
-    limit, target = mission.get("damage_limit", 1.0), mission["target_km"]
+    limit, target = limits(stored, mission)[points // 2], mission["target_km"]
     share = weight * damage["damage_per_pass"]
-    total, has_spectrum = share.sum(axis=1), ~np.isnan(damage["damage_dirlik_per_pass"])
+    method = case.get("multiaxial", {}).get("method", "report")
+    by_method = node[_SUMS[method]] * limit / target if method in _SUMS else np.full(len(points), np.nan)
+    total, has_spectrum = np.fmax(share.sum(axis=1), by_method), ~np.isnan(damage["damage_dirlik_per_pass"])
     spectral = {
         name: np.where(
             has_spectrum.any(axis=1),
@@ -128,6 +134,15 @@ def _of_points(
     yield Sum("nodes", "governing_event", share[named, at], share[named].max(axis=1, initial=0.0), points[named])
     for name in OF_GOVERNING:
         yield Sum("nodes", name, node[name][named], damage[name][named, at], points[named])
+
+
+def limits(stored: Stored, mission: Mapping[str, Any]) -> Floats:
+    """Largest Miner sum allowed at every station, by the curve of its weld."""
+    of_mission = mission.get("damage_limit", 1.0)
+    if "damage_limit" not in stored.welds:
+        return np.full(len(stored.body), of_mission, dtype=np.float64)
+    of_welds = stored.welds["damage_limit"].loc[list(stored.body.welds)].fillna(of_mission).to_numpy(float)
+    return np.asarray(of_welds[stored.body.weld])
 
 
 def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
