@@ -6,7 +6,7 @@ the order of events. ``load`` reads and checks a case file, ``problems`` says wh
 file, ``plausibility`` what is allowed and hardly meant.
 """
 
-from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
+from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Method, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
@@ -34,6 +34,7 @@ __all__ = [
     "Event",
     "Interaction",
     "MeanOfQ",
+    "Method",
     "Mission",
     "Multiaxial",
     "Spectrum",

@@ -23,6 +23,7 @@ from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.sensitivity import sensitivity
 from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
@@ -103,6 +104,7 @@ def report_page(
         "assumptions": method.assumptions(record),
         "warnings": _warnings([*record["warnings"], *spectra_warnings(spectra)]),
         "worst_welds": tables.weld_table(result.assessed, links),
+        **sensitivity(result, links),
         "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
         # figures are numbered in the order of these lines, the order of the page
         "weld_lives": body_sections.lives(result, figs),

@@ -6,6 +6,7 @@ from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.dictionary.nodes import NODES
+from fatigue.results.dictionary.sensitivity import SENSITIVITY
 from fatigue.results.dictionary.welds import WELDS
 
 DAMAGE = (
@@ -279,5 +280,6 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "diagnosis": DIAGNOSIS,
     "levers": LEVERS,
 }
-OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, **CHECKED}  # of an assessment that asks for them
+OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, "sensitivity": SENSITIVITY, **CHECKED}
+"""Tables of an assessment that older versions do not write, or only one that asks for them does."""
 TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED

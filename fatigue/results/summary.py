@@ -10,8 +10,10 @@ import pandas as pd
 
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
 from fatigue.results.belonging import refuse_mixed
+from fatigue.results.dictionary.sensitivity import VARIANTS
 from fatigue.results.provenance import read_provenance
 from fatigue.results.rows import read_rows, worst_toes
+from fatigue.results.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
 from fatigue.shown import few, shortened, visible
 
@@ -43,6 +45,7 @@ class Summary:
     welds: pd.DataFrame
     not_assessed: pd.DataFrame
     points: pd.DataFrame
+    sensitivity: Sensitivity | None = None
 
     @property
     def fulfilled(self) -> bool:
@@ -59,6 +62,7 @@ class Summary:
             "welds": self.welds.to_dict("records"),
             "not_assessed": self.not_assessed.to_dict("records"),
             "points": self.points.to_dict("records"),
+            "sensitivity": None if self.sensitivity is None else self.sensitivity.as_record(),
         }
 
     def as_text(self) -> str:
@@ -81,6 +85,7 @@ class Summary:
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
                 *self._at_summed_corners(),
                 *self._left_out(),
+                *self._otherwise(),
                 "",
                 "The worst point" if len(self.points) == 1 else f"The {len(self.points)} worst points",
                 _text_table(
@@ -109,6 +114,22 @@ class Summary:
             return []
         what = "whose nodal forces are one sum of both legs, so the life there is not bounded"
         return ["", f"Worst at a corner {what}: {few(names, MOST_LEFT_OUT)}"]
+
+    def _otherwise(self) -> list[str]:
+        """Say which welds change their verdict under which other assumptions."""
+        found = self.sensitivity
+        if found is None:
+            return []
+        lines = [""]
+        if found.flipping:
+            lines += ["Verdict under other assumptions, utilisation (* the verdict changes)", *_flipping(found)]
+        for words, names in (
+            ("No verdict changes under", found.steady),
+            ("As assessed", [f"{name} ({why})" for name, why in found.own.items()]),
+            ("Not decided for some welds under", [f"{n} ({len(rows)})" for n, rows in found.undecided.items()]),
+        ):
+            lines += [f"{words}: {', '.join(names)}"] if names else []
+        return lines
 
     def _across_events(self) -> list[str]:
         """Say what cycles across events are of the damage of the points, or may be."""
@@ -156,7 +177,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         raise CaseError(Problem("argument", "top", f"{top!r} is no number of points", "Give a whole number from 1 on"))
     folder, only = given_path(folder, "folder"), given_names(only, "only")
     record = read_provenance(folder)
-    refuse_mixed(folder, record, ("nodes", "welds"))
+    refuse_mixed(folder, record, ("nodes", "welds", "sensitivity"))
     every = read_welds(folder)
     welds, left_out = assessed(every), not_assessed(every)
     unknown = sorted(set(only) - set(welds["weld"]))
@@ -167,7 +188,9 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         names = ", ".join(sorted(welds["weld"])[:MOST_WELDS])
         raise DataError(Problem("unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {names}"))
     across = ("damage_per_km", *_ACROSS) if _joins_events(record) else ()
+    sensitivity = read_sensitivity(folder, welds)
     if only:
+        sensitivity = None if sensitivity is None else sensitivity.of_welds(only)
         welds, left_out = welds[welds["weld"].isin(only)], left_out[:0]
     return Summary(
         title=record["title"],
@@ -176,6 +199,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         welds=welds,
         not_assessed=left_out,
         points=read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas(),
+        sensitivity=sensitivity,
     )
 
 
@@ -195,6 +219,24 @@ def assumptions(record: dict[str, Any]) -> str:
         f"damage limit {record['mission']['damage_limit']:g}{screened and screened + 'of it have bounds only'}"
         f"{sequences}"
     )
+
+
+def _flipping(found: Sensitivity) -> list[str]:
+    """Table of the welds whose verdict changes, one column a variant under which any does, and what these mean."""
+    welds, variants = found.flipping[:MOST_LEFT_OUT], found.changing
+    table: dict[str, list[str]] = {"weld": welds, "as assessed": [_cell(float(found.assessed[w])) for w in welds]}
+    for name in variants:
+        rows = found.under(name).loc[welds]
+        table[name] = [
+            in_words(row.utilisation, row.basis, row.fulfilled, _cell) + "*" * bool(row.flips)
+            for row in rows.itertuples()
+        ]
+    others = len(found.flipping) - len(welds)
+    return [
+        _text_table(pd.DataFrame(table), list(table)),
+        *([f"and {others} others, see sensitivity.parquet"] if others else []),
+        *(f"{name}: {VARIANTS[name]}" for name in variants),
+    ]
 
 
 def _joins_events(record: dict[str, Any]) -> bool:

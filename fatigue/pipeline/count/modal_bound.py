@@ -40,9 +40,15 @@ def estimated_and_bounded(block: Block, screening: Screening) -> tuple[tuple[Est
 
 def without_small_raw_ends(block: Block, screening: Screening) -> Block:
     """The same block; raw ends that are proven to stay below the share as well do not matter in it."""
-    ends = block.stress.raw_ends
-    if not ends.rows.size:
+    if not block.stress.raw_ends.rows.size:
         return block
+    matters = np.asarray((bounded_raw_ends(block, screening) >= screening.share).any(axis=1))
+    return replace(block, stress=replace(block.stress, raw_end_matters=matters))
+
+
+def bounded_raw_ends(block: Block, screening: Screening) -> NDArray[np.float64]:
+    """Largest share of the damage limit (e, 2) that the whole mission can use up at the raw ends of a block."""
+    ends = block.stress.raw_ends
     raw = replace(block.stress.at(ends.rows), membrane=ends.stress.membrane, bending=ends.stress.bending)
     bounds: list[Bound] = []
     means: list[NDArray[np.float64]] = []
@@ -55,16 +61,16 @@ def without_small_raw_ends(block: Block, screening: Screening) -> Block:
             bounds.append(event_bound(limits, raw, slice(None), load, means[-1]))
             first_slopes += _first_slopes(limits, raw, load, block.plan)
     junctions = _junctions(raw, means, first_slopes, block.plan)
-    used_up = utilisation(bounds, block.plan, junctions=junctions)
-    matters = np.asarray((used_up >= screening.share).any(axis=1))
-    return replace(block, stress=replace(block.stress, raw_end_matters=matters))
+    return utilisation(bounds, block.plan, junctions=junctions)
 
 
 def _first_slopes(
     limits: tuple[NDArray[np.float64], PowerSums], stress: ModalStress, load: EventLoad, plan: Plan
 ) -> list[NDArray[np.float64]]:
-    """The bound that junctions want of an event on a curve of several slopes; else none."""
-    return [first_slope_bound(limits, stress, load)] if plan.joins_events and not stress.rule.law.is_straight else []
+    """The bound that junctions want of an event on a curve of several slopes or allowances; else none."""
+    rule = stress.rule  # what is counted with allowances of a cycle is no bound of the same cycles in another order
+    wanted = plan.joins_events and not (rule.law.is_straight and rule.is_of_range_alone)
+    return [first_slope_bound(limits, stress, load)] if wanted else []
 
 
 def _junctions(

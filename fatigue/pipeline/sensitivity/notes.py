@@ -1,0 +1,36 @@
+"""Why a variant changes nothing at some welds, or what limits its number: told by code, as arrays hold it."""
+
+NOTES = (
+    "",
+    "the case asks for it",
+    "the curve is in structural stress, without a thickness in dS",
+    "the curve has no scatter",
+    "the curve has knees of its own",
+    "no weld end is treated",
+    "no record is upsampled",
+    "the job is large: its cycles are not counted again",
+    "the records are too long to be sampled anew",
+    "with sequences, what shear adds to a cycle between two events is not known",
+    "points that a bound has settled may be worse",
+    "of the weld no more stations were counted again",
+    "by what its samples per peak let expect of a point, the others were not counted again",
+    "shear, which decides, is not counted again",
+    "shear was not counted at every point",
+)
+(
+    NOTHING,
+    ASKED_FOR,
+    NO_DS,
+    NO_SCATTER,
+    OWN_KNEES,
+    NO_END,
+    NOT_UPSAMPLED,
+    LARGE,
+    LONG_RECORDS,
+    SEQUENCES,
+    BOUNDED,
+    MOST_COUNTED,
+    EXPECTED,
+    SHEAR_DECIDES,
+    SHEAR_LEFT,
+) = range(len(NOTES))

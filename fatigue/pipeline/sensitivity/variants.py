@@ -1,0 +1,152 @@
+"""Each variant at the stations of a curve: what is known of it in closed form, or why it changes nothing there."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from fatigue.life.rule import CycleRule, ratio_factor
+from fatigue.pipeline.sensitivity import notes
+from fatigue.pipeline.sensitivity.closed import (
+    KNEE,
+    LEVEL,
+    LIMIT,
+    Floats,
+    Varied,
+    first_slope,
+    first_slope_bound,
+    scaled,
+    steepened,
+    stronger,
+    survival_factor,
+    with_haibach,
+    with_law,
+)
+from fatigue.pipeline.sensitivity.sampling import OtherSampling
+from fatigue.pipeline.sensitivity.toes import Toes
+from fatigue.quotient import quotient
+from fatigue.spectrum.trust import sampling_loss, vertex_sampling_loss
+
+TIMES_EXPECTED = 2.0  # the loss by sampling that its samples per peak let expect of a point
+
+
+def varied(name: str, toes: Toes, sampling: OtherSampling) -> Varied | int:
+    """A variant at the stations of a curve, or the code of the note why it changes nothing."""
+    if name == sampling.variant:
+        return _sampled(toes, sampling)
+    return CLOSED[name](toes)
+
+
+def _shear_asme(toes: Toes) -> Varied | int:
+    """Shear combined as in ASME VIII-2 5.5.5.3; nothing is known of it where a bound stands for counting."""
+    factor = np.where(toes.utilisation > 0.0, toes.mission.factor_if_shear, 1.0)
+    value = toes.utilisation * factor
+    return Varied(np.where(toes.counted, value, np.nan), np.full_like(value, np.inf))
+
+
+def _raw_end(toes: Toes) -> Varied | int:
+    """Without the end treatment: counted where it matters."""
+    if not toes.stress.raw_ends.rows.size:
+        return notes.NO_END
+    raw = quotient(toes.plan.target_km, toes.mission.life_km_raw_end)
+    known = toes.counted & ~np.isnan(toes.mission.life_km_raw_end)
+    treated = np.ones(len(toes.rows), dtype=np.bool_)
+    treated[toes.stress.raw_ends.rows] = False
+    upper = np.where(treated[:, None], toes.utilisation, toes.raw_end_bound)
+    return Varied(np.where(known, raw, np.nan), upper)
+
+
+def _asme_thickness(toes: Toes) -> Varied | int:
+    rated, law = toes.rated, toes.rated.rule.law
+    if rated.curve.applies != "dS":
+        return notes.NO_DS
+    if rated.thickness_rule == "asme":
+        return notes.ASKED_FOR
+    size = replace(rated, thickness_rule="asme").size(toes.thickness)
+    factor = (size / toes.stress.size)[:, None]
+    return _larger(toes, factor, rated.rule, size, straight=law.is_straight)
+
+
+def _survival(toes: Toes) -> Varied | int:
+    rated = toes.rated
+    if not rated.curve.has_scatter:
+        return notes.NO_SCATTER
+    if rated.survival == LEVEL:
+        return notes.ASKED_FOR
+    factor = survival_factor(rated)
+    rule = with_law(rated.rule, stronger(rated.rule.law, factor))
+    return _larger(toes, np.full((len(toes.rows), 1), factor), rule, None, straight=rule.law.is_straight)
+
+
+def _larger(toes: Toes, factor: Floats, rule: CycleRule, size: Floats | None, *, straight: bool) -> Varied:
+    """Equivalent ranges times a factor (n, 1): in closed form on one slope, else bounded."""
+    law = toes.rated.rule.law
+    if straight:
+        return scaled(toes.utilisation, factor ** float(law.slopes[0]), toes.counted)
+    upper = np.minimum(
+        steepened(toes.utilisation, factor, law),
+        _all_on_first_slope(toes) * factor ** float(law.slopes[0]),
+    )
+    lower = np.where(toes.counted & (factor >= 1.0), toes.utilisation, 0.0)
+    return Varied(np.full_like(toes.utilisation, np.nan), upper, rule, size, lower=lower)
+
+
+def _haibach(toes: Toes) -> Varied | int:
+    rated, curve = toes.rated, toes.case.curve
+    if rated.curve.knees_cycles:
+        return notes.OWN_KNEES
+    if curve.extension == "haibach" and curve.knee_cycles == KNEE:
+        return notes.ASKED_FOR
+    upper = toes.utilisation if rated.rule.law.is_straight else _all_on_first_slope(toes)
+    return Varied(np.full_like(upper, np.nan), upper, with_law(rated.rule, with_haibach(rated.rule.law)))
+
+
+def _no_knee(toes: Toes) -> Varied | int:
+    rated = toes.rated
+    rule = with_law(rated.rule, first_slope(rated.rule.law))
+    upper = _all_on_first_slope(toes)
+    if rated.curve.knees_cycles:
+        return notes.OWN_KNEES
+    lower = np.where(toes.counted, toes.utilisation, 0.0)
+    return Varied(np.full_like(upper, np.nan), upper, rule, lower=lower)
+
+
+def _damage_limit(toes: Toes) -> Varied | int:
+    if toes.plan.damage_limit == LIMIT:
+        return notes.ASKED_FOR
+    return scaled(toes.utilisation, toes.plan.damage_limit / LIMIT, toes.counted)
+
+
+def _sampled(toes: Toes, sampling: OtherSampling) -> Varied | int:
+    """Records sampled otherwise.
+
+    Samples between others only add to the damage of a count by ranges: what is counted without them is at most what is
+    counted with them, but for the bending ratio, which every cycle has of its own reversals.
+    """
+    if sampling.changes_nothing:
+        return notes.NOT_UPSAMPLED
+    rule, is_vertex = toes.rated.rule, toes.case.counting.reversals == "vertex"
+    k = float(rule.law.slopes.max())
+    ratios = float(ratio_factor(1.0) / ratio_factor(0.0)) ** k if rule.uses_bending_ratio else 1.0
+    unknown = np.full_like(toes.utilisation, np.nan)
+    if sampling.variant == "upsample_auto":
+        loss = (vertex_sampling_loss if is_vertex else sampling_loss)(toes.samples_per_peak, k)
+        upper = toes.utilisation / np.maximum(1.0 - TIMES_EXPECTED * loss, 0.1)
+        return Varied(unknown, upper, rule, note=notes.EXPECTED, lower=toes.utilisation / ratios)
+    is_proven = not (is_vertex or rule.law.cutoff > 0.0 or rule.mean_stress)
+    return Varied(unknown, toes.utilisation * ratios, rule, note=notes.NOTHING if is_proven else notes.EXPECTED)
+
+
+def _all_on_first_slope(toes: Toes) -> Floats:
+    return first_slope_bound(toes.mission.equivalent_range, toes.stress.size, toes.rated.rule, toes.plan)
+
+
+CLOSED: dict[str, Callable[[Toes], Varied | int]] = {
+    "shear_asme": _shear_asme,
+    "raw_end": _raw_end,
+    "asme_thickness": _asme_thickness,
+    "survival_3sigma": _survival,
+    "haibach_1e7": _haibach,
+    "no_knee": _no_knee,
+    "damage_limit_0.5": _damage_limit,
+}
