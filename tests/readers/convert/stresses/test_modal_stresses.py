@@ -287,5 +287,5 @@ def test_on_the_command_line(tmp_path):
 
 def test_options_are_refused_by_python_too(tmp_path):
     """A density that is none."""
-    with pytest.raises(CaseError, match="'finest' is none.*fine, quadratic, coarse"):
+    with pytest.raises(CaseError, match=r"'finest' is none.*fine, quadratic, coarse"):
         convert(options(tmp_path, read_outs="finest"))
