@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fatigue.life.rule import CycleRule, ratio_factor
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.sensitivity import notes
 from fatigue.pipeline.sensitivity.closed import (
     KNEE,
@@ -127,7 +127,8 @@ def _sampled(toes: Toes, sampling: OtherSampling) -> Varied | int:
         return notes.NOT_UPSAMPLED
     rule, is_vertex = toes.rated.rule, toes.case.counting.reversals == "vertex"
     k = float(rule.law.slopes.max())
-    ratios = float(ratio_factor(1.0) / ratio_factor(0.0)) ** k if rule.uses_bending_ratio else 1.0
+    of_bending, of_membrane = rule.ratio_factor(np.array([1.0, 0.0]))
+    ratios = float(of_bending / of_membrane) ** k
     unknown = np.full_like(toes.utilisation, np.nan)
     if sampling.variant == "upsample_auto":
         loss = (vertex_sampling_loss if is_vertex else sampling_loss)(toes.samples_per_peak, k)

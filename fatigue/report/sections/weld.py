@@ -9,12 +9,15 @@ import pandas as pd
 
 from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
+from fatigue.report.checks import ShownChecks
 from fatigue.report.result import ShownResult
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.beside import weld_checks
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.load_spectra import LoadSpectra, equivalent_table, spectra_figures
+from fatigue.report.sections.shear import shear_facts
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
 
@@ -32,6 +35,7 @@ class WeldPage:
     name: str
     row: Mapping[str, Any]
     facts: list[tuple[str, str]]
+    checks: PageTable | None
     along: Shown
     point: list[Shown]
     variants: PageTable
@@ -50,6 +54,7 @@ def weld_page(
     detail: Detail | None,
     why: Why | None,
     spectra: LoadSpectra | None,
+    checks: ShownChecks,
     figs: Figures,
     id_: str,
 ) -> WeldPage:
@@ -80,7 +85,8 @@ def weld_page(
         id=id_,
         name=weld,
         row=row.to_dict(),
-        facts=weld_tables.facts(point, row),
+        facts=[*weld_tables.facts(point, row), *shear_facts(point)],
+        checks=weld_checks(f"{id_}-checks", checks, weld),
         along=along,
         point=shown,
         variants=weld_tables.variant_table(
