@@ -9,6 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks import peers, pipeline, processes
+from benchmarks.shear import shear
 
 PARTS = {
     "pipeline": pipeline.against_the_product,
@@ -20,6 +21,7 @@ PARTS = {
     "start-up": processes.start_up,
     "first-run": processes.first_run,
     "memory": processes.memory,
+    "shear": shear,
 }
 
 

@@ -29,17 +29,23 @@ print(code, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024, file=sys.stder
 _BARE = "import fatigue.assess, pandas, resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
 
 
+def run_measured(case: Path, result: Path, *options: str) -> tuple[float, float]:
+    """Processor time [s] and peak memory [MB] of an assessment in a process of its own, tables only."""
+    command = [sys.executable, "-c", _RUN, "-q", "assess", str(case), "-o", str(result), "--no-report", *options]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    code, cpu, peak = done.stderr.split()[-3:]
+    if code not in {"0", "1", "None"}:
+        raise SystemExit(done.stderr)
+    return float(cpu), float(peak)
+
+
 def measure(nodes: int, events: int, folder: Path, *options: str) -> dict[str, float]:
     """Assess a synthetic case in a process of its own; give times [s], memory [MB] and what settled its stations."""
     path = synthesize(folder / "case", Size(nodes, MODES, events, SECONDS, RATE))
     result = folder / "result"
-    command = [sys.executable, "-c", _RUN, "-q", "assess", str(path), "-o", str(result), "--no-report", *options]
     start = time.perf_counter()
-    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    cpu, peak = run_measured(path, result, *options)
     wall = time.perf_counter() - start
-    code, cpu, peak = done.stderr.split()[-3:]
-    if code not in {"0", "1", "None"}:
-        raise SystemExit(done.stderr)
     bare = float(subprocess.run([sys.executable, "-c", _BARE], check=True, capture_output=True, text=True).stdout)
     inputs = MODES * SECONDS * RATE * events * 4 / 2**20
     settled = json.loads((result / "provenance.json").read_text())["rules"]["screening"]["stations"]
@@ -47,10 +53,10 @@ def measure(nodes: int, events: int, folder: Path, *options: str) -> dict[str, f
     return {
         "stress samples": samples,
         "wall s": wall,
-        "cpu s": float(cpu),
-        "ns of cpu per stress sample": 1e9 * float(cpu) / samples,
-        "peak MB": float(peak),
-        "peak above bare import and histories MB": float(peak) - bare - inputs,
+        "cpu s": cpu,
+        "ns of cpu per stress sample": 1e9 * cpu / samples,
+        "peak MB": peak,
+        "peak above bare import and histories MB": peak - bare - inputs,
         **{f"stations: {tier}": float(count) for tier, count in settled.items()},
     }
 

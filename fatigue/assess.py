@@ -22,7 +22,10 @@ from threadpoolctl import threadpool_limits
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.apart import checks_apart
 from fatigue.pipeline.checks.group import has_checks
+from fatigue.pipeline.checks.rows import CheckRows, joined
+from fatigue.pipeline.checks.verdict import Decisive, verdicts
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.joined.matters import Transitions
 from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
@@ -34,6 +37,8 @@ from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.multiaxial.doubt import ShearTally
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
@@ -41,12 +46,14 @@ from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_o
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
+from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.checks import check_table_rows
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.cycles import CycleWriter
 from fatigue.pipeline.tables.governing import worst_at_corners
 from fatigue.pipeline.tables.histogram import HistogramWriter
+from fatigue.pipeline.tables.path_cycles import PathWriter, kept_paths
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
@@ -76,6 +83,8 @@ from fatigue.weld.load_extent import LoadExtent
 log = logging.getLogger(__name__)
 
 ROWS_AT_ONCE = 512  # stations whose rows are made at a time, as many for each as there are events or modes
+
+SCREEN = "Leave out share (--screen), or give method = 'report'"
 
 Progress = Callable[[str, int, int], None]
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
@@ -142,6 +151,7 @@ def assess(
     """
     refuse(CaseError, _senseless(threads, share, executor, histogram))
     case, folder = given_case(case), given_path(folder, "folder")
+    refuse(CaseError, _screened_shear(case, share))
     settle_folder(folder, no_lock=no_lock)
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
@@ -156,6 +166,7 @@ def assess(
         remember_case(folder, case.path)
         groups = weld_groups(body, scratch=state.folder / "forces")
         check_forces(groups, threads)
+        at_points, of_points = point_stress(body)
         with result_log(folder):
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
             for line in listed(event_counts(case, plan)):
@@ -165,21 +176,24 @@ def assess(
             stage("preparing the records of the events (%d); %s expected", len(plan.passes), expected)
             work = open_work(groups, plan, options, state.folder, threads)
             gravity, of_gravity = gravity_audit(groups, levels_of(body, work), threads)
+            apart = checks_apart(body, at_points, work.loads, plan, threads)
+            del at_points
             give_back()
             if executor is None:
                 assessed = by_threads(work, state, threads)
             else:
                 assessed = by_orders(work, state, executor, order_of(case, work, options, key, strict=strict))
             done = Tally(total=int(body.lines.begin[-1]), progress=progress)
-            done.warnings.add((*body.warnings, *record_warnings, *of_gravity))
+            done.warnings.add((*body.warnings, *of_points, *record_warnings, *of_gravity))
             stage("counting event by event (%d) at %d stations, and writing tables", len(plan.passes), done.total)
             unpublished = state.folder / "tables"
-            write_tables(unpublished, key, assessed, work, done, threads)
+            write_tables(unpublished, key, assessed, work, apart, done, threads)
             log.info("%d of %d groups of welds were there from an earlier run", done.reused, done.groups)
+            log.info("shear at the toes: %s", done.shear.as_text())
             done.warnings.add(body_warnings(body, work, done))
             warnings = done.warnings.listed()
             record = {"program": "fatigue", "result": key} | provenance_record(
-                body, work, done.stations, folder, inputs.register, warnings, gravity
+                body, work, done.stations, folder, inputs.register, warnings, gravity, done.shear.statuses
             )
             documents = partial(write_page_and_picture, case=case, verification=verification)
             write_records(unpublished, record, documents if report else None)
@@ -188,7 +202,8 @@ def assess(
             refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on
             publish(unpublished, folder, stale_files(folder, own))
             log.info("the result is complete")
-    return Assessment(folder, done.fulfilled, warnings, done.groups, done.reused)
+    fulfilled = done.fulfilled and done.checks.fulfilled
+    return Assessment(folder, fulfilled, warnings, done.groups, done.reused)
 
 
 def foretold(size: JobSize, folder: Path) -> str:
@@ -218,6 +233,14 @@ def _senseless(threads: object, share: object, executor: object, histogram: obje
     if not (isinstance(histogram, str) and histogram in known):
         what, remedy = f"{histogram!r} are no points to keep", f"Give one of {', '.join(map(repr, known))}"
         yield Problem("argument", "histogram", what, remedy)
+
+
+def _screened_shear(case: Case, share: float | None) -> Iterator[Problem]:
+    """Refusal of a share beside a method for shear that decides: bounds of the normal stress say nothing of it."""
+    method = case.multiaxial.method
+    if share and method in DECIDING:
+        where, what = f"{case.path.name}: multiaxial.method", f"method = {method!r} needs every point counted"
+        yield Problem("argument", where, f"{what}, and points below {share:g} of the limit were not to be", SCREEN)
 
 
 def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
@@ -259,7 +282,8 @@ class Tally:
     ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
     ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
     forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss,
-    ``transitions`` those at which the order of the events may matter.
+    ``transitions`` those at which the order of the events may matter, ``shear`` those where the model of shear does,
+    ``checks`` those that decide beside the toe.
     """
 
     total: int
@@ -274,6 +298,8 @@ class Tally:
     extents: list[LoadExtent] = field(default_factory=list)
     stress: StressExtent = field(default_factory=StressExtent)
     transitions: Transitions = field(default_factory=Transitions)
+    checks: Decisive = field(default_factory=Decisive)
+    shear: ShearTally = field(default_factory=ShearTally)
 
     def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
         """Count a group of welds that has been written, ``worst`` the points that decide about them."""
@@ -284,11 +310,13 @@ class Tally:
         for number, tier in enumerate(TIERS):
             settled = int(np.count_nonzero(result.tier == number))
             self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
+        self.checks.add(result.checks, work.groups.body.case.checks.counts)
         self.warnings.add(group.model.warnings)
         self.warnings.add(worst_at_corners(group.model, result.mission, worst))
         self.extents += group.model.extents
         self.stress.add(group.model, result)
         self.transitions.add(group.model.stations, result)
+        self.shear.add(group.model.stations, result)
         self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
         for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
             fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
@@ -297,42 +325,69 @@ class Tally:
 
 
 def write_tables(
-    folder: Path, key: str, assessed: Generator[Group], work: Work, done: Tally, threads: int | None
+    folder: Path,
+    key: str,
+    assessed: Generator[Group],
+    work: Work,
+    apart: CheckRows,
+    done: Tally,
+    threads: int | None,
 ) -> None:
-    """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written."""
-    wants_histograms, wants_checks = work.histogram != "none", has_checks(work.groups.body.case)
-    wanted = [*ASSESSED, "sensitivity", *["histogram"] * wants_histograms, *["checks"] * wants_checks]
+    """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written.
+
+    ``apart`` are the checks at stress points, which belong to no group.
+    """
+    body = work.groups.body
+    wants_histograms, wants_checks = work.histogram != "none", has_checks(body.case)
+    optional = {"histogram": wants_histograms, "checks": wants_checks, "path_cycles": work.shear is not None}
+    wanted = [*ASSESSED, "sensitivity", *(table for table, is_wanted in optional.items() if is_wanted)]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
         histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
+        paths = PathWriter(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
+        done.checks.add(apart, body.case.checks.counts)
         for group in assessed:
-            worst = write_group(tables, group, work)
+            worst = write_group(tables, group, work, apart)
             cycles.add(points_kept_of(worst, group, work))
             if histograms:
                 binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
                 histograms.add([kept_point(group.model, point) for point in binned])
+            if paths:
+                paths.add(kept_paths(group))
             done.add(group, work, worst)
             del group  # not to be held until the next one is there
             give_back()
         cycles.flush()
         if histograms:
             histograms.flush()
-        tables["welds"].write(excluded_rows(work.groups.body.excluded))
+        if paths:
+            paths.flush()
+        if wants_checks:
+            tables["checks"].write(check_table_rows(apart, body.curves))
+        tables["welds"].write(excluded_rows(body.excluded))
 
 
-def write_group(tables: Mapping[str, TableWriter], group: Group, work: Work) -> tuple[WorstPoint, ...]:
-    """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld."""
+def write_group(
+    tables: Mapping[str, TableWriter], group: Group, work: Work, apart: CheckRows
+) -> tuple[WorstPoint, ...]:
+    """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld.
+
+    ``apart`` are checks at points that are written elsewhere; those that name a weld belong to its verdict.
+    """
     model, result, plan = group.model, group.result, work.plan
     stations, worst = model.stations, worst_points(model.stations, result)
-    tables["nodes"].write(node_rows(stations, result, plan))
+    statuses = [rated.curve.status for rated in model.curve_of_weld]
+    tables["nodes"].write(node_rows(stations, result, plan, statuses))
     for first in range(0, len(stations), ROWS_AT_ONCE):
         some = slice(first, first + ROWS_AT_ONCE)
         tables["damage"].write(damage_rows(stations, result, plan, some))
         tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
-    tables["welds"].write(weld_rows(model, plan, result, worst))
+    of_checks = None
+    if "checks" in tables:
+        tables["checks"].write(check_table_rows(result.checks, model.body.curves, model.body.compared.lines))
+        of_checks = verdicts(joined([result.checks, apart]), stations.names, model.case.checks.counts)
+    tables["welds"].write(weld_rows(model, plan, result, worst, of_checks))
     tables["sensitivity"].write(sensitivity_rows(model, result, worst, work.sampling))
-    if "checks" in tables and result.checks.size:
-        tables["checks"].write(check_table_rows(result.checks, model.body.curves))
     return worst
 
 
@@ -349,6 +404,9 @@ def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
     of_spectra = done.outside_band.warnings(bands_of(work.loads))
     of_order = done.transitions.warnings(work.plan)
     of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
+    of_shear = done.shear.warnings(work.loads)
+    of_checks = done.checks.warnings(body.case.path.name)
+    of_order = [*of_order, *of_shear, *of_checks]
     return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order]
 
 

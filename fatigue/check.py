@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from fatigue.case import Case, given_case
-from fatigue.errors import Problem
+from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.forecast.band_trial import band_warnings
 from fatigue.pipeline.forecast.needs import job_needs, size_text
 from fatigue.pipeline.forecast.size import job_size
@@ -27,9 +27,12 @@ from fatigue.pipeline.mission.events import mean_levels
 from fatigue.pipeline.mission.gravity import HeldGravity, gravity_audit, has_gravity
 from fatigue.pipeline.mission.in_words import sequence_texts
 from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.multiaxial.counted import long_paths
+from fatigue.pipeline.multiaxial.found import MODELS
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
+from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings import WarningSummary
 from fatigue.shown import few, visible
@@ -136,7 +139,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
     warnings = WarningSummary()
-    warnings.add((*body.warnings, *record_warnings))
+    warnings.add((*body.warnings, *point_stress(body)[1], *record_warnings))
     extents: list[LoadExtent] = []
     parts = stations = 0
     stage("solving the weld lines")
@@ -158,6 +161,9 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         read_s = time.process_time() - begin
         sample = solve_group(groups, len(groups) // 2)
         factors = upsampled.factors(case.counting.upsample, plan)
+        if case.multiaxial.method in MODELS:
+            as_counted = ((p.event, f * p.samples, f) for p, f in zip(plan.passes, factors, strict=True))
+            refuse(DataError, long_paths(case.path.name, as_counted))
         estimate = job_time(plan, sample, stations, factors, read_s, Path(scratch))
         warnings.add(band_warnings(sample, plan, Path(scratch)))
     needs = job_needs(job_size(body, plan, factors=estimate.upsample))

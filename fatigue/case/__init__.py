@@ -6,10 +6,11 @@ the order of events. ``load`` reads and checks a case file, ``problems`` says wh
 file, ``plausibility`` what is allowed and hardly meant.
 """
 
-from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
+from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Method, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
+from fatigue.case.quality import StressCategory, stress_categories
 from fatigue.case.tables import (
     LARGEST_UPSAMPLE,
     Body,
@@ -33,9 +34,11 @@ __all__ = [
     "Event",
     "Interaction",
     "MeanOfQ",
+    "Method",
     "Mission",
     "Multiaxial",
     "Spectrum",
+    "StressCategory",
     "case_schema",
     "case_warnings",
     "check_distance",
@@ -43,4 +46,5 @@ __all__ = [
     "event_length_km",
     "given_case",
     "load_case",
+    "stress_categories",
 ]

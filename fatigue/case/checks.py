@@ -5,13 +5,22 @@ from typing import Annotated, Literal, TypeAlias, get_args
 
 from pydantic import Field
 
+from fatigue.case.check_problems import (
+    LINE_KEYS,
+    endurance_problems,
+    interaction_problems,
+    place_problems,
+    unused_files,
+)
 from fatigue.case.problems import absent, clash, path_problems
+from fatigue.case.quality import StressCategory
 from fatigue.case.table import NotNegative, Positive, Table, Text
 from fatigue.errors import Problem
 
 CHECK_FILES = ("static_cases", "endurance_lines", "strength_factors")
 Method = Literal["report", "range", "length", "mlp", "asme", "off"]
 Check = Literal["throat_perp", "throat_par", "throat_root", "hot_spot", "nominal", "parent", "interaction", "endurance"]
+Rule = Literal["en1993", "iiw", "en1999", "dnv"]
 _Names: TypeAlias = Annotated[tuple[Text, ...], Field(strict=False)]
 
 
@@ -36,29 +45,54 @@ class Multiaxial(Table):
 class Interaction(Table):
     """How the damage sums of normal stress and of shear are combined at some welds."""
 
-    rule: Literal["en1993", "iiw", "en1999", "dnv"] = Field(description="'en1993', 'iiw', 'en1999' or 'dnv'")
+    rule: Rule = Field(
+        description="'en1993' (damage sums add up to 1), 'iiw' (squares of utilisations add up to cv), 'en1999' "
+        "(damage sums add up to damage_limit) or 'dnv'"
+    )
     welds: _Names = Field(default=(), description="a list of the welds; left out: every weld with a shear curve")
     cv: Positive | None = Field(default=None, description="the comparison value [-] of 'iiw', above 0")
-    damage_limit: Positive | None = Field(default=None, description="the allowed damage sum [-], above 0")
+    damage_limit: Positive | None = Field(
+        default=None, description="the allowed damage sum [-] of 'iiw' and 'en1999', above 0"
+    )
     alpha: Positive | None = Field(
         default=None, description="the factor [-] of 'dnv' on the principal stress range, above 0"
     )
+
+    def _contradictions(self) -> Iterator[Problem]:
+        yield from interaction_problems(self.rule, self.welds, self.cv, self.damage_limit, self.alpha)
 
 
 class EnduranceCheck(Table):
     """Stress between static load cases against endurance lines."""
 
-    welds: _Names = Field(default=(), description="a list of welds")
+    welds: _Names = Field(default=(), description="a list of welds; left out together with points: every weld")
     points: _Names = Field(default=(), description="a list of stress points")
     cases: Text = Field(description="the group of static load cases")
     perp: Text | None = Field(default=None, description="the endurance line of the stress across the weld")
-    par: Text | None = Field(default=None, description="the endurance line of the stress along the weld")
-    shear: Text | None = Field(default=None, description="the endurance line of the shear stress")
-    curve: Text | None = Field(default=None, description="the S-N curve whose cut-off or knee is the endurance range")
-    kappa: Annotated[tuple[float, ...], Field(strict=False)] = Field(
-        default=(), description="a list of coefficients [-] of u_perp u_par, of which the largest sum decides"
+    par: Text | None = Field(
+        default=None, description="the endurance line of the stress along the weld, which only points have"
     )
-    limit: Positive | None = Field(default=None, description="the largest sum [-] of the combination, above 0")
+    shear: Text | None = Field(default=None, description="the endurance line of the shear stress")
+    curve: Text | None = Field(
+        default=None, description="the S-N curve whose cut-off, or else last knee, is the endurance range"
+    )
+    kappa: Annotated[tuple[float, ...], Field(strict=False)] = Field(
+        default=(),
+        description="a list of coefficients [-] of u_perp u_par, -2 to 2, of which the largest sum decides",
+    )
+    limit: Positive | None = Field(
+        default=None, description="the largest sum [-] of the combination, above 0; left out: no combination"
+    )
+
+    def _contradictions(self) -> Iterator[Problem]:
+        lines = self.lines
+        yield from endurance_problems(lines, self.curve, self.kappa, self.limit)
+        yield from place_problems(self.welds, self.points, by_default="par" not in lines)
+
+    @property
+    def lines(self) -> dict[str, str]:
+        """The endurance lines it names, by component."""
+        return {key: name for key in LINE_KEYS if (name := getattr(self, key)) is not None}
 
 
 class Checks(Table):
@@ -78,10 +112,13 @@ class Checks(Table):
         default=(), description="one [[checks.endurance]] table per check between static load cases"
     )
 
+    stress_category: StressCategory | None = Field(
+        default=None, description="a [checks.stress_category] table; left out: 'medium' from 0.75, 'high' from 0.9 on"
+    )
+
     def _contradictions(self) -> Iterator[Problem]:
         yield from path_problems({key: getattr(self, key) for key in CHECK_FILES})
-        if self.endurance and self.static_cases is None:
-            what = "the key is missing although [[checks.endurance]] is given"
-            yield absent("static_cases", what, "Give the file of the static load cases")
+        lines = [line for check in self.endurance for line in check.lines.values()]
+        yield from unused_files(self.static_cases, self.endurance_lines, len(self.endurance), lines)
         if len(set(self.counts)) < len(self.counts):
             yield clash("counts", f"{list(self.counts)} names a check twice", "Name it once")

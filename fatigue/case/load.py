@@ -10,12 +10,14 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
-from fatigue.case.curves import Curve, CustomCurve
+from fatigue.case.counts import counts_problems
+from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.sequence_problems import sequence_problems
 from fatigue.case.sequences import Sequence
+from fatigue.case.shear_problems import shear_problems
 from fatigue.case.tables import Body, Case, Counting, Event, Mission, Spectrum
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
@@ -62,9 +64,12 @@ def load_case(path: Path | str) -> Case:
         raw = tomllib.loads(text)
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
+        problems += own_curve_problems(raw, catalogue())
         problems += mission_problems(raw)
         problems += sequence_problems(raw)
+        problems += counts_problems(raw)
         problems += unit_load_problems(raw)
+        problems += shear_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:
         other = misplaced(path, path.name)

@@ -98,11 +98,15 @@ def _values(case: Case) -> Iterator[tuple[str, float, Usual]]:
         yield "curve.knee_cycles", case.curve.knee_cycles, CYCLES
     for name, curve in case.curves.items():
         place = f"curves.{shortened(name)}"
-        yield f"{place}.range_at_2e6_MPa", curve.range_at_2e6_MPa, RANGE
-        yield from ((f"{place}.slopes", slope, SLOPE) for slope in curve.slopes)
+        if curve.range_at_2e6_MPa is not None:
+            yield f"{place}.range_at_2e6_MPa", curve.range_at_2e6_MPa, RANGE
+        yield from ((f"{place}.slopes", slope, SLOPE) for slope in curve.slopes or ())
         yield from ((f"{place}.knees_cycles", knee, CYCLES) for knee in curve.knees_cycles)
         if curve.log10_scatter is not None:
             yield f"{place}.log10_scatter", curve.log10_scatter, SCATTER
+        yield from ((f"{place}.{key}", getattr(curve, key), FACTOR) for key in ("gamma_Ff", "gamma_Mf"))
+        if curve.damage_limit is not None:
+            yield f"{place}.damage_limit", curve.damage_limit, LIMIT
 
 
 def _told(file: str, found: Iterable[tuple[str, float, Usual]]) -> Problem:

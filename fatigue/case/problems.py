@@ -97,17 +97,13 @@ def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -
 
 
 def curve_problems(raw: dict[str, Any], catalogue: Collection[str]) -> Iterator[Problem]:
-    """Refusal of a chosen curve that is not there, and of a user's own that would hide one of the catalogue."""
+    """Refusal of a chosen curve that is not there, and of a name of a user's own that is not written as it reads."""
     own, chosen = raw.get("curves"), raw.get("curve")
     own = own if isinstance(own, dict) else {}
     for name in own:
         if name != composed(name):
             what = f"the name {name!r} has blanks around it or accents as characters of their own (NFD)"
             yield Problem("bad_name", f"curves.{name}", what, f"Write {composed(name)!r}")
-        if name in catalogue:
-            yield Problem(
-                "duplicate", f"curves.{name}", f"{name!r} is a curve of the catalogue", "Give it another name"
-            )
     name = chosen.get("name") if isinstance(chosen, dict) else None
     if isinstance(name, str) and name and name not in (known := sorted({*catalogue, *own})):
         near = difflib.get_close_matches(name, known, n=1)

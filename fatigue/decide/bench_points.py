@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from fatigue.decide.bench_files import WantedPoint
 from fatigue.errors import DataError, Problem
-from fatigue.life.curves import DamageLaw, SNCurve
-from fatigue.life.rule import CycleRule, size_factor
+from fatigue.life.curves import DamageLaw
+from fatigue.life.rule import CycleRule
 from fatigue.results import read_rows, read_welds, rows_of_welds
+from fatigue.results.recorded_curves import recorded_size
 from fatigue.results.tables import readable, table_path
 
 Floats = NDArray[np.float64]
@@ -119,7 +120,8 @@ def points_of_result(folder: Path, record: Mapping[str, Any], wanted: Sequence[W
     names = list(dict.fromkeys(point.weld for point in wanted))
     rows = np.sort(np.concatenate([*rows_of_welds(folder, "nodes", names).values(), np.zeros(0, np.int64)]))
     nodes = read_rows(folder, "nodes", rows, _NODES).to_pandas()
-    curve_of = read_welds(folder).set_index("weld")["curve"]
+    welds = read_welds(folder).set_index("weld")
+    curve_of = welds["curve"]
     found, problems = _found(nodes, curve_of, wanted)
     faults = Faults()
     for point, row in zip(wanted, found, strict=True):
@@ -138,12 +140,14 @@ def points_of_result(folder: Path, record: Mapping[str, Any], wanted: Sequence[W
     key = nodes.loc[[row.Index for row in found]].reset_index(drop=True)
     curves, factor = tuple(curve_of[key["weld"]]), np.array([point.factor for point in wanted])
     recorded = {name: record["curves"][name] for name in dict.fromkeys(curves)}
+    length = welds.get("attachment_mm", pd.Series(np.nan, index=welds.index))  # no column in results of older versions
+    attachment = length[key["weld"]].fillna(np.inf).to_numpy(dtype=np.float64)
     return BenchPoints(
         key=key[["weld", "part", "node", "order", "surface"]],
         target=key["damage_per_km"].to_numpy() * record["mission"]["target_km"] * factor,
         factor=factor,
         curve=curves,
-        size=_sizes(key["thickness_mm"].to_numpy(), curves, recorded, record["rules"]["thickness_rule"]),
+        size=_sizes(key["thickness_mm"].to_numpy(), attachment, curves, recorded, record["rules"]["thickness_rule"]),
         rules={name: _rule(curve) for name, curve in recorded.items()},
     )
 
@@ -187,33 +191,22 @@ def _not_one(point: WantedPoint, at: str, of_weld: pd.DataFrame, here: pd.DataFr
     return Problem("bench_several_points", point.where, what, remedy)
 
 
-def _sizes(thickness: Floats, curves: Sequence[str], recorded: Mapping[str, Any], thickness_rule: Any) -> Floats:
+def _sizes(
+    thickness: Floats, attachment: Floats, curves: Sequence[str], recorded: Mapping[str, Any], thickness_rule: Any
+) -> Floats:
     size = np.empty(len(thickness))
     for name, curve in recorded.items():
-        of_curve = np.array([other == name for other in curves])
-        size[of_curve] = size_factor(thickness[of_curve], _curve(name, curve), thickness_rule)
+        some = np.array([other == name for other in curves])
+        size[some] = recorded_size(name, curve, thickness[some], thickness_rule, attachment[some])
     return size
 
 
-def _curve(name: str, recorded: Mapping[str, Any]) -> SNCurve:
-    return SNCurve(
-        name=name,
-        applies=recorded["applies"],
-        slopes=tuple(recorded["slopes"]),
-        knees_cycles=tuple(recorded["knees_cycles"]),
-        reference_cycles=recorded["reference_cycles"],
-        reference_range=recorded["reference_range"],
-        source=recorded["source"],
-        thickness_reference=recorded["thickness_reference_mm"],
-        thickness_exponent=recorded["thickness_exponent"],
-    )
-
-
 def _rule(recorded: Mapping[str, Any]) -> CycleRule:
-    """From range to damage on a curve as the result used it, the mean-stress factor left out."""
+    """From range to damage on a curve as the result used it, f_M and f(R) left out."""
     used = recorded["used"]
     slopes, log_constants, knees = (np.array(used[name], float) for name in ("slopes", "log_constants", "knees"))
-    return CycleRule(DamageLaw(slopes, log_constants, knees, float(used["cutoff"])), recorded["applies"] == "dS")
+    law, on_dS = DamageLaw(slopes, log_constants, knees, float(used["cutoff"])), recorded["applies"] == "dS"
+    return CycleRule(law, on_dS, bending_factor=recorded.get("allowances", {}).get("bending_factor", "none"))
 
 
 def unit_stress(folder: Path, points: BenchPoints, coordinates: Sequence[str]) -> tuple[Floats, Floats]:

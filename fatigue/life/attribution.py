@@ -26,13 +26,11 @@ from numpy.typing import NDArray
 from fatigue.life.counting.rainflow import Cycles
 from fatigue.life.counting.vertex import spread
 from fatigue.life.rule import (
-    M_SS,
     CycleRule,
     bending_ratio,
     cycle_damage,
     equivalent_range,
     local_slope,
-    log_ratio_factor_slope,
 )
 
 Floats = NDArray[np.float64]
@@ -109,7 +107,7 @@ def cycle_credit(
     side : +1 top face, -1 bottom face
     size : factor of the thickness on the range
     rule : from the range to its damage
-    offset : constant stress of the face beside the samples [MPa], of which f_M depends
+    offset : constant stress of the face beside the samples [MPa], of which f_M and f(R) depend
     """
     dm, db = membrane[1] - membrane[0], bending[1] - bending[0]
     start, end = membrane + side * bending
@@ -119,14 +117,13 @@ def cycle_credit(
     r = bending_ratio(dm, db)
     f_M = rule.mean_stress_factor(maximum - S, maximum)
     x = equivalent_range(S, size, rule.ratio_factor(r), f_M)
-    by_range = np.where(f_M < 1.0, 1.0 - 1.0 / M_SS, 1.0)  # d ln x / d ln S, as f_M = (S / maximum)**(1/m)
-    by_peak = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(S), where=f_M < 1.0)  # d ln x / d maximum
+    by_range, by_peak = rule.mean_stress_slopes(maximum - S, maximum)
 
     damage = count * cycle_damage(x, rule.law)
     slope = damage * local_slope(x, rule.law)
     by_ratio = None
-    if rule.uses_bending_ratio:
-        by_r = -slope * log_ratio_factor_slope(r) / (np.abs(dm) + np.abs(db))
+    if rule.depends_on_bending:
+        by_r = -slope * rule.log_ratio_factor_slope(r) / (np.abs(dm) + np.abs(db))
         by_ratio = by_r * r * np.sign(dm), by_r * (1.0 - r) * np.sign(db)
     return CycleCredit(damage, slope, damage / ds, slope * by_range / ds, slope * by_peak, ds > 0.0, by_ratio)
 

@@ -2,16 +2,17 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, Problem
+from fatigue.life.allowances import ALLOWANCE_KEYS, NOTHING, Allowances
 
 Applies = Literal["structural", "dS", "nominal", "hot_spot", "throat", "parent"]
 Quantity = Literal["normal", "shear"]
@@ -33,8 +34,8 @@ class SNCurve:
     Attributes
     ----------
     name : key in the catalogue or in the case
-    applies : "dS", the equivalent structural stress range of the master curve [MPa mm^-0.222], or "structural", the
-        structural stress range itself [MPa]
+    applies : "dS", the equivalent structural stress range of the master curve [MPa mm^-0.222], "structural", the
+        structural stress range itself [MPa], or the range [MPa] of another stress
     slopes : k of each segment of N = A / range**k, from few cycles to many
     knees_cycles : cycles where the next segment begins; as many knees as slopes: no damage beyond the last one
     reference_cycles : cycles at which ``reference_range`` holds
@@ -43,6 +44,10 @@ class SNCurve:
     source : where the numbers come from, edition and clause
     edition, clause : of the source
     status : what the numbers rest on; the shipped ones were compared with each other and with publications
+    quantity : the stress it is for, "normal" or "shear"
+    allowances : what stands between a stress range and the range the curve is entered with
+    damage_limit : the allowed damage sum on this curve; None: that of the mission
+    checked_by, checked_on : who compared the numbers with the source, and when
     """
 
     name: str
@@ -57,6 +62,11 @@ class SNCurve:
     edition: str = ""
     clause: str = ""
     status: str = "user"
+    quantity: Quantity = "normal"
+    allowances: Allowances = NOTHING
+    damage_limit: float | None = None
+    checked_by: str = ""
+    checked_on: str = ""
 
     @property
     def has_scatter(self) -> bool:
@@ -133,37 +143,45 @@ def catalogue() -> Mapping[str, SNCurve]:
     """Read the curves shipped with the program, each with edition, clause and source, from ``curves.toml``."""
     with (Path(__file__).parent / "curves.toml").open("rb") as file:
         tables = tomllib.load(file)
-    curves = {}
-    for name, table in tables.items():
-        source = f"{table['source']}, edition {table['edition']}, {table['clause']}"
-        if "C" in table:  # master curve, N = (C / dS)**(1 / h): C is the range at one cycle
-            curves[name] = SNCurve(
-                name=name,
-                applies="dS",
-                slopes=(1.0 / table["h"],),
-                knees_cycles=(),
-                reference_cycles=1.0,
-                reference_range=table["C"],
-                source=source,
-                edition=table["edition"],
-                clause=table["clause"],
-                status=SHIPPED,
-            )
-        else:
-            curves[name] = user_curve(
-                name=name,
-                slopes=tuple(table["slopes"]),
-                knees_cycles=tuple(table["knees_cycles"]),
-                range_at_2e6=table["range_at_2e6_MPa"],
-                applies="structural",
-                source=source,
-                thickness_reference=table.get("thickness_reference_mm"),
-                thickness_exponent=table.get("thickness_exponent", 0.0),
-                edition=table["edition"],
-                clause=table["clause"],
-                status=SHIPPED,
-            )
-    return MappingProxyType(curves)
+    return MappingProxyType({name: _shipped(name, table) for name, table in tables.items()})
+
+
+def _shipped(name: str, table: Mapping[str, Any]) -> SNCurve:
+    """Curve of a table of ``curves.toml``, of which the keys are those of ``[curves.<name>]`` in a case."""
+    source = f"{table['source']}, edition {table['edition']}, {table['clause']}"
+    if "C" in table:  # master curve, N = (C / dS)**(1 / h): C is the range at one cycle
+        curve = SNCurve(
+            name=name,
+            applies="dS",
+            slopes=(1.0 / table["h"],),
+            knees_cycles=(),
+            reference_cycles=1.0,
+            reference_range=table["C"],
+            source=source,
+        )
+    else:
+        curve = user_curve(
+            name=name,
+            slopes=tuple(table["slopes"]),
+            knees_cycles=tuple(table["knees_cycles"]),
+            range_at_2e6=table["range_at_2e6_MPa"],
+            applies=table.get("applies", "structural"),
+            source=source,
+            log10_scatter=table.get("log10_scatter"),
+            thickness_reference=table.get("thickness_reference_mm"),
+            thickness_exponent=table.get("thickness_exponent", 0.0),
+        )
+    return replace(
+        curve,
+        edition=table["edition"],
+        clause=table["clause"],
+        status=table.get("status", SHIPPED),
+        quantity=table.get("quantity", "normal"),
+        allowances=Allowances(**{ours: table[key] for key, ours in ALLOWANCE_KEYS.items() if key in table}),
+        damage_limit=table.get("damage_limit"),
+        checked_by=table.get("checked_by", ""),
+        checked_on=table.get("checked_on", ""),
+    )
 
 
 def survival_level(curve: SNCurve, survival: Survival | None) -> str:

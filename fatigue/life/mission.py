@@ -102,7 +102,7 @@ def mission_sum(per_pass: NDArray[np.float64], passes: Sequence[Pass]) -> NDArra
     return np.asarray(np.tensordot(weights, per_pass, axes=1))
 
 
-def life_km(damage_per_km: NDArray[np.float64], damage_limit: float) -> NDArray[np.float64]:
+def life_km(damage_per_km: NDArray[np.float64], damage_limit: NDArray[np.float64] | float) -> NDArray[np.float64]:
     """Distance at which the Miner sum reaches its limit [km], Eq. 15; +inf where nothing damages.
 
     >>> life_km(np.array([1e-7, 0.0]), 0.5)

@@ -21,6 +21,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import CaseError, Problem
+from fatigue.life.allowances import (
+    RATIO_LEVELS,
+    BendingFactor,
+    StressRatio,
+    bending_allowance,
+    effective_thickness,
+    log_bending_allowance_slope,
+    stress_ratio_factors,
+    stress_ratio_slopes,
+)
 from fatigue.life.curves import DamageLaw, SNCurve, ThicknessRule
 
 Floats = NDArray[np.float64]
@@ -43,19 +53,29 @@ class CycleRule:
     uses_bending_ratio : False for a law in plain structural stress, where I(r)^(1/m) is 1
     yield_MPa : yield stress for f_M [MPa]; None: f_M is 1
     mean_stress : whether the damage contains f_M; otherwise the damage with f_M is only shown beside it
+    bending_factor : the allowance for bending that stands in the place of I(r)^(1/m) on a law in plain stress
+    stress_ratio : f(R), by which every range is divided; it is in the damage, and f_M is not beside it
 
     Raises
     ------
-    CaseError : ``mean_stress`` without a yield stress
+    CaseError : ``mean_stress`` without a yield stress, or two allowances for the same
     """
 
     law: DamageLaw
     uses_bending_ratio: bool
     yield_MPa: float | None = None  # noqa: N815
     mean_stress: bool = False
+    bending_factor: BendingFactor = "none"
+    stress_ratio: StressRatio = "none"
 
     def __post_init__(self) -> None:
-        """Refuse f_M without a yield stress."""
+        """Refuse f_M without a yield stress, and what would be allowed for twice."""
+        if self.stress_ratio != "none" and self.yield_MPa is not None:
+            what = f"f_M of ASME and f(R) of '{self.stress_ratio}' both allow for the mean stress of a cycle"
+            raise CaseError(Problem("twice", "mean stress", what, "Take one of them"))
+        if self.bending_factor != "none" and self.uses_bending_ratio:
+            what = f"I(r) of the master curve and '{self.bending_factor}' both allow for bending"
+            raise CaseError(Problem("twice", "bending", what, "Take one of them"))
         if self.mean_stress and self.yield_MPa is None:
             raise CaseError(
                 Problem("yield", "mean stress", "f_M needs the yield stress, none is given", "Give yield_MPa")
@@ -66,14 +86,48 @@ class CycleRule:
         """Yield stress [MPa] where the damage contains f_M, which depends on it; else None."""
         return self.yield_MPa if self.mean_stress else None
 
+    @property
+    def depends_on_bending(self) -> bool:
+        """Whether the damage of a cycle depends on its bending ratio."""
+        return self.uses_bending_ratio or self.bending_factor != "none"
+
+    @property
+    def is_of_range_alone(self) -> bool:
+        """Whether the allowances of the curve leave the damage to range and, on the master curve, I(r) and f_M."""
+        return self.bending_factor == "none" and self.stress_ratio == "none"
+
     def ratio_factor(self, r: Floats) -> Floats:
-        """``I(r)^(1/m)`` of the bending ratios of cycles; 1 where the law does not use them."""
+        """``I(r)^(1/m)`` of the bending ratios of cycles, or the allowance of the curve; 1 where there is none.
+
+        It is smallest in pure membrane, r = 0.
+        """
+        if self.bending_factor != "none":
+            return np.asarray(bending_allowance(r))
         return np.asarray(ratio_factor(r)) if self.uses_bending_ratio else np.ones_like(r)
 
+    def log_ratio_factor_slope(self, r: Floats) -> Floats:
+        """Slope d ln / dr of ``ratio_factor``."""
+        if self.bending_factor != "none":
+            return log_bending_allowance_slope(r)
+        return log_ratio_factor_slope(r) if self.uses_bending_ratio else np.zeros_like(r)
+
     def mean_stress_factor(self, minimum: Floats, maximum: Floats) -> Floats:
-        """``f_M`` of cycles between two stresses [MPa]; 1 where the damage does not contain it."""
+        """``f_M`` or f(R) of cycles between two stresses [MPa]; 1 where the damage does not contain it."""
+        if self.stress_ratio != "none":
+            return stress_ratio_factors(minimum, maximum, RATIO_LEVELS[self.stress_ratio])
         limit = self.yield_of_damage
         return np.ones_like(maximum) if limit is None else mean_stress_factor(minimum, maximum, limit)
+
+    def mean_stress_slopes(self, minimum: Floats, maximum: Floats) -> tuple[Floats, Floats]:
+        """Slopes d ln x / d ln S, and d ln x / d maximum [1/MPa], of cycles between two stresses.
+
+        x is the equivalent range, S the range; as ``f_M = (S / maximum)^(1/m)``.
+        """
+        if self.stress_ratio != "none":
+            return stress_ratio_slopes(minimum, maximum, RATIO_LEVELS[self.stress_ratio])
+        applies = self.mean_stress_factor(minimum, maximum) < 1.0
+        by_maximum = np.divide(1.0 / M_SS, maximum, out=np.zeros_like(maximum), where=applies)
+        return np.where(applies, 1.0 - 1.0 / M_SS, 1.0), by_maximum
 
 
 def bending_ratio(membrane_range: Floats, bending_range: Floats) -> Floats:
@@ -107,11 +161,12 @@ def log_ratio_factor_slope(r: Floats) -> Floats:
     return (-A_1 - 2.0 * A_2 * r) / (A_0 - A_1 * r - A_2 * r**2) - (-B_1 - 2.0 * B_2 * r) / (B_0 - B_1 * r - B_2 * r**2)
 
 
-def size_factor(thickness: Floats, curve: SNCurve, rule: ThicknessRule) -> Floats:
+def size_factor(thickness: Floats, curve: SNCurve, rule: ThicknessRule, attachment: Floats | float = np.inf) -> Floats:
     """Factor of the plate thickness [mm] on the range, ``t^((m-2)/(2m))`` for the master curve.
 
     Master curve: with the actual thickness, or with the one that ASME VIII-2 5.5.5.2 limits to 16 to 150 mm. Other
-    curves: ``(t / t_ref)^n`` for t above the reference thickness of the curve.
+    curves: ``(t / t_ref)^n`` for t above the reference thickness of the curve, t the effective thickness at an
+    ``attachment`` of some length [mm] where the curve asks for it.
 
     >>> from fatigue.life.curves import catalogue
     >>> size_factor(np.array([10.0]), catalogue()["master-steel"], "asme").round(6)
@@ -122,15 +177,19 @@ def size_factor(thickness: Floats, curve: SNCurve, rule: ThicknessRule) -> Float
         return np.asarray(t_ess**SIZE_EXPONENT)
     if curve.thickness_reference is None:
         return np.ones_like(thickness)
+    if curve.allowances.thickness_effective == "L_half":
+        thickness = effective_thickness(thickness, np.asarray(attachment))
     return np.asarray(np.maximum(thickness / curve.thickness_reference, 1.0) ** curve.thickness_exponent)
 
 
-def size_exponent(thickness: float, curve: SNCurve, rule: ThicknessRule) -> float:
+def size_exponent(thickness: float, curve: SNCurve, rule: ThicknessRule, attachment: float = np.inf) -> float:
     """Exponent d ln(size) / d ln(t) of ``size_factor`` at a thickness [mm]; 0 where the rule holds it fixed."""
     if curve.applies == "dS":
         low, high = ASME_THICKNESS_LIMITS if rule == "asme" else (0.0, np.inf)
         return SIZE_EXPONENT if low <= thickness < high else 0.0
     if curve.thickness_reference is None or thickness < curve.thickness_reference:
+        return 0.0
+    if curve.allowances.thickness_effective == "L_half" and 0.5 * attachment < thickness:
         return 0.0
     return curve.thickness_exponent
 

@@ -128,13 +128,13 @@ def doubts(measured: Measured, points: Points, rows: NDArray[np.int64], largest:
         what = f"names no point, so it stands beside each of {len(points)} points, though it was measured at one place"
         remedy = "Give the columns weld, order and surface, and part where a weld has several"
         found.append(Problem("measured_point", measured.file, what, remedy))
-    uses_ratio = [bool(rule.uses_bending_ratio) for rule in points.rule]
+    uses_ratio = [bool(rule.depends_on_bending) for rule in points.rule]
     if measured.bending_ratio is None and any(uses_ratio):
         what = "has no bending ratio, so its damage is with the one of the mission's own damage at each point"
         remedy = "Give a column bending_ratio, from gauges on both faces"
         found.append(Problem("measured_ratio", measured.file, what, remedy))
-    if any(rule.mean_stress for rule in points.rule):
-        what = "has no mean stress, so that the factor f_M is not in its damage, as it is in that of the mission"
+    if any(rule.mean_stress or rule.stress_ratio != "none" for rule in points.rule):
+        what = "has no mean stress, so that f_M or f(R) is not in its damage, as it is in that of the mission"
         found.append(Problem("measured_mean", measured.file, what, 'Compare with mean_stress = "none"'))
     top = float(measured.range.max(initial=0.0))
     if top > LARGE_MPA or (largest > 0.0 and top > TIMES_APART * largest):

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw, Extension, SNCurve, Survival, ThicknessRule, damage_law
 from fatigue.life.rule import cycle_damage, ratio_factor, size_factor
+from fatigue.results.recorded_curves import recorded_curve
 
 EXTENSIONS: dict[Extension, str] = {"none": "no knee", "haibach": "Haibach", "cutoff": "cut-off"}
 
@@ -30,17 +31,7 @@ def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
     """Assumptions behind one curve of a result, from its provenance."""
     entry, rules = record["curves"][curve], record["rules"]
     return Assumptions(
-        curve=SNCurve(
-            name=curve,
-            applies=entry["applies"],
-            slopes=tuple(entry["slopes"]),
-            knees_cycles=tuple(entry["knees_cycles"]),
-            reference_cycles=entry["reference_cycles"],
-            reference_range=entry["reference_range"],
-            source=entry["source"],
-            thickness_reference=entry["thickness_reference_mm"],
-            thickness_exponent=entry["thickness_exponent"],
-        ),
+        curve=recorded_curve(curve, entry),
         survival=rules["survival"][curve],
         thickness_rule=rules["thickness_rule"],
         extension=rules["extension"],

@@ -184,7 +184,7 @@ def _finding(evidence: Evidence, row: int) -> Finding:
         order=int(points.order[0]),
         node=int(points.node[0]),
         surface=FACES[points.face[0]],
-        life_km=float(life_km(own.damage, evidence.plan.damage_limit)[0]),
+        life_km=float(life_km(own.damage, points.damage_limit)[0]),
         event=event.event,
         event_share=float(event_share[governing]),
         sequence_share=float(event_share[len(evidence.verdicts) :].sum()),

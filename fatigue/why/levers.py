@@ -56,8 +56,9 @@ def best_levers(attribution: Attribution, loads: Sequence[EventLoad], plan: Plan
     for w in range(len(point)):
         scale = np.where(mode[w][:, None] == np.arange(exponents.shape[1]), SMALLER, 1.0)
         damage[w] += loop_damages(points.of(slice(w, w + 1)), scale, loads, plan)
-    life = life_km(attribution.damage[point], plan.damage_limit)
-    return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, life_km(damage, plan.damage_limit))
+    life = life_km(attribution.damage[point], points.damage_limit)
+    again = life_km(damage, points.damage_limit[:, None])
+    return Levers(point, mode, exponent, life[:, None] * SMALLER**exponent, again)
 
 
 def _damages(point: Points, scale: Floats, q: Samples, load: EventLoad) -> list[float]:

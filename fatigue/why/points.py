@@ -11,7 +11,6 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
-from fatigue.life.rule import size_exponent
 from fatigue.pipeline.solve.model import Model, solve_group
 from fatigue.pipeline.solve.weld_groups import SideForces, WeldGroups
 from fatigue.results import read_codes, read_table
@@ -35,6 +34,7 @@ class Points:
     membrane, bending : (p, m) modal stress with treated ends, bending of the top face [MPa per unit modal coordinate]
     rule : (p,) from stress range to damage, a ``CycleRule`` each
     size, size_exponent : (p,) factor of the thickness on the range, and d ln(size) / d ln(t)
+    damage_limit : (p,) allowed damage sum on the curve of each
     """
 
     weld: NDArray[np.object_]
@@ -48,6 +48,7 @@ class Points:
     rule: NDArray[np.object_]
     size: Floats
     size_exponent: Floats
+    damage_limit: Floats
 
     def __len__(self) -> int:
         """Number of points."""
@@ -69,12 +70,14 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
     names = np.array([weld.name for weld in model.welds], dtype=object)
     rated_of_weld = model.curve_of_weld
     rule = np.empty(len(station), dtype=object)
-    size, exponent = np.empty(len(station)), np.empty(len(station))
+    size, exponent, limit = np.empty(len(station)), np.empty(len(station)), np.empty(len(station))
     for i, at in enumerate(station):
         rated, t = rated_of_weld[stations.weld[at]], stations.thickness[at : at + 1]
-        rule[i] = rated.rule
-        size[i] = rated.size(t)[0]
-        exponent[i] = size_exponent(float(t[0]), rated.curve, rated.thickness_rule)
+        length = model.welds[stations.weld[at]].attachment
+        attachment = np.inf if length is None else length
+        rule[i], limit[i] = rated.rule, rated.damage_limit(model.case.mission.damage_limit)
+        size[i] = rated.size(t, attachment)[0]
+        exponent[i] = rated.size_exponent(float(t[0]), attachment)
     return Points(
         weld=names[stations.weld[station]],
         part=stations.part[station],
@@ -87,6 +90,7 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
         rule=rule,
         size=size,
         size_exponent=exponent,
+        damage_limit=limit,
     )
 
 

@@ -115,7 +115,7 @@ def lever_rows(evidence: Evidence) -> dict[str, Any]:
     frequency = np.concatenate([coordinates.modes.frequency, np.full(len(coordinates.unit_loads), np.nan)])
     ranks = levers.mode.shape[1]
     mode = levers.mode.ravel()
-    life = np.repeat(life_km(attribution.damage[levers.point], evidence.plan.damage_limit), ranks)
+    life = np.repeat(life_km(attribution.damage[levers.point], attribution.points.damage_limit[levers.point]), ranks)
     return {
         **point_columns(attribution.points.of(levers.point), ranks),
         "rank": np.tile(np.arange(1, ranks + 1), len(levers.point)),

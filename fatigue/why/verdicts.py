@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.life.records.history import ModalHistory, stress_record
-from fatigue.life.rule import CycleRule, ratio_factor
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.body import Body
 from fatigue.quotient import quotient
@@ -176,9 +176,11 @@ def _split(load: EventLoad, points: Points, size: Floats, assessed: pd.DataFrame
 
 def _one_ratio_sizes(points: Points, assessed: pd.DataFrame) -> Floats:
     """Factors of the thickness over the factor of one bending ratio of the event, in place of one of each cycle."""
-    I = ratio_factor(np.nan_to_num(assessed["bending_ratio"].to_numpy()))  # noqa: E741 - the symbol of the standard
-    uses = np.array([rule.uses_bending_ratio for rule in points.rule], np.bool_)
-    return points.size / np.where(uses, I, 1.0)
+    ratios, I = np.nan_to_num(assessed["bending_ratio"].to_numpy()), np.ones(len(points))  # noqa: E741 - as in the standard
+    for rule in {id(rule): rule for rule in points.rule}.values():
+        at = np.flatnonzero([other is rule for other in points.rule])
+        I[at] = rule.ratio_factor(ratios[at])
+    return points.size / I
 
 
 def _slope_of_damage(attribution: EventAttribution, at: NDArray[np.int64], otherwise: float) -> float:

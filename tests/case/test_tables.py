@@ -440,11 +440,6 @@ WRONG_CURVES = [
         "knees_cycles = [1e7]\nthickness_exponent = 0.1",
         "curves.mine.thickness_reference_mm: thickness_reference_mm and thickness_exponent need each other. Give both",
     ),
-    (
-        "[curves.mine]",
-        "[curves.master-steel]",
-        "curves.master-steel: 'master-steel' is a curve of the catalogue. Give it",
-    ),
 ]
 
 

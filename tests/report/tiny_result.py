@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +38,7 @@ class Recipe:
     warnings: tuple[dict[str, str], ...] = ()
     spectrum: bool = True
     mesh: bool = False
+    curve_status: str = "cross-checked"
 
 
 def write_result(root: Path, recipe: Recipe = Recipe()) -> Path:
@@ -167,6 +168,7 @@ def _node_rows(recipe, cycles, per_km, passes, toes):
                 "at_end": not recipe.closed and s in (0, recipe.stations - 1),
                 "at_corner": False,
                 "summed_corner": False,
+                "curve_status": recipe.curve_status,
                 "screened": "",
             }
         )
@@ -277,8 +279,12 @@ def _weld_rows(recipe, per_km, passes, cycles, worst):
                 "thickness_max_mm": THICKNESS,
                 "surface": recipe.toes,
                 "curve": CURVE,
+                "curve_status": recipe.curve_status,
+                "edition": "2007 and later",
                 "survival": "mean-2sigma",
                 "end_length_mm": np.nan,
+                "attachment_mm": np.nan,
+                "damage_limit": 1.0,
                 "life_km": _life(damage),
                 "life_years": _life(damage) / KM_PER_YEAR,
                 "utilisation": utilisation,
@@ -375,12 +381,22 @@ def _provenance(recipe, passes, files):
                 "thickness_reference_mm": curve.thickness_reference,
                 "thickness_exponent": curve.thickness_exponent,
                 "source": curve.source,
+                "edition": curve.edition,
+                "clause": curve.clause,
+                "status": recipe.curve_status,
+                "checked_by": "",
+                "checked_on": "",
+                "allowances": asdict(curve.allowances),
+                "factors": [],
+                "quantity": curve.quantity,
                 "used": {
                     "survival": "mean-2sigma",
                     "slopes": used.slopes,
                     "log_constants": used.log_constants,
                     "knees": used.knees,
                     "cutoff": used.cutoff,
+                    "factor_on_range": 1.0,
+                    "damage_limit": 1.0,
                 },
             }
         },

@@ -47,4 +47,5 @@ def point(first, second, size=1.5):
         rule=np.array([RULE], dtype=object),
         size=np.array([size]),
         size_exponent=np.array([-0.25]),
+        damage_limit=np.ones(1),
     )

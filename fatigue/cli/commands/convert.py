@@ -17,6 +17,7 @@ from fatigue.cli.main import cli
 from fatigue.cli.options import asking_for
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrating
+from fatigue.errors import Problem
 from fatigue.readers.convert.options import ConvertOptions
 from fatigue.shown import visible
 
@@ -54,10 +55,14 @@ def convert(options: ConvertOptions, as_json: bool) -> None:
 def _refuse_mistakes(options: ConvertOptions) -> None:
     """Refuse what can be told before anything is read."""
     welds = options.welds
-    refuse_all(missing_foreign(options.forces, options.mesh, *options.unit_loads, *options.coordinates))
+    foreign = (options.forces, options.mesh, *options.unit_loads, *options.stresses, *options.coordinates)
+    refuse_all(missing_foreign(*foreign))
     displacements = (asked.file for asked in options.displacements)
     tables = (welds.register, welds.node_lists, options.columns, options.simulation_modes, *displacements)
-    refuse_all(missing_tables(*tables))
+    refuse_all(missing_tables(*tables, options.stress_points))
+    if options.stresses and options.stress_points is None:
+        what = "shell stresses are given, and no points where they are wanted"
+        refuse_all([Problem("no_stress_points", "--stresses", what, "Give --stress-points, the table of the points")])
     refuse_unknown_units(force_units=options.force_units, coordinate_units=options.coordinate_units)
     refuse_unknown_curve(options.curve)
     refuse_foreign_conversion(options.out, force=options.force, keep_case=options.keep_case)
@@ -72,6 +77,7 @@ def _record(done: "Conversion") -> dict[str, Any]:
         "folder": str(done.folder),
         "files": done.files,
         "modes": done.modes,
+        "read_outs": done.read_outs,
         "unit_loads": [load_record(load) for load in done.unit_loads],
         "audit": [
             {"check": r.check, "light": r.light, "value": r.value, "finding": r.finding, "remedy": r.remedy}
@@ -107,6 +113,8 @@ def _print(done: "Conversion") -> None:
     for load in done.unit_loads:
         say(f"unit load {_told(load)}")
     say(f"{done.modes} modes, {done.force_rows} force rows, {done.assessed} of {len(done.welds)} weld lines assessed")
+    if done.read_outs:
+        say(f"stresses at {done.read_outs} read-outs of stress points")
     for number, reason in reasons(done.welds):
         say(f"{number} weld line{'s' * (number > 1)} not assessed: {visible(reason)}")
     edit = register_named(done.folder / "case.toml")

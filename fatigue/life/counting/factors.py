@@ -6,9 +6,9 @@ Rainflow finds the same cycles at any scale of the stress. A cycle of the equiva
 
 at the factor f, with the slope k of the segment that f x lies on, and none below the cut-off. With mean stress x is
 divided by f_M for all factors at which ``f (min + max) >= yield`` and ``f S <= 2 yield``: the offset is a stress and
-scales as all do, so that R, and f_M with it, does not depend on f. So every cycle has few stretches of ascending
-factors, on each of which its damage is a constant times f^k. Each damage is that of the cycle itself; nothing is sorted
-into classes.
+scales as all do, so that R, and f_M or f(R) with it, does not depend on f. So every cycle has few stretches of
+ascending factors, on each of which its damage is a constant times f^k. Each damage is that of the cycle itself; nothing
+is sorted into classes.
 
 Damage rises with the factor, but for cycles that leave f_M behind at twice the yield stress. These keep it for one
 factor more. So the damage found at a factor is never below the damage anywhere between this factor and the one before.
@@ -22,7 +22,13 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.counting.reversals import Buffers
-from fatigue.life.counting.tally import CompiledRule, Surface, factor_of_stress_ratio, ratio_factor
+from fatigue.life.counting.tally import (
+    CompiledRule,
+    Surface,
+    bending_factor,
+    factor_of_stress_ratio,
+    stress_ratio_factor,
+)
 
 Floats = NDArray[np.float64]
 
@@ -118,8 +124,9 @@ def tally_trials(
         if S == 0.0:
             continue
         dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
-        I = ratio_factor(db / (dm + db)) if rule.uses_bending_ratio else 1.0  # noqa: E741 - the symbol of the standard
-        x = S * point.size / I
+        x = S * point.size / bending_factor(db / (dm + db), rule.uses_bending_ratio, rule.allows_for_bending)
+        if rule.ratio_level > 0.0:
+            x /= stress_ratio_factor(minimum, maximum, rule.ratio_level)
         begins = ends = every
         if rule.mean_stress and minimum > 0.0:
             begins = first_at_least(minimum + maximum, factors, rule.yield_MPa, 0)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled, inlined
+from fatigue.life import allowances
 from fatigue.life import rule as master
 from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount, BlockStress
 from fatigue.life.counting.reversals import Buffers
@@ -21,7 +22,10 @@ _SCALARS = tuple(field.name for field in fields(BlockCount) if field.name != "hi
 
 
 class CompiledRule(NamedTuple):
-    """A ``CycleRule`` in a form that compiled code can read, its law among it: see ``compiled_rule``."""
+    """A ``CycleRule`` in a form that compiled code can read, its law among it: see ``compiled_rule``.
+
+    ``ratio_level`` is the level of f(R), 0 without it.
+    """
 
     slopes: Floats
     log_constants: Floats
@@ -30,6 +34,8 @@ class CompiledRule(NamedTuple):
     uses_bending_ratio: bool
     yield_MPa: float  # noqa: N815
     mean_stress: bool
+    allows_for_bending: bool
+    ratio_level: float
 
 
 class Surface(NamedTuple):
@@ -48,7 +54,8 @@ def compiled_rule(rule: CycleRule) -> CompiledRule:
     """Put a rule into the form for compiled code; without a yield stress it is infinite, so that f_M is 1."""
     law, yield_MPa = rule.law, math.inf if rule.yield_MPa is None else float(rule.yield_MPa)
     curve = (plain(law.slopes), plain(law.log_constants), plain(law.knees), float(law.cutoff))
-    return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress)
+    allowed = rule.bending_factor != "none", allowances.RATIO_LEVELS.get(rule.stress_ratio, 0.0)
+    return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress, *allowed)
 
 
 def nothing_counted(points: int, law: DamageLaw, *, ranges: bool = False) -> tuple[NDArray[np.void], Floats]:
@@ -92,6 +99,16 @@ factor_of_stress_ratio = compiled()(master.factor_of_stress_ratio)
 equivalent_range = compiled()(master.equivalent_range)
 segment = inlined(master.segment)
 damage_on_segment = compiled()(master.damage_on_segment)
+bending_allowance = compiled()(allowances.bending_allowance)
+stress_ratio_factor = compiled()(allowances.stress_ratio_factor)
+
+
+@compiled()
+def bending_factor(r: float, uses_bending_ratio: bool, allows_for_bending: bool) -> float:
+    """What the bending ratio of a cycle divides its range by: I(r)^(1/m), the allowance of the curve, or 1."""
+    if uses_bending_ratio:
+        return float(ratio_factor(r))
+    return float(bending_allowance(r)) if allows_for_bending else 1.0
 
 
 @compiled()
@@ -127,12 +144,12 @@ def tally(
     """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
 
     A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` (Eq. 7) and
-    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8); the damage is their Miner sum (Eq. 12). The range is that of the samples
-    to the last bit, whatever the offset.
+    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8), with the allowances of the curve in the places of I and f_M where it has
+    some; the damage is their Miner sum (Eq. 12). The range is that of the samples to the last bit, whatever the offset.
     """
     membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
     k = rule.slopes[0]
-    I_same = ratio_factor(point.same_ratio) if rule.uses_bending_ratio else 1.0
+    I_same = bending_factor(point.same_ratio, rule.uses_bending_ratio, rule.allows_for_bending)
     same_scale = equivalent_range(1.0, size, I_same, 1.0)
     for c in range(cycles):
         i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
@@ -140,8 +157,10 @@ def tally(
         S = max(s_i, s_j) - min(s_i, s_j)
         minimum, maximum = min(s_i, s_j) + point.offset, max(s_i, s_j) + point.offset
         dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
-        I = ratio_factor(db / (dm + db)) if rule.uses_bending_ratio else 1.0  # noqa: E741 - the symbol of the standard
-        x = equivalent_range(S, size, I, 1.0)
+        bends = rule.uses_bending_ratio, rule.allows_for_bending
+        I = bending_factor(db / (dm + db), bends[0], bends[1])  # noqa: E741 - the symbol of the standard
+        f_R = stress_ratio_factor(minimum, maximum, rule.ratio_level) if rule.ratio_level > 0.0 else 1.0
+        x = equivalent_range(S, size, I, f_R)
         f_M = mean_stress_factor(minimum, maximum, rule.yield_MPa)
         dS = x / f_M if rule.mean_stress else x
         damage = cycle_damage(dS, rule)

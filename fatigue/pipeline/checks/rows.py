@@ -15,6 +15,13 @@ NUMBERS = (
     "damage_limit",
     "utilisation_stress",
     "limit_value",
+    "value",
+    "normal_part",
+    "shear_part",
+    "R",
+    "amplitude_MPa",
+    "allowed_amplitude_MPa",
+    "plane_range_MPa",
 )
 PLACES = ("part", "order")
 NOT_ASSESSED = -1  # of ``fulfilled``; else 0 or 1
@@ -31,7 +38,7 @@ def no_rows() -> CheckRows:
 def check_rows(
     rows: int,
     *,
-    check: str = "",
+    check: object = "",
     weld: object = "",
     part: object = NOWHERE,
     order: object = NOWHERE,
@@ -47,6 +54,13 @@ def check_rows(
     damage_limit: object = np.nan,
     utilisation_stress: object = np.nan,
     limit_value: object = 1.0,
+    value: object = np.nan,
+    normal_part: object = np.nan,
+    shear_part: object = np.nan,
+    R: object = np.nan,
+    amplitude_MPa: object = np.nan,
+    allowed_amplitude_MPa: object = np.nan,
+    plane_range_MPa: object = np.nan,
     fulfilled: object = NOT_ASSESSED,
     governing_event: object = "",
     note: object = "",
@@ -64,8 +78,8 @@ def check_rows(
     wide = {name: np.dtype(f"U{max(1, values[name].dtype.itemsize // 4)}") for name in TEXTS}
     kinds = [(name, wide.get(name, value.dtype)) for name, value in values.items()]
     array = np.empty(rows, dtype=kinds)
-    for name, value in values.items():
-        array[name] = value
+    for name, column in values.items():
+        array[name] = column
     return array
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.count import count, count_and_residue
-from fatigue.life.rule import cycle_damage
+from fatigue.life.rule import CycleRule, cycle_damage
 from fatigue.life.shear import shear_factor
 from fatigue.pipeline.count.bounds import Bound
 from fatigue.pipeline.count.estimate import Estimate
@@ -80,8 +80,7 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate, *, joi
     """
     var, shear_var, covar, shear_bending_ratio = _variances(stress, load)
     rule = stress.rule
-    I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
-    with_shear = shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t))
+    with_shear = _with_shear(rule, estimate, var, shear_var, covar, shear_bending_ratio)
     counted, damage_raw_end, residues = _counted(stress, load, estimate.one_ratio, with_shear, joins=joins)
     damage_shear = counted.damage_with_shear
     if rule.law.is_straight:
@@ -96,6 +95,11 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate, *, joi
         residue=residues[0],
         residue_raw_end=residues[1],
     )
+
+
+def factor_with_shear(stress: ModalStress, load: EventLoad, estimate: Estimate) -> NDArray[np.float64]:
+    """ASME factor (n, 2) on the equivalent range if shear counted; NaN where the normal stress is constant."""
+    return _with_shear(stress.rule, estimate, *_variances(stress, load))
 
 
 def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBlock:
@@ -169,6 +173,19 @@ def _counted(
     damage_raw_end[ends.rows] = np.nan
     damage_raw_end[rows] = everything.damage[n:]
     return counted, damage_raw_end, residues
+
+
+def _with_shear(
+    rule: CycleRule,
+    estimate: Estimate,
+    var: NDArray[np.float64],
+    shear_var: NDArray[np.float64],
+    covar: NDArray[np.float64],
+    shear_bending_ratio: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """``shear_factor`` of both faces, each stress over its own ``I(r)^(1/m)``."""
+    I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
+    return shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t))
 
 
 def _variances(stress: ModalStress, load: EventLoad) -> tuple[NDArray[np.float64], ...]:

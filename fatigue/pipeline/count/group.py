@@ -27,13 +27,14 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     curve_of = np.array([rated.curve.name for rated in curve_of_weld])[stations.weld]
     for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)
-        stress, names = modal_stress(stations, rows, rated), _weld_names(stations, rows)
-        block = Block(stress, stations.weld[rows], stations.toe[rows], loads, plan, names)
+        stress, names = modal_stress(stations, rows, rated), weld_names(stations, rows)
+        block = Block(stress, stations.weld[rows], stations.toe[rows], loads, rated.plan(plan), names)
         for settled in block.all_counted() if screening is None else settle(block, screening):
             result.put(settled, rows[settled.rows])
     return result
 
 
-def _weld_names(stations: Stations, rows: NDArray[np.intp]) -> str:
+def weld_names(stations: Stations, rows: NDArray[np.intp]) -> str:
+    """Welds of some stations in words."""
     names = sorted({stations.welds[i].name for i in stations.weld[rows]})
     return f"welds {names[0]} to {names[-1]}"

@@ -23,6 +23,7 @@ class MissionBlock:
 
     ``life_km_raw_end`` is the life without the end treatment, NaN where it was not counted. ``governing`` is the index
     of the event, or of the loop behind all events, with the largest share of the damage, -1 where nothing damages.
+    ``damage_with_shear`` is that of the passes alone, per km, with the ASME factor for shear.
     ``transitions`` is what the loops add per km, NaN without loops, and ``transitions_bound`` what no order of the
     events exceeds, NaN unless their stints are given. ``verdict`` is the verdict of the
     event with the largest share of the damage among the events that have a spectrum, or ``outside_band`` where the
@@ -46,6 +47,7 @@ class MissionBlock:
     factor_if_mean_stress: NDArray[np.float64]
     shear_ratio: NDArray[np.float64]
     factor_if_shear: NDArray[np.float64]
+    damage_with_shear: NDArray[np.float64]
     governing: NDArray[np.int64]
     bending_ratio: NDArray[np.float64]
     verdict: NDArray[np.int8]
@@ -91,7 +93,7 @@ def mission_block(
     mean_stress = mean_stress + _of_loops([loop.damage_mean_stress for loop in loops], plan, damage)
     raw_end = _sum([event.damage_raw_end for event in events], plan.passes, damage)
     raw_end = raw_end + _of_loops([loop.damage_raw_end for loop in joined.loops], plan, damage)
-    shear = quotient(_sum([event.damage_shear for event in events], plan.passes, damage), damage)
+    with_shear = _sum([event.damage_shear for event in events], plan.passes, damage)
     return MissionBlock(
         damage_per_km=damage,
         life_km=life_km(damage, plan.damage_limit),
@@ -108,7 +110,8 @@ def mission_block(
         r_largest=_of_event([*(c.r_largest for c in counts), *(loop.r_largest for loop in loops)], largest),
         factor_if_mean_stress=quotient(mean_stress, damage),
         shear_ratio=_of_event([event.shear_ratio for event in events], governing),
-        factor_if_shear=np.full_like(damage, np.nan) if loops else shear,
+        factor_if_shear=np.full_like(damage, np.nan) if loops else quotient(with_shear, damage),
+        damage_with_shear=with_shear,
         governing=governing,
         bending_ratio=_of_event([estimate.bending_ratio for estimate in estimates], governing),
         verdict=_verdict(events, weights[: len(counts)], outside),

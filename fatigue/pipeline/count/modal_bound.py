@@ -67,8 +67,10 @@ def bounded_raw_ends(block: Block, screening: Screening) -> NDArray[np.float64]:
 def _first_slopes(
     limits: tuple[NDArray[np.float64], PowerSums], stress: ModalStress, load: EventLoad, plan: Plan
 ) -> list[NDArray[np.float64]]:
-    """The bound that junctions want of an event on a curve of several slopes; else none."""
-    return [first_slope_bound(limits, stress, load)] if plan.joins_events and not stress.rule.law.is_straight else []
+    """The bound that junctions want of an event on a curve of several slopes or allowances; else none."""
+    rule = stress.rule  # what is counted with allowances of a cycle is no bound of the same cycles in another order
+    wanted = plan.joins_events and not (rule.law.is_straight and rule.is_of_range_alone)
+    return [first_slope_bound(limits, stress, load)] if wanted else []
 
 
 def _junctions(

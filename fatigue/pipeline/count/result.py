@@ -1,7 +1,7 @@
 """The result of a group of welds as few arrays, to be stored or sent: what its rows in the tables need."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from operator import attrgetter
 from typing import Any, Self
 
@@ -51,6 +51,7 @@ class GroupResult:
     of_mission : (f, n, 2) the fields of the ``MissionBlock`` but the two that follow
     governing, verdict : (n, 2) of the mission
     tier : (n,) index into ``block.TIERS``, 0 where cycles were counted
+    multiaxial : (n, 2) what shear adds, ``multiaxial.found``; (0, 2) where the case wants none of it
     checks : rows of the other checks of these welds, ``checks.rows``; none unless the case asks for them
     sensitivity : (v, w, f) every weld under every variant, ``sensitivity.group``
     """
@@ -62,6 +63,7 @@ class GroupResult:
     governing: NDArray[np.int64]
     verdict: NDArray[np.int8]
     tier: NDArray[np.int8]
+    multiaxial: NDArray[Any]
     checks: NDArray[Any]
     sensitivity: NDArray[np.float64]
 
@@ -76,6 +78,7 @@ class GroupResult:
             governing=np.empty((stations, 2), np.int64),
             verdict=np.empty((stations, 2), np.int8),
             tier=np.empty(stations, np.int8),
+            multiaxial=np.empty((0, 2)),
             checks=np.empty(0),
             sensitivity=np.empty((0, 0, 0)),
         )
@@ -89,6 +92,13 @@ class GroupResult:
         """All events together: views of the arrays."""
         numbers = dict(zip(_OF_MISSION, self.of_mission, strict=True))
         return MissionBlock(**numbers, governing=self.governing, verdict=self.verdict)
+
+    def with_mission(self, **changed: NDArray[np.float64]) -> Self:
+        """The same result with other numbers (n, 2) in some fields of its mission."""
+        of_mission = self.of_mission.copy()
+        for name, numbers in changed.items():
+            of_mission[_OF_MISSION.index(name)] = numbers
+        return replace(self, of_mission=of_mission)
 
     def put(self, settled: Settled, rows: NDArray[np.intp]) -> None:
         """Write what was settled to its rows."""

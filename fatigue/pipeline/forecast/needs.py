@@ -11,6 +11,7 @@ import numpy as np
 
 from fatigue.life.records.history import LONG_NUMBERS, LONGEST_TRANSFORM
 from fatigue.pipeline.count.result import OF_EVENT
+from fatigue.pipeline.forecast.shear import path_memory, shear_seconds
 from fatigue.pipeline.forecast.size import SCREENED, JobSize
 from fatigue.pipeline.mission.event_load import held_copies
 from fatigue.pipeline.mission.events import HELD_BYTES
@@ -135,11 +136,12 @@ def counting(size: JobSize) -> float:
     longest = max(size.counted)
     histories = min(ROWS_OF_STRESS, 32.0 * size.group * longest)
     of_thread = STRESS * size.group * size.modes + forces + 3.0 * results + (0.0 if size.is_single else histories)
+    paths = path_memory(size.shear, size.counted, size.threads)
     rows = size.stations * (2 + 2 * len(size.samples) + size.modes)
     listed = min(ROWS_OF_STRESS, 256.0 * longest) + CYCLES_LISTED * min(longest, LONGEST_LISTED)
     busy = min(size.threads, -(-size.stations // size.group))
     binned = size.threads * BINNED if size.histograms else 0.0
-    return busy * of_thread + min(MOST_WAITING, WAITING_ROWS * rows) + max(listed, binned)
+    return busy * of_thread + min(MOST_WAITING, WAITING_ROWS * rows) + max(listed, binned, paths)
 
 
 def page(size: JobSize) -> float:
@@ -182,7 +184,8 @@ def _seconds(size: JobSize) -> float:
     exact, each = PER_STRESS_SAMPLE[False]
     binned = 2.0 * size.histograms * sum(size.counted) * (exact + each * size.modes)
     shown = SECOND_ON_PAGE * min(size.welds, MOST_DETAILED) if size.report else 0.0
-    return FIRST + counted + prepared + listed + binned + shown
+    shear = shear_seconds(size.shear, size.welds, size.stations, size.modes, size.counted, screened=size.is_screened)
+    return FIRST + counted + prepared + listed + binned + shear + shown
 
 
 def size_text(size: float) -> str:

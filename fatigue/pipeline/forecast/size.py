@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.events import DOUBLE_PRECISION_SAMPLES
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import SHARE
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.weld_groups import GROUPS, LARGEST_GROUP, SMALLEST_GROUP
@@ -31,6 +32,7 @@ class JobSize:
     report : whether a page is written
     histogram : of which points histograms are kept
     vertex : whether reversals are read at their vertices, which takes double precision
+    shear : how shear is counted at the toes, as in the case
     """
 
     modes: int
@@ -44,6 +46,7 @@ class JobSize:
     report: bool
     histogram: HistogramPoints = "worst"
     vertex: bool = False
+    shear: str = "off"
 
     @property
     def counted(self) -> tuple[int, ...]:
@@ -90,7 +93,9 @@ def job_size(
     assumed = tuple(p.factor(factor) for p, factor in zip(plan.passes, wanted, strict=True))
     stations, samples = int(body.lines.begin[-1]), tuple(one.samples for one in plan.passes)
     counted = sum(n * factor for n, factor in zip(samples, assumed, strict=True))
-    by_default = SHARE if 2 * stations * counted > DOUBLE_PRECISION_SAMPLES else 0.0
+    method = body.case.multiaxial.method
+    screens = 2 * stations * counted > DOUBLE_PRECISION_SAMPLES and method not in DECIDING
+    by_default = SHARE if screens else 0.0
     return JobSize(
         modes=len(body.coordinates),
         stations=stations,
@@ -103,4 +108,5 @@ def job_size(
         report=report,
         histogram=histogram,
         vertex=body.case.counting.reversals == "vertex",
+        shear=method,
     )

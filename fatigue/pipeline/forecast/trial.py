@@ -14,12 +14,14 @@ from fatigue.pipeline.count.group import assess_group
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import histogram_points, worst_points
 from fatigue.pipeline.forecast.needs import PER_STRESS_SAMPLE
+from fatigue.pipeline.forecast.shear import shear_seconds
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
     load_of,
     shortened_record,
 )
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import Stations
@@ -111,6 +113,7 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     body = model.body
     longest = int(np.argmax([one.samples for one in plan.passes]))
     event, one = body.case.mission.event[longest], plan.passes[longest]
+    method = body.case.multiaxial.method
     samples = min(one.samples, max(SHORTEST_TRIAL, min(LONGEST_TRIAL, int(TRIAL_SAMPLES / len(model.stations)))))
     record = shortened_record(body, event, samples, scratch)
     less = replace(record, q=np.ascontiguousarray(record.q[:, 0 : max(2, samples // 8)]))
@@ -118,17 +121,20 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
         trial = _Trial(model, one, plan)
         factor = factors[longest]
         finer = factor // max(1, one.refined)
-        upsampled = sum(f * p.samples for f, p in zip(factors, plan.passes, strict=True))
+        sampled = [f * p.samples for f, p in zip(factors, plan.passes, strict=True)]
+        upsampled = sum(sampled)
         single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
         prepare_s, load = _timed(lambda: load_of(body, event, record, finer, single=single))
         _, short = _timed(lambda: load_of(body, event, less, finer, single=single))
         exact, result = _of_length(load, short, trial.counted)
         default = exact
-        if single:
+        screens = single and method not in DECIDING
+        if screens:
             default, result = _of_length(load, short, lambda chunk: trial.screened(chunk, scratch))
 
     n = load.counted.q.shape[1]
     of_groups = stations / len(model.stations)
+    shear_s = shear_seconds(method, len(body.welds), stations, len(body.coordinates), sampled, screened=screens)
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
@@ -141,11 +147,11 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
-        counting=(SETTLED_LATE if single else 1.0) * of_groups * default.of(events, upsampled) + binning_s,
-        counting_exact=of_groups * exact.of(events, upsampled) + binning_s,
+        counting=(SETTLED_LATE if screens else 1.0) * of_groups * default.of(events, upsampled) + binning_s + shear_s,
+        counting_exact=of_groups * exact.of(events, upsampled) + binning_s + shear_s,
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
-        screened=single,
+        screened=screens,
         upsample=tuple(factors),
     )
 

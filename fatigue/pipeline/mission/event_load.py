@@ -142,6 +142,11 @@ def as_counted(load: EventLoad, record: EventRecord, how: HowCounted, scratch: P
     return replace(load, single=single)
 
 
+def without_spectrum(load: EventLoad) -> EventLoad:
+    """The event without what only the frequency domain needs: what is only counted has no use for it."""
+    return replace(load, moments=None, moment_pairs=(), pairs_above=(), trust=None)
+
+
 def form_pairs(moments: MomentMatrices) -> tuple[FormPair, ...]:
     """Moment matrices of orders 0 and 1, and of orders 2 and 4, ready for all stations."""
     return form_pair(*moments.matrix[:2]), form_pair(*moments.matrix[2:])

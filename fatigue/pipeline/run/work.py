@@ -6,6 +6,8 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from fatigue.case import Case
+from fatigue.errors import DataError, refuse
+from fatigue.life.bounds.path_extent import path_extent
 from fatigue.life.bounds.screening import modal_extent
 from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.group import group_checks, has_checks
@@ -15,6 +17,10 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.event_load import EventLoad, held_copies, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
+from fatigue.pipeline.multiaxial.counted import long_paths
+from fatigue.pipeline.multiaxial.found import MODELS
+from fatigue.pipeline.multiaxial.group import Shear, group_multiaxial
+from fatigue.pipeline.multiaxial.method import DECIDING, decided_by
 from fatigue.pipeline.run.checkpoint import state_key
 from fatigue.pipeline.sensitivity.group import Job, group_sensitivity
 from fatigue.pipeline.sensitivity.sampling import OtherSampling, other_sampling
@@ -49,7 +55,8 @@ class Work:
 
     ``screening`` is None where every point is to be counted. ``kept_from`` is the utilisation from which the cycles of
     the worst point of a weld are kept: the cycles of all welds of a train would fill the disk. ``histogram`` says of
-    which points histograms are kept. ``sampling`` has the records sampled otherwise than they are counted.
+    which points histograms are kept. ``sampling`` has the records sampled otherwise than they are counted, ``shear``
+    says how shear is counted at the toes, None: not at all.
     """
 
     groups: WeldGroups
@@ -59,6 +66,7 @@ class Work:
     kept_from: float
     histogram: HistogramPoints
     sampling: OtherSampling
+    shear: Shear | None = None
 
     @property
     def factors(self) -> tuple[int, ...]:
@@ -69,6 +77,10 @@ class Work:
         """One group of welds, solved, and its result."""
         model = solve_group(self.groups, number)
         result = assess_group(model, self.loads, self.plan, self.screening)
+        if self.shear is not None:
+            result = replace(result, multiaxial=group_multiaxial(model, result, self.loads, self.plan, self.shear))
+            if self.shear.method in DECIDING:
+                result = decided_by(self.shear.method, model, result, self.plan)
         if has_checks(model.case):
             result = replace(result, checks=group_checks(model, result, self.loads, self.plan))
         job = Job(self.loads, self.plan, self.screening, self.sampling, counts_again=self.kept_from == 0.0)
@@ -90,11 +102,32 @@ def open_work(
     """
     loads = event_loads(groups, plan, scratch / "histories", threads, factors)
     large = SHARE if any(load.single is not None for load in loads) else 0.0
-    share = large if options.share is None else options.share
+    named = groups.body.case.multiaxial.method in DECIDING  # no bound says what shear does to the points it settles
+    share = 0.0 if named else large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
     sampling = other_sampling(groups, loads, plan)
-    return Work(groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling)
+    shear = shear_of(groups.body.case, loads, 0.0 if named else large, threads)
+    return Work(
+        groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling, shear=shear
+    )
+
+
+def shear_of(case: Case, loads: Sequence[EventLoad], counted_from: float, threads: int | None) -> Shear | None:
+    """How the case wants shear at the toes, with the records prepared for its bounds on some threads.
+
+    Raises
+    ------
+    DataError : a method of the path counter is named, and a record is too long for it
+    """
+    asked = case.multiaxial
+    if asked.method == "off":
+        return None
+    if asked.method in MODELS:
+        as_counted = ((load.counted.event, load.counted.q.shape[1], load.upsample) for load in loads)
+        refuse(DataError, long_paths(case.path.name, as_counted))
+    extents = in_order(lambda load: path_extent(load.counted.q, load.residue, load.covariance), loads, threads)
+    return Shear(asked.method, asked.beta, asked.alpha, tuple(extents), counted_from)
 
 
 def screening_of(

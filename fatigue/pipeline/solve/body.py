@@ -1,6 +1,6 @@
 """The body of a case as its small files describe it: modes, welds, lines, curves, mesh; forces are read later."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -8,15 +8,29 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
-from fatigue.pipeline.solve.rated_curves import RatedCurve, asked_curves, curves_of_case, rated_curves
+from fatigue.pipeline.solve.compared_cases import Compared, endurance_curves, read_compared, refuse_wrong_checks
+from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings
+from fatigue.pipeline.solve.point_curves import point_curves
+from fatigue.pipeline.solve.rated_curves import (
+    RatedCurve,
+    asked_curves,
+    attachment_problems,
+    curves_of_case,
+    rated_curves,
+)
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
+from fatigue.readers.neutral.body.classes import class_warnings
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.body.modes import Modes, read_modes
+from fatigue.readers.neutral.body.strength_factors import StrengthFactor, read_strength_factors
+from fatigue.readers.neutral.body.throats import WeldThroat, assessed_throats, check_throats, read_throats
 from fatigue.readers.neutral.body.welds import Weld, read_welds
 from fatigue.readers.neutral.line_file import LineFile, line_file
+from fatigue.readers.neutral.points.beside_welds import assessed_names, compared_with_welds
+from fatigue.readers.neutral.points.stress_points import StressPoints, read_stress_points
 from fatigue.readers.neutral.register.conversion import convert_record
 from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.register.registered import Registered, registered, unregistered
@@ -33,9 +47,10 @@ class Body:
 
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
-    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``mesh`` serves
-    the balance check and pictures; ``conversion`` is what ``fatigue convert`` recorded, its audit included;
-    ``warnings`` are about these files.
+    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``throats`` are
+    those of the welds that have one, by their names; ``compared`` static load cases and endurance lines; ``points`` are
+    the stress points, None without them; ``mesh`` serves the balance check and pictures; ``conversion`` is what
+    ``fatigue convert`` recorded, its audit included; ``warnings`` are about these files.
     """
 
     case: Case
@@ -46,10 +61,13 @@ class Body:
     joints: Joints
     lines: LineFile
     curves: Mapping[str, RatedCurve]
+    throats: Mapping[str, WeldThroat]
+    compared: Compared
     mesh: Mesh | None
     conversion: Mapping[str, Any] | None
     strict: bool
     warnings: tuple[Problem, ...]
+    points: StressPoints | None = None
 
     @property
     def coordinates(self) -> Coordinates:
@@ -85,16 +103,37 @@ def read_body(case: Case, *, strict: bool) -> Body:
         conversion = convert_record(conversion_file(case))
         plan = registered(open_register(register, strict=strict), in_tables, conversion, known_curves)
     warnings += plan.warnings
+    warnings += class_warnings(plan.welds, plan.file or files.welds)
     names = (weld.name for weld in (*in_tables, *plan.welds))
     warnings += case_warnings(case) + name_warnings(f"{files.welds}: column weld", names, "welds")
-    curves = rated_curves(case, known_curves, asked_curves(case, plan.welds))
+    throats, of_throats = _throats(case, in_tables, plan, strict=strict)
+    points, of_points = _points(case, plan, in_tables, known_curves, strict=strict)
+    warnings += of_throats + of_points
+    factors: tuple[StrengthFactor, ...] = ()
+    if case.checks.strength_factors is not None:
+        table = case.resolve(case.checks.strength_factors)
+        factors, of_factors = read_strength_factors(table, known_curves, strict=strict)
+        warnings += of_factors
+    of_checks = [*point_curves(points), *endurance_curves(case)]
+    curves = rated_curves(case, known_curves, [*asked_curves(case, plan.welds, throats.values()), *of_checks], factors)
+    refuse(DataError, attachment_problems(case, plan.welds, curves))
+    warnings += cutoff_warnings(case, curves)
+    loads = tuple(load.name for load in case.body.unit_load)
+    compared, of_compared = read_compared(case, Coordinates(modes, loads), known_curves, strict=strict)
+    refuse_wrong_checks(case, plan.welds, (), compared, curves)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
     welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
-    warnings += of_lines + of_mesh
+    warnings += of_compared + of_lines + of_mesh
+    if throats:
+        check_throats(throats, lines, str(files.weld_throats))
+    if points:
+        of_frames, doubts = compared_with_welds(points, lines)
+        refuse(DataError, of_frames)
+        warnings += doubts
     give_back()
     record = conversion_file(case)
     return Body(
@@ -106,11 +145,39 @@ def read_body(case: Case, *, strict: bool) -> Body:
         joints=joints,
         lines=lines,
         curves=curves,
+        throats=throats,
+        compared=compared,
         mesh=mesh,
         conversion=read_record(record) if record else None,
         strict=strict,
         warnings=tuple(warnings),
+        points=points,
     )
+
+
+def _throats(
+    case: Case, in_tables: Sequence[Weld], plan: Registered, *, strict: bool
+) -> tuple[dict[str, WeldThroat], list[Problem]]:
+    """Throats of the welds to assess, and the warnings about the table."""
+    file = case.body.weld_throats
+    if file is None:
+        return {}, []
+    assessed = {weld.name for weld in plan.welds}
+    known = assessed | {weld.name for weld in in_tables} | {row.weld for row in plan.left_out}
+    throats, warnings = read_throats(case.resolve(file), known, strict=strict)
+    some, of_others = assessed_throats(throats, assessed, file)
+    return some, [*warnings, *of_others]
+
+
+def _points(
+    case: Case, plan: Registered, in_tables: Sequence[Weld], curves: Collection[str], *, strict: bool
+) -> tuple[StressPoints | None, list[Problem]]:
+    """The stress points of a case, and the warnings about their table; their welds as they are assessed."""
+    if case.body.stress_points is None:
+        return None, []
+    others = [*(weld.name for weld in in_tables), *(row.weld for row in plan.left_out)]
+    welds = assessed_names(plan.names, others)
+    return read_stress_points(case.resolve(case.body.stress_points), welds, curves, strict=strict)
 
 
 def _lines_on_disk(
@@ -133,8 +200,9 @@ def _lines_on_disk(
     warnings += checked_lines(lines, path.name)
     refuse(DataError, unit_problems(lines, case.body.weld_nodes))
     warnings += unit_warnings(lines, case.body.weld_nodes)
+    rated = [curves[weld.curve or case.curve.name] for weld in welds]
+    warnings += thin_plate_warnings(lines, rated, path.name)
     if case.body.nodal_forces is not None:
-        rated = [curves[weld.curve or case.curve.name] for weld in welds]
         warnings += summed_corners(lines, [float(one.rule.law.slopes[0]) for one in rated], path.name)
     if mesh is not None:
         names = TableNames(path.name, Path(case.body.nodes or "").name, Path(case.body.elements or "").name)

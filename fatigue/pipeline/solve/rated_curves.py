@@ -1,57 +1,123 @@
-"""The S-N curves a case asks for, at its survival level and with its extension."""
+"""The S-N curves a case asks for, at its survival level and with its extension, for the stress that asks for them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.case import Case, CustomCurve
+from fatigue.case import Case
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import (
-    DamageLaw,
-    Quantity,
-    SNCurve,
-    ThicknessRule,
-    catalogue,
-    damage_law,
-    survival_level,
-    user_curve,
-)
-from fatigue.life.rule import CycleRule, size_factor
+from fatigue.life.allowances import bending_thickness
+from fatigue.life.curves import DamageLaw, Extension, Quantity, SNCurve, Survival, ThicknessRule, damage_law
+from fatigue.life.curves import survival_level as level_of
+from fatigue.life.mission import Plan
+from fatigue.life.rule import CycleRule, size_exponent, size_factor
+from fatigue.pipeline.solve.known_curves import curves_of_case
+from fatigue.readers.neutral.body.strength_factors import StrengthFactor, on_limit, on_range
+from fatigue.readers.neutral.body.throats import WeldThroat
 from fatigue.readers.neutral.body.welds import Weld
+from fatigue.shown import few
+
+__all__ = ["AskedCurve", "RatedCurve", "asked_curves", "curves_of_case", "rated_curves"]
+
+Use = Literal["toe", "hot_spot", "nominal", "throat", "root", "parent", "endurance"]
+FITS: dict[str, tuple[str, ...]] = {  # what a curve that serves a use may apply to
+    "toe": ("structural", "dS"),
+    "hot_spot": ("hot_spot", "structural"),
+    "nominal": ("nominal",),
+    "throat": ("throat",),
+    "root": ("throat", "structural", "dS"),
+    "parent": ("parent",),
+    "endurance": ("structural", "hot_spot", "nominal", "throat", "parent"),
+}
+USES = {
+    "toe": "the structural stress at the toe",
+    "hot_spot": "a hot-spot stress",
+    "nominal": "a nominal stress",
+    "throat": "the stress in the throat",
+    "root": "the structural stress of the throat at the root",
+    "parent": "the stress in the parent metal",
+    "endurance": "a stress between static load cases",
+}
+APPLIES = {
+    "structural": "structural stress",
+    "dS": "the equivalent structural stress dS",
+    "hot_spot": "hot-spot stress",
+    "nominal": "nominal stress",
+    "throat": "the stress in the throat",
+    "parent": "the stress in the parent metal",
+}
 
 
 @dataclass(frozen=True, slots=True)
 class RatedCurve:
-    """A curve as this assessment uses it: at a survival level, with the rules that turn cycles into damage."""
+    """A curve as this assessment uses it: at a survival level, with the rules that turn cycles into damage.
+
+    ``factors`` are those of the table of strength factors.
+    """
 
     curve: SNCurve
     survival: str
     rule: CycleRule
     thickness_rule: ThicknessRule
+    factors: tuple[StrengthFactor, ...] = ()
 
-    def size(self, thickness: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Factor of plates of some thickness [mm] on the range, see ``size_factor``."""
-        return size_factor(thickness, self.curve, self.thickness_rule)
+    @property
+    def on_range(self) -> float:
+        """Factor on every range, whatever the plate: partial factors and those of the table; 1 without any."""
+        of = self.curve.allowances
+        return of.gamma_Ff * of.gamma_Mf * on_range(self.factors)
+
+    def size(
+        self, thickness: NDArray[np.float64], attachment: NDArray[np.float64] | float = np.inf
+    ) -> NDArray[np.float64]:
+        """Factor of plates of some thickness [mm] on the range: ``size_factor`` and all that is not a cycle's own.
+
+        ``attachment`` is the length [mm] of what is attached, for a curve that asks for it.
+        """
+        of_plate = size_factor(thickness, self.curve, self.thickness_rule, attachment)
+        return of_plate * bending_thickness(thickness, self.curve.allowances) * self.on_range
+
+    def size_exponent(self, thickness: float, attachment: float = np.inf) -> float:
+        """Exponent d ln(size) / d ln(t) of ``size`` at a thickness [mm]."""
+        of = self.curve.allowances
+        of_bending = of.bending_exponent if of.bending_factor != "none" else 0.0
+        return size_exponent(thickness, self.curve, self.thickness_rule, attachment) + of_bending
+
+    def damage_limit(self, of_mission: float) -> float:
+        """Allowed damage sum on this curve: its own, else that of the mission, with the factors of the table."""
+        own = self.curve.damage_limit
+        return (of_mission if own is None else own) * on_limit(self.factors)
+
+    def plan(self, plan: Plan) -> Plan:
+        """The mission with the damage limit of this curve."""
+        limit = self.damage_limit(plan.damage_limit)
+        return plan if limit == plan.damage_limit else replace(plan, damage_limit=limit)
 
 
 @dataclass(frozen=True, slots=True)
 class AskedCurve:
     """A curve that something asks for: its name, where that is said, and the stress it is to serve.
 
-    ``use`` is ``toe`` or one of ``Applies`` other than ``dS`` and ``structural``, which serve a toe.
+    ``use`` is one of ``USES``; ``toe`` and ``normal`` is the stress that the settings of ``[curve]`` are for.
     """
 
     name: str
     where: str
-    use: str = "toe"
+    use: Use = "toe"
     quantity: Quantity = "normal"
 
+    @property
+    def is_main(self) -> bool:
+        """Whether it is for the normal stress at a toe."""
+        return self.use == "toe" and self.quantity == "normal"
 
-def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
-    """Curves that the case and its welds ask for, normal stress and shear at the toe."""
-    file = case.body.welds
+
+def asked_curves(case: Case, welds: Sequence[Weld], throats: Iterable[WeldThroat] = ()) -> list[AskedCurve]:
+    """Curves that the case and its welds ask for, normal stress and shear at the toe, and those of the throats."""
+    file, of_throats = case.body.welds, case.body.weld_throats
     return [
         AskedCurve(case.curve.name, f"{case.path.name}: curve.name"),
         *(AskedCurve(w.curve, f"{file}: weld {w.name}: curve") for w in welds if w.curve),
@@ -60,88 +126,125 @@ def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
             for w in welds
             if w.curve_shear
         ),
+        *(curve for throat in throats for curve in _of_throat(throat, f"{of_throats}: weld {throat.weld}")),
     ]
 
 
-def curves_of_case(case: Case) -> dict[str, SNCurve]:
-    """Curves of the catalogue and of the case, which may not redefine a key of the catalogue."""
-    shipped = catalogue()
-    refuse(
-        CaseError,
-        (
-            Problem(
-                "duplicate_curve",
-                f"{case.path.name}: curves.{name}",
-                "is a curve of the catalogue",
-                "Choose another name",
-            )
-            for name in case.curves
-            if name in shipped
-        ),
-    )
-    return dict(shipped) | {name: _own_curve(name, given) for name, given in case.curves.items()}
+def _of_throat(throat: WeldThroat, where: str) -> Iterator[AskedCurve]:
+    yield AskedCurve(throat.curve, f"{where}: curve", use="throat")
+    yield AskedCurve(throat.curve_shear, f"{where}: curve_shear", use="throat", quantity="shear")
+    if throat.curve_root:
+        yield AskedCurve(throat.curve_root, f"{where}: curve_root", use="root")
 
 
-def _own_curve(name: str, given: CustomCurve) -> SNCurve:
-    return user_curve(
-        name=name,
-        slopes=given.slopes,
-        knees_cycles=given.knees_cycles,
-        range_at_2e6=given.range_at_2e6_MPa,
-        applies=given.applies,
-        source=given.source,
-        log10_scatter=given.log10_scatter,
-        thickness_reference=given.thickness_reference_mm,
-        thickness_exponent=given.thickness_exponent or 0.0,
-        edition=given.edition,
-        clause=given.clause,
-        status=given.status,
-    )
+def rated_curves(
+    case: Case, curves: Mapping[str, SNCurve], asked: Sequence[AskedCurve], factors: Sequence[StrengthFactor] = ()
+) -> dict[str, RatedCurve]:
+    """Every curve that is asked for, rated; all that is wrong with them is refused at once.
 
+    What ``[curve]`` says of survival, extension and mean stress holds for every curve that has a place for it: a level
+    for curves with scatter, an extension for curves without knees, f_M for curves in dS. At the normal stress of a toe
+    a curve without a place for it is refused; elsewhere it is taken as it is given.
 
-def rated_curves(case: Case, curves: Mapping[str, SNCurve], asked: Sequence[AskedCurve]) -> dict[str, RatedCurve]:
-    """Every curve that is asked for, rated; all that is wrong with them is refused at once."""
+    Raises
+    ------
+    CaseError : a curve that is not there, that is for another stress, or that has no place for what is asked of it
+    """
     rated: dict[str, RatedCurve] = {}
     problems: list[Problem] = []
-    for name, where in {one.name: one.where for one in asked}.items():
-        if name not in curves:
-            known = ", ".join(sorted(curves))
-            problems.append(
-                Problem(
-                    "unknown_curve",
-                    where,
-                    f"there is no curve '{name}'",
-                    f"Choose one of {known}, or add [curves.{name}]",
-                )
-            )
-            continue
-        curve = curves[name]
-        if case.curve.mean_stress == "asme" and curve.applies != "dS":
-            problems.append(
-                Problem(
-                    "mean_stress",
-                    where,
-                    f"mean_stress = 'asme' belongs to the master curve and does not apply to curve '{name}'",
-                    'Set mean_stress = "none", or use a curve in dS',
-                )
-            )
-            continue
-        try:
-            law = damage_law(curve, case.curve.survival, case.curve.extension, case.curve.knee_cycles)
-        except CaseError as error:
-            problems += [replace(p, where=f"{case.path.name}: {p.where}") for p in error.problems]
-            continue
-        rated[name] = RatedCurve(
-            curve=curve,
-            survival=survival_level(curve, case.curve.survival),
-            rule=_cycle_rule(case, curve, law),
-            thickness_rule=case.curve.thickness_rule,
-        )
+    for name in dict.fromkeys(one.name for one in asked):
+        of_name = [one for one in asked if one.name == name]
+        found = list(_problems(case, curves, of_name))
+        problems += found
+        if not found:
+            own = tuple(factor for factor in factors if factor.curve == name)
+            try:
+                rated[name] = _rated(case, curves[name], own, at_toe=any(one.is_main for one in of_name))
+            except CaseError as error:
+                problems += [replace(p, where=f"{case.path.name}: {p.where}") for p in error.problems]
     refuse(CaseError, problems)
     return rated
 
 
+def attachment_problems(case: Case, welds: Sequence[Weld], curves: Mapping[str, RatedCurve]) -> Iterator[Problem]:
+    """Refusals of welds without the length of their attachment, on curves that ask for it."""
+    without: dict[str, list[str]] = {}
+    for weld in welds:
+        for name in {weld.curve or case.curve.name, weld.curve_shear or ""} & set(curves):
+            if curves[name].curve.allowances.thickness_effective == "L_half" and weld.attachment is None:
+                without.setdefault(name, []).append(weld.name)
+    for name, some in without.items():
+        what = f"curve '{name}' has thickness_effective = 'L_half', and {len(some)} of its welds ({few(some)}) have no "
+        what += "length of their attachment"
+        remedy = "Give attachment_mm, the length along the stress, or thickness_effective = 't'"
+        yield Problem("attachment", f"{case.body.welds}: column attachment_mm", what, remedy)
+
+
+def _problems(case: Case, curves: Mapping[str, SNCurve], asked: Sequence[AskedCurve]) -> Iterator[Problem]:
+    """Refusals of a curve that is not there, or not for the stress it is asked for."""
+    name = asked[0].name
+    if name not in curves:
+        known = ", ".join(sorted(curves))
+        what, remedy = f"there is no curve '{name}'", f"Choose one of {known}, or add [curves.{name}]"
+        yield Problem("unknown_curve", asked[-1].where, what, remedy)
+        return
+    curve = curves[name]
+    for one in {(one.use, one.quantity): one for one in reversed(asked)}.values():
+        of = curve.allowances
+        if curve.quantity != one.quantity:
+            what = f"curve '{name}' is for {_stress(curve.quantity)}, and {USES[one.use]} is asked for "
+            what += f"{'shear' if one.quantity == 'shear' else 'its normal stress'}"
+            remedy = f"Name a curve with quantity = '{one.quantity}'"
+            yield Problem("curve_quantity", one.where, what, remedy)
+        elif curve.applies not in FITS[one.use] or (curve.applies == "dS" and one.quantity == "shear"):
+            fits = [applies for applies in FITS[one.use] if applies != "dS" or one.quantity == "normal"]
+            what = f"curve '{name}' is for {APPLIES[curve.applies]} (applies = '{curve.applies}'), not for "
+            what += USES[one.use]
+            remedy = f"Name a curve with applies = {' or '.join(repr(applies) for applies in fits)}"
+            yield Problem("curve_applies", one.where, what, remedy)
+        elif one.is_main and case.curve.mean_stress == "asme" and curve.applies != "dS":
+            what = f"mean_stress = 'asme' belongs to the master curve and does not apply to curve '{name}'"
+            yield Problem("mean_stress", one.where, what, 'Set mean_stress = "none", or use a curve in dS')
+        elif case.curve.mean_stress == "asme" and curve.applies == "dS" and of.stress_ratio != "none":
+            what = f"curve '{name}' allows for the stress ratio by mean_stress = '{of.stress_ratio}', and so does "
+            what += "mean_stress = 'asme' of [curve]"
+            yield Problem("mean_stress", one.where, what, "Take one of them: they are two rules for the same effect")
+        elif not one.is_main and of.bending_factor != "none":
+            what = f"curve '{name}' has bending_factor = '{of.bending_factor}', and the bending ratio of a cycle is "
+            what += f"known of the normal stress at toes only, not of {USES[one.use]}"
+            yield Problem("bending_factor", one.where, what, "Name a curve without bending_factor")
+        elif one.use != "toe" and of.thickness_effective == "L_half":
+            what = f"curve '{name}' has thickness_effective = 'L_half', and attachments have a length at toes only"
+            yield Problem("attachment", one.where, what, "Name a curve with thickness_effective = 't'")
+
+
+def _stress(quantity: Quantity) -> str:
+    return "shear stress (quantity = 'shear')" if quantity == "shear" else "normal stress (quantity = 'normal')"
+
+
+def _rated(case: Case, curve: SNCurve, factors: tuple[StrengthFactor, ...], *, at_toe: bool) -> RatedCurve:
+    """A curve at the survival level and with the extension of the case, where it has a place for them.
+
+    Raises
+    ------
+    CaseError : it has not, and serves the normal stress of a toe
+    """
+    survival: Survival | None = case.curve.survival if at_toe or curve.has_scatter else None
+    extension: Extension = case.curve.extension if at_toe or not curve.knees_cycles else "none"
+    law = damage_law(curve, survival, extension, case.curve.knee_cycles)
+    return RatedCurve(
+        curve=curve,
+        survival=level_of(curve, survival),
+        rule=_cycle_rule(case, curve, law),
+        thickness_rule=case.curve.thickness_rule,
+        factors=factors,
+    )
+
+
 def _cycle_rule(case: Case, curve: SNCurve, law: DamageLaw) -> CycleRule:
     """Rule of the cycles of a curve; f_M belongs to curves in dS, and is not even shown beside others."""
+    of = curve.allowances
     on_dS = curve.applies == "dS"
-    return CycleRule(law, on_dS, case.curve.yield_MPa if on_dS else None, case.curve.mean_stress == "asme")
+    f_M = on_dS and of.stress_ratio == "none"
+    asme = f_M and case.curve.mean_stress == "asme"
+    return CycleRule(law, on_dS, case.curve.yield_MPa if f_M else None, asme, of.bending_factor, of.stress_ratio)

@@ -111,12 +111,14 @@ def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) 
     stress = stations.treated
     some = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
     raw_ends = stations.raw_ends.at(rows)
+    lengths = [np.inf if weld.attachment is None else weld.attachment for weld in stations.welds]
+    attachment = np.array(lengths)[stations.weld[some]]
     return ModalStress(
         membrane=stress.membrane[some],
         bending=stress.bending[some],
         in_plane_shear=stress.in_plane_shear[some],
         twist_shear=stress.twist_shear[some],
-        size=rated.size(stations.thickness[some]),
+        size=rated.size(stations.thickness[some], attachment),
         rule=rated.rule,
         raw_ends=raw_ends,
         raw_end_matters=np.ones(len(raw_ends.rows), dtype=np.bool_),

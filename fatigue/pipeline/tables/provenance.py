@@ -5,10 +5,12 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from fatigue.case import Case, stress_categories
 from fatigue.errors import Problem
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import ABOVE
 from fatigue.pipeline.mission.gravity import HeldGravity
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.rated_curves import RatedCurve
@@ -35,12 +37,13 @@ def provenance_record(
     inputs: Sequence[dict[str, Any]],
     warnings: Sequence[Problem],
     gravity: Sequence[HeldGravity] = (),
+    shear: Mapping[str, int] | None = None,
 ) -> dict[str, Any]:
     """Everything an assessor needs to trace or repeat a result; the same inputs give the same record.
 
     ``stations`` are numbers of stations by the tier of screening that settled them, ``gravity`` is what the mean of q
-    of each event holds of the dead load. ``case_path`` leads from the result
-    folder to the case file, so that both can be moved together.
+    of each event holds of the dead load, ``shear`` numbers of toe points by what settled their shear. ``case_path``
+    leads from the result folder to the case file, so that both can be moved together.
     """
     case, plan = body.case, work.plan
     return {
@@ -59,7 +62,7 @@ def provenance_record(
         },
         "unit_loads": load_records(body),
         "force_convention": case.body.force_convention,
-        "curves": {name: _curve_record(rated) for name, rated in body.curves.items()},
+        "curves": {name: _curve_record(rated, plan) for name, rated in body.curves.items()},
         "rules": {
             "structural_stress": "Dong: consistent line forces from nodal forces, membrane + bending",
             "thickness_rule": case.curve.thickness_rule,
@@ -80,6 +83,8 @@ def provenance_record(
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,
             "histogram": _HISTOGRAM_RULES[work.histogram],
+            "multiaxial": _shear_record(case, work, shear or {}),
+            "stress_category": asdict(stress_categories(case.checks.stress_category)),
             "spectrum": {
                 "segment_s": case.spectrum.segment_s,
                 "upper_hz": case.spectrum.upper_hz,
@@ -107,6 +112,26 @@ def provenance_record(
         "gravity": [one.as_record() for one in gravity],
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
+    }
+
+
+def _shear_record(case: Case, work: Work, points: Mapping[str, int]) -> dict[str, Any]:
+    """How shear was counted with the normal stress, and what settled the toe points."""
+    asked = case.multiaxial
+    if work.shear is None:
+        return {"method": asked.method}
+    named = asked.method in DECIDING
+    decides = f"the larger one of normal stress and {asked.method}" if named else "the normal stress alone"
+    return {
+        "method": asked.method,
+        "beta": asked.beta,
+        "alpha": asked.alpha,
+        "decides": decides,
+        "paths": "half cycles from sample to sample, upsampled as the normal stress; cycles across the events of "
+        "sequences by normal stress",
+        "worst_points_counted_from_utilisation": work.shear.counted_from,
+        "path_cycles": f"of each weld the counted point with the largest sum by range, from {ABOVE:g} of the limit on",
+        "toe_points": dict(points),
     }
 
 
@@ -142,10 +167,11 @@ def _screening_record(work: Work, stations: Mapping[str, int]) -> dict[str, Any]
     }
 
 
-def _curve_record(rated: RatedCurve) -> dict[str, Any]:
+def _curve_record(rated: RatedCurve, plan: Plan) -> dict[str, Any]:
     curve = rated.curve
     return {
         "applies": curve.applies,
+        "quantity": curve.quantity,
         "slopes": list(curve.slopes),
         "knees_cycles": list(curve.knees_cycles),
         "reference_cycles": curve.reference_cycles,
@@ -153,11 +179,20 @@ def _curve_record(rated: RatedCurve) -> dict[str, Any]:
         "thickness_reference_mm": curve.thickness_reference,
         "thickness_exponent": curve.thickness_exponent,
         "source": curve.source,
+        "edition": curve.edition,
+        "clause": curve.clause,
+        "status": curve.status,
+        "checked_by": curve.checked_by,
+        "checked_on": curve.checked_on,
+        "allowances": asdict(curve.allowances),
+        "factors": [asdict(factor) for factor in rated.factors],
         "used": {
             "survival": rated.survival,
             "slopes": rated.rule.law.slopes,
             "log_constants": rated.rule.law.log_constants,
             "knees": rated.rule.law.knees,
             "cutoff": rated.rule.law.cutoff,
+            "factor_on_range": rated.on_range,
+            "damage_limit": rated.damage_limit(plan.damage_limit),
         },
     }

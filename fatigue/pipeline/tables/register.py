@@ -6,18 +6,24 @@ from typing import Any
 
 import numpy as np
 
+from fatigue.case import stress_categories
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.verdict import Verdicts
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import EQUAL, WorstPoint
 from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.tables.quality import quality_rows
 from fatigue.pipeline.tables.rows import FACES
+from fatigue.readers.neutral.body.welds import QUALITY
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
 
 
-def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[WorstPoint]) -> dict[str, Any]:
-    """Rows of ``welds.parquet``: every weld of the case.
+def weld_rows(
+    model: Model, plan: Plan, result: GroupResult, worst: Sequence[WorstPoint], checks: Verdicts | None = None
+) -> dict[str, Any]:
+    """Rows of ``welds.parquet``: every weld of the case, with what its ``checks`` say where there are any.
 
     The worst point is not always the first to miss the target when the load rises: where damage does not scale with one
     power of the load, another one may come to a knee or to the tension at which f_M begins.
@@ -38,6 +44,8 @@ def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[Wor
     of_worst = np.array([mission.load_factor[i] for i in at])
     smallest = np.minimum.reduceat(of_points, first[:-1])
     load_factor = np.where(smallest < EQUAL * of_worst, smallest, of_worst)
+    failed = np.zeros(len(welds), np.bool_) if checks is None else checks.failed
+    fulfilled = np.array([mission.utilisation[i] <= 1.0 for i in at]) & ~failed
     return {
         "weld": stations.names,
         "status": ["assessed"] * len(welds),
@@ -51,12 +59,16 @@ def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[Wor
         "thickness_max_mm": np.maximum.reduceat(stations.thickness, first[:-1]),
         "surface": [weld.surface for weld in welds],
         "curve": [rated.curve.name for rated in curves],
+        "curve_status": [rated.curve.status for rated in curves],
+        "edition": [rated.curve.edition for rated in curves],
         "survival": [rated.survival for rated in curves],
         "end_length_mm": [np.nan if weld.end_length is None else weld.end_length for weld in welds],
+        "attachment_mm": [np.nan if weld.attachment is None else weld.attachment for weld in welds],
+        "damage_limit": [rated.damage_limit(plan.damage_limit) for rated in curves],
         "life_km": life,
         "life_years": life / plan.km_per_year,
         "utilisation": [mission.utilisation[i] for i in at],
-        "fulfilled": [bool(mission.utilisation[i] <= 1.0) for i in at],
+        "fulfilled": fulfilled,
         "load_factor": load_factor,
         "worst_is_proven": proven,
         "worst_part": [stations.part[p.station] for p in worst],
@@ -66,6 +78,25 @@ def weld_rows(model: Model, plan: Plan, result: GroupResult, worst: Sequence[Wor
         "worst_arc_length_mm": [stations.arc_length[p.station] for p in worst],
         "worst_summed_corner": [bool(stations.summed_corner[p.station]) for p in worst],
         "governing_event": [events[mission.governing[i]] for i in at],
+        **_of_checks(checks, len(welds)),
+        **quality_rows(
+            welds,
+            load_factor,
+            None if checks is None else checks.utilisation,
+            stress_categories(model.case.checks.stress_category),
+        ),
+    }
+
+
+def _of_checks(checks: Verdicts | None, welds: int) -> dict[str, Any]:
+    """Columns of what is checked beside the normal stress at the toe; without a check in a case that asks for none."""
+    if checks is None:
+        none, zero = [None] * welds, np.zeros(welds, np.int64)
+        return {"worst_check": none, "worst_check_utilisation": none, "checks_not_assessed": zero}
+    return {
+        "worst_check": [check or None for check in checks.worst],
+        "worst_check_utilisation": checks.utilisation,
+        "checks_not_assessed": checks.not_assessed,
     }
 
 
@@ -79,6 +110,7 @@ def excluded_rows(excluded: Sequence[RegisterRow]) -> dict[str, Any]:
         "description": [description_of([row]) for row in excluded],
         "nodes": [row.nodes or None for row in excluded],
         "length_mm": [row.length for row in excluded],
+        **{name: [getattr(row, name) or None for row in excluded] for name in QUALITY},
     }
 
 

@@ -1,6 +1,6 @@
 """Rows of the result tables for the stations of a group of welds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import TIERS
 from fatigue.pipeline.count.result import OF_EVENT, OF_LOOP, GroupResult
+from fatigue.pipeline.multiaxial.found import MODELS, NULL, STATUSES, nothing_found
+from fatigue.pipeline.multiaxial.found import VERDICTS as SHEAR_VERDICTS
 from fatigue.pipeline.solve.stations import Stations
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.results import coded
@@ -38,9 +40,10 @@ def point_columns(stations: Stations, repeat: int = 1, some: slice = slice(None)
     }
 
 
-def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, Any]:
-    """Rows of ``nodes.parquet``: the whole mission at every point."""
-    block = result.mission
+def node_rows(stations: Stations, result: GroupResult, plan: Plan, status_of_weld: Sequence[str]) -> dict[str, Any]:
+    """Rows of ``nodes.parquet``: the whole mission at every point; ``status_of_weld`` is that of the curve of each."""
+    block, statuses = result.mission, sorted(set(status_of_weld))
+    status = np.array([statuses.index(one) for one in status_of_weld])[stations.weld]
     return {
         **point_columns(stations),
         "toe": stations.toe.ravel(),
@@ -72,10 +75,29 @@ def node_rows(stations: Stations, result: GroupResult, plan: Plan) -> dict[str, 
         "damage_per_km_transitions": block.transitions.ravel(),
         "damage_per_km_transitions_bound": block.transitions_bound.ravel(),
         "life_km_raw_end": block.life_km_raw_end.ravel(),
+        **shear_columns(result, 2 * len(stations)),
         "at_end": np.repeat(stations.at_end, 2),
         "at_corner": np.repeat(stations.at_corner, 2),
         "summed_corner": np.repeat(stations.summed_corner, 2),
+        "curve_status": coded(np.repeat(status, 2), statuses),
         "screened": coded(np.repeat(result.tier, 2), TIERS),
+    }
+
+
+def shear_columns(result: GroupResult, points: int) -> dict[str, Any]:
+    """Columns of ``nodes.parquet`` about shear; empty where the case wants none of it."""
+    found = result.multiaxial if result.multiaxial.size else nothing_found((points,))
+    found = found.ravel()
+    required = found["shear_required"]
+    return {
+        "shear_required": pa.array(required == 1, mask=required == NULL),
+        "multiaxial_status": coded(found["status"], STATUSES),
+        "multiaxial_bound": found["bound"].copy(),
+        **{f"utilisation_path_{model}": found[model].copy() for model in MODELS},
+        "utilisation_asme": found["asme"].copy(),
+        "path_factor_largest": found["path_factor"].copy(),
+        "path_moment_largest": found["path_moment"].copy(),
+        "multiaxial_verdict": coded(found["verdict"], SHEAR_VERDICTS),
     }
 
 

@@ -24,7 +24,7 @@ weld_elements = "weld_elements.csv"
 nodes = "nodes.parquet"
 elements = "elements.parquet"
 register = "welds_register.csv"   # EDIT: which lines are assessed, their names, faces, thickness, curves
-force_convention = "{convention}"
+{points}force_convention = "{convention}"
 ignore_modes = {ignore}
 {loads}
 [curve]
@@ -42,6 +42,11 @@ upsample = "auto"              # 20 samples per peak; 1: the samples as they are
 target_km = {target!r}         # EDIT
 km_per_year = {per_year!r}     # EDIT
 damage_limit = 1.0
+"""
+
+_POINTS = """\
+stress_points = "{points}"
+modal_stresses = "{stresses}"
 """
 
 _EVENT = """
@@ -69,16 +74,19 @@ def case_text(
     ignore_modes: Sequence[int],
     events: Sequence[tuple[str, str]],
     loads: tuple[str, str] = ("", ""),
+    points: tuple[str, str] | None = None,
 ) -> str:
     """Text of a case with one event for each (name, file), all with the same share and speed.
 
-    ``loads`` is the text of the unit loads of the body, and what to write of them behind the events.
+    ``loads`` is the text of the unit loads of the body, and what to write of them behind the events; ``points`` are the
+    files of stress points and of their modal stresses.
     """
     head = _HEAD.format(
         title=json.dumps(options.title or options.mesh.stem),
         convention=convention,
         ignore=list(ignore_modes),
         loads=loads[0],
+        points="" if points is None else _POINTS.format(points=points[0], stresses=points[1]),
         curve=options.curve,
         target=float(options.target_km),
         per_year=float(options.target_km) / 30,

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 
 from fatigue.errors import CaseError, DataError, Problem
@@ -10,7 +11,7 @@ from fatigue.readers.convert.audit.audit import Audit
 from fatigue.readers.convert.audit.shell_rows import without_drilling
 from fatigue.readers.convert.case_text import CASE, case_text
 from fatigue.readers.convert.folder import RECORD, check_folder, recorded_files, write_folder
-from fatigue.readers.convert.inputs import audited, read_inputs, unknown_checks
+from fatigue.readers.convert.inputs import ForeignInputs, audited, read_inputs, unknown_checks
 from fatigue.readers.convert.loads.at_welds import loads_at_welds
 from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.loads.text import UNIT_LOADS, load_warnings, loads_not_given, loads_text
@@ -26,9 +27,13 @@ from fatigue.readers.convert.neutral_tables import (
 )
 from fatigue.readers.convert.options import ConvertOptions, WeldSources
 from fatigue.readers.convert.record import conversion_record
+from fatigue.readers.convert.stresses.kept_case import points_not_in_case
+from fatigue.readers.convert.stresses.modal_stresses import MODAL_STRESSES, PointStresses, point_stresses
 from fatigue.readers.convert.weld_forces import neutral_forces, rows_at_welds, to_mid_surface, with_forces_only
 from fatigue.readers.convert.weld_lines import FoundWelds, find_welds, no_welds
 from fatigue.readers.foreign.fe.model import in_mm
+from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.neutral.forces.convention import Convention
 from fatigue.readers.neutral.register.conversion import command_line
 from fatigue.readers.neutral.register.register_file import register_text
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow, reasons
@@ -47,6 +52,7 @@ class Conversion:
     modes: int
     unit_loads: tuple[UnitLoad, ...]
     force_rows: int
+    read_outs: int
     nodes: int
     files: tuple[str, ...]
 
@@ -83,6 +89,7 @@ def convert(options: ConvertOptions) -> Conversion:
     force = neutral_forces(results, inputs.model, units, options.normalisation)
     if judged.grounded_drilling:
         force = without_drilling(force, results, inputs.model)
+    beside, judged = _at_stress_points(options, inputs, results, judged, convention)
     rows = rows_at_welds(found, results)
     force = to_mid_surface(force, results, metric, rows)
     loads = inputs.unit_loads
@@ -94,6 +101,7 @@ def convert(options: ConvertOptions) -> Conversion:
         "element_forces.parquet": forces_table(basis, force[results.of_basis] if loads else force, rows),
         **weld_tables(found),
         REGISTER: register_text(found.rows),
+        **(beside.files if beside else {}),
     }
     if loads:
         files[UNIT_LOADS] = loads_table(only_modes(results, ~results.of_basis), force[~results.of_basis], rows, loads)
@@ -102,7 +110,8 @@ def convert(options: ConvertOptions) -> Conversion:
     ignored = {int(mode) for history in inputs.histories for mode in history.mode} - set(results.mode.tolist())
     files |= {name: table for (_, name), table in events.items()}
     lacking = loads_not_given(loads, events)
-    files[CASE] = case_text(options, convention, sorted(ignored), list(events), loads_text(loads, lacking))
+    points = (beside.points, MODAL_STRESSES) if beside else None
+    files[CASE] = case_text(options, convention, sorted(ignored), list(events), loads_text(loads, lacking), points)
     kept, kept_case = {}, None
     if options.keep_case and (options.out / CASE).is_file():
         kept_case = options.out / CASE
@@ -114,8 +123,10 @@ def convert(options: ConvertOptions) -> Conversion:
         *(*unknown_checks(judged, options), *results.warnings, *inputs.model.warnings),
         *(*found.warnings, *left_out, *inputs.warnings),
         *(*loads_at_welds(results, metric, found), *load_warnings(loads, lacking, kept_case)),
+        *((*beside.warnings, *points_not_in_case(beside.points, kept_case)) if beside else ()),
     )
-    record = conversion_record(options, inputs.files(options), convention, judged, warnings, found.rows, loads)
+    sources = dict.fromkeys([*inputs.files(options), *(beside.sources if beside else ())])
+    record = conversion_record(options, sources, convention, judged, warnings, found.rows, loads)
     write_folder(options.out, files, record, CASE, kept)
     return Conversion(
         folder=options.out,
@@ -125,9 +136,34 @@ def convert(options: ConvertOptions) -> Conversion:
         modes=basis.mode.size,
         unit_loads=loads,
         force_rows=rows.size * results.mode.size,
+        read_outs=beside.read_outs if beside else 0,
         nodes=sum(cut.line.node.size for _, cut in found.assessed()),
         files=(*files, RECORD),
     )
+
+
+def _at_stress_points(
+    options: ConvertOptions, inputs: ForeignInputs, results: FeResults, judged: Audit, convention: Convention
+) -> tuple[PointStresses | None, Audit]:
+    """Stresses at the stress points, None without any; and the audit with the proof of their axes.
+
+    Raises
+    ------
+    DataError : the proof is red and not accepted
+    """
+    units = unit_system(options.force_units, "force units")
+    loads = {load.case.number: load.amount for load in inputs.unit_loads}
+    amount = np.array([loads.get(mode, 1.0) for mode in results.mode.tolist()])
+    factor = units.force / units.length**2 / coordinate_units(results, units, options.normalisation) / amount
+    sign = 1.0 if convention == "on_element" else -1.0
+    found = point_stresses(options, results, inputs.model, sign, factor, units.length, inputs.unit_loads)
+    if found is None:
+        return None, judged
+    judged = replace(judged, rows=(*judged.rows, found.row))
+    if found.row.light == "red" and found.row.check not in options.accept:
+        where = f"{', '.join(map(str, found.sources[1:]))}, {found.row.check}"
+        raise DataError(Problem("audit", where, found.row.finding, found.row.remedy))
+    return found, judged
 
 
 def _weld_sources(options: ConvertOptions) -> WeldSources:

@@ -7,10 +7,11 @@ from typing import Annotated, Literal, get_args
 from fatigue.errors import CaseError, Problem
 from fatigue.readers.convert.loads.names import LoadName
 from fatigue.readers.convert.option_fields import Option, take_paths
-from fatigue.readers.foreign.formats import COORDINATES, FORCES, MESH, formats_in_help
+from fatigue.readers.foreign.formats import COORDINATES, FORCES, MESH, STRESSES, formats_in_help
 from fatigue.readers.units.systems import Normalisation
 
 Direction = Literal["x", "y", "z"]
+Density = Literal["fine", "quadratic", "coarse"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +79,22 @@ class ConvertOptions:
         tuple[Path, ...],
         Option("--coordinates", f"Modal coordinates: {formats_in_help(COORDINATES)}; one file per event."),
     ] = field(default=(), kw_only=True)
+    stress_points: Annotated[
+        Path | None,
+        Option("--stress-points", "Table of stress points: writes the modal stresses of a case there."),
+    ] = field(default=None, kw_only=True)
+    stresses: Annotated[
+        tuple[Path, ...],
+        Option(
+            "--stresses",
+            f"Shell stresses at the stress points: {formats_in_help(STRESSES, ', or ')}; repeatable; default: the "
+            "files of forces.",
+        ),
+    ] = field(default=(), kw_only=True)
+    read_outs: Annotated[
+        Density,
+        Option("--read-outs", "Where stress is read before a hot spot, by the mesh there."),
+    ] = field(default="fine", kw_only=True)
     out: Annotated[
         Path, Option("--output", "Folder to write.", short="-o", metavar="DIR", is_folder=True, is_recorded=False)
     ]

@@ -25,6 +25,7 @@ class Content:
 
 FORCES = Content("grid point forces", "--forces", "no_forces")
 MESH = Content("mesh", "--mesh", "no_mesh")
+STRESSES = Content("shell stresses", "--stresses", "no_stresses")
 COORDINATES = Content("modal coordinates", "--coordinates", "no_coordinates")
 
 
@@ -124,7 +125,10 @@ FORMATS = (
         OP2.name,
         ending=".op2",
         place=1,
-        reads={FORCES: Reader("nastran.results.op2.read_op2", "an .op2", "OP2")},
+        reads={
+            FORCES: Reader("nastran.results.op2.read_op2", "an .op2", "OP2"),
+            STRESSES: Reader("nastran.results.op2_stresses.read_op2_stresses", "an .op2", "OP2"),
+        },
         starts=OP2.starts,
     ),
     ForeignFormat(
@@ -135,6 +139,7 @@ FORMATS = (
         reads={
             FORCES: Reader("nastran.results.h5.read_h5", "an MSC .h5", "MSC .h5"),
             MESH: Reader("nastran.results.h5.read_h5_model", "the MSC .h5", "the same MSC .h5"),
+            STRESSES: Reader("nastran.results.h5_stresses.read_h5_stresses", "an MSC .h5", "MSC .h5"),
         },
         starts=HDF5.starts,
         extra=Extra("h5py", "MSC HDF5 input"),

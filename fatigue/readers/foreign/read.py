@@ -5,17 +5,22 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.extras import install_command
 from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
 from fatigue.files.naming import missing_foreign_file
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
+from fatigue.readers.foreign.fe.shell_stress import ShellStresses
 from fatigue.readers.foreign.formats import (
     COORDINATES,
     FORCES,
     FORMATS,
     MESH,
+    STRESSES,
     Content,
     Extra,
     ForeignFormat,
@@ -66,6 +71,12 @@ def read_model(path: Path) -> FeModel:
     """Geometry from any format that holds it."""
     model: FeModel = _reader(path, MESH)(path)
     return model
+
+
+def read_stresses(path: Path, wanted: NDArray[np.int64]) -> ShellStresses:
+    """Stresses of the ``wanted`` shells from any format that holds them."""
+    stresses: ShellStresses = _reader(path, STRESSES)(path, wanted)
+    return stresses
 
 
 def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:

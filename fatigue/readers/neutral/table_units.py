@@ -7,8 +7,8 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.same_columns import told_once
 from fatigue.readers.text.layout import TableLayout
 
-_SUFFIXES = ("s", "mm", "n", "nmm", "hz", "mpa", "km")
-_SPELLINGS = {"sec": "s", "second": "s", "seconds": "s", "sek": "s", "newton": "n", "millimeter": "mm"}
+_SUFFIXES = ("s", "mm", "n", "nmm", "hz", "mpa", "km", "deg")
+_SPELLINGS = {"sec": "s", "second": "s", "seconds": "s", "sek": "s", "newton": "n", "millimeter": "mm", "°": "deg"}
 _ROOTS = ("sqrt(t)", "√t", "√(t)", "t^0.5", "t^(1/2)", "t^1/2", "t½")  # of the mass in t
 _COORDINATE = ("mm", *(f"mm{root}" for root in _ROOTS), *(f"{root}mm" for root in _ROOTS))
 

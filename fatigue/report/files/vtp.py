@@ -8,6 +8,7 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+import pyarrow as pa
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, given_path
@@ -31,7 +32,7 @@ STATION = (
     "summed_corner",
 )
 _XYZ = ("x_mm", "y_mm", "z_mm")
-_VTK_TYPE = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}
+_VTK_TYPE = {"f8": "Float64", "i8": "Int64", "i1": "Int8", "u1": "UInt8"}
 _DTYPE = {"float": "f8", "int": "i8", "flag": "u1"}
 
 
@@ -98,15 +99,18 @@ def _point_data(
 
 
 def _arrays(folder: Path, column: Column, wanted: Mapping[str, NDArray[np.int64]]) -> Iterator[str]:
-    """Some rows of a column, encoded, each under a name of its own: flags as 0 and 1, texts as strings."""
+    """Some rows of a column, encoded, each under a name of its own: flags as 0, 1 and -1 for none, texts as strings."""
     if column.type == "text":
         codes, texts = read_codes(folder, "nodes", column.name)
         for name, rows in wanted.items():
             yield _texts(name, codes[rows], texts)
     else:
-        values = read_table(folder, "nodes", [column.name])[column.name].to_numpy()
+        stored, dtype = read_table(folder, "nodes", [column.name])[column.name], _DTYPE[column.type]
+        if column.type == "flag" and stored.null_count:
+            stored, dtype = stored.cast(pa.int8()).fill_null(-1), "i1"
+        values = stored.to_numpy()
         for name, rows in wanted.items():
-            yield _data(name, _DTYPE[column.type], values[rows])
+            yield _data(name, dtype, values[rows])
 
 
 def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite: bool) -> None:

@@ -33,6 +33,20 @@ CHECKS = (
         "1 / the largest factor on all stresses up to which the target is met; of an endurance check stress / allowed",
     ),
     Column("limit_value", "float", "-", "value of a combination that may not be exceeded, else 1"),
+    Column("value", "float", "-", "value of a combination or interaction, which limit_value is for"),
+    Column("normal_part", "float", "-", "what the normal stress adds to an interaction: damage sum, of iiw u_sigma^2"),
+    Column("shear_part", "float", "-", "what the shear stress adds to an interaction: damage sum, of iiw u_tau^2"),
+    Column(
+        "R", "float", "-", "stress ratio of the two static load cases; of shear, the larger magnitude is the maximum"
+    ),
+    Column("amplitude_MPa", "float", "MPa", "stress amplitude between the two static load cases"),
+    Column("allowed_amplitude_MPa", "float", "MPa", "amplitude that the endurance line allows at this R"),
+    Column(
+        "plane_range_MPa",
+        "float",
+        "MPa",
+        "largest distance of two static load cases in the plane of normal stress and sqrt(3) shear; for comparison",
+    ),
     Column("fulfilled", "flag", "-", "the check is met; empty where it is not assessed"),
     Column("governing_event", "text", "-", "event with the largest share of the damage, or pair of static load cases"),
     Column("note", "text", "-", "what a reader has to know, and why a check is not assessed"),

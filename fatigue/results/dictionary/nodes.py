@@ -96,6 +96,57 @@ NODES = (
         "km",
         "life without the end treatment; empty where it is proven to use up a small share of the limit (screening)",
     ),
+    Column(
+        "shear_required",
+        "flag",
+        "-",
+        "the largest range of the shear is above a third of the largest structural stress range (ASME VIII-2 5.5.5.3); "
+        "empty on a face without a toe, where a bound stands for counting and leaves it open, and with shear off",
+    ),
+    Column(
+        "multiaxial_status",
+        "text",
+        "-",
+        "what tells how shear and normal stress together meet the target: settled_fails (the normal stress alone "
+        "fails), settled_passes (multiaxial_bound and utilisation_asme are at most 1), fails (the most distant pair of "
+        "instants alone does) or counted (the path counter)",
+    ),
+    Column(
+        "multiaxial_bound",
+        "float",
+        "-",
+        "proven upper bound of utilisation_path_range, and so of what any pairing by range or the path counter's "
+        "ranges can make of it; not of length and mlp; infinite where the mean-stress factor may apply",
+    ),
+    Column(
+        "utilisation_path_range",
+        "float",
+        "-",
+        "Miner sum of the half cycles of the path of normal stress and shear at target_km / damage limit, by range, "
+        "cycles of sequences across events by normal stress included; empty where the path was not counted",
+    ),
+    Column("utilisation_path_length", "float", "-", "likewise, each range times its path factor"),
+    Column(
+        "utilisation_path_mlp", "float", "-", "likewise, each range times 1 + alpha path moment; empty without alpha"
+    ),
+    Column(
+        "utilisation_asme",
+        "float",
+        "-",
+        "likewise, the cycles of the normal stress with shear combined as in ASME VIII-2 5.5.5.3; an upper bound where "
+        "one stands for counting",
+    ),
+    Column(
+        "path_factor_largest", "float", "-", "length / range of the half cycle with the largest range of all events"
+    ),
+    Column("path_moment_largest", "float", "-", "path moment of that half cycle: 0 in phase, 1 on a circle"),
+    Column(
+        "multiaxial_verdict",
+        "text",
+        "-",
+        "passes (all sums at most 1), fails (the sum by range is above 1), model_dependent (that one is not, another "
+        "is), settled_passes or settled_fails",
+    ),
     Column("at_end", "flag", "-", "inside the treated zone of a weld end, or the end node itself"),
     Column("at_corner", "flag", "-", "at a kink of the weld line above 30 degrees"),
     Column(
@@ -104,6 +155,7 @@ NODES = (
         "-",
         "at a kink where the nodal forces of both legs are one sum: the stress there is of neither leg, and unbounded",
     ),
+    Column("curve_status", "text", "-", "what the S-N curve of the weld rests on, as in welds.parquet"),
     Column(
         "screened",
         "text",

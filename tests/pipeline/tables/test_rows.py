@@ -47,7 +47,7 @@ def test_points_come_station_by_station_top_before_bottom(model, tmp_path):
     result = numbered(n, len(PLAN.passes))
     block = result.mission
     block.governing[3, 1], block.verdict[3, 1], block.shear_ratio[2, 0], result.tier[5] = -1, 4, np.nan, 2
-    nodes = written(tmp_path, "nodes", node_rows(model.stations, result, PLAN))
+    nodes = written(tmp_path, "nodes", node_rows(model.stations, result, PLAN, ["user"] * len(model.welds)))
 
     assert list(nodes["weld"]) == ["A"] * 14 + ["B"] * 14
     assert nodes["toe"].tolist() == model.stations.toe.ravel().tolist()

@@ -72,10 +72,11 @@ def is_single(record: CountedRecord, rule: CycleRule) -> bool:
     """Whether this counter serves: a law of one slope, not too steep, and a record prepared for it, not too short.
 
     Reversals at vertices are not for it: whether ranges close is then no question of two samples, which is what its
-    doubts are about.
+    doubts are about. Nor are the allowances of a curve for bending or for the stress ratio of a cycle.
     """
     straight = rule.law.is_straight and float(rule.law.slopes[0]) <= STEEPEST
-    return record.single is not None and not record.vertex and straight and record.q.shape[1] >= SHORTEST
+    known = straight and rule.is_of_range_alone
+    return record.single is not None and not record.vertex and known and record.q.shape[1] >= SHORTEST
 
 
 def count_single(stress: BlockStress, record: CountedRecord, rule: CycleRule) -> BlockCount:

@@ -13,7 +13,7 @@ from fatigue.readers.neutral.tables import open_table
 Surface: TypeAlias = Literal["top", "bottom", "both"]
 SURFACES = ("top", "bottom", "both")
 QUALITY = ("joint_type", "performance_class", "inspection_class")
-OPTIONAL = ("closed", "surface", "curve", "end_length_mm", "description", "curve_shear", *QUALITY)
+OPTIONAL = ("closed", "surface", "curve", "end_length_mm", "description", "curve_shear", "attachment_mm", *QUALITY)
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,8 @@ class Weld:
 
     ``surface`` is top, bottom or both; ``end_length`` in mm, None: the plate thickness, 0: no end treatment.
     ``curve_shear`` is the S-N curve of its shear stress; ``joint_type``, ``performance_class`` and ``inspection_class``
-    are quality data as given, empty where there are none.
+    are quality data as given, empty where there are none. ``attachment`` is the length [mm] along the stress of what
+    the weld attaches, None: not given.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Weld:
     joint_type: str = ""
     performance_class: str = ""
     inspection_class: str = ""
+    attachment: float | None = None
 
 
 def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> tuple[tuple[Weld, ...], list[Problem]]:
@@ -56,6 +58,7 @@ def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> t
         table.known("curve", curve, curve_code, {"", *curves}, "the curves")
         table.known("curve_shear", shear, shear_code, {"", *curves}, "the curves")
     end_length = table.numbers("end_length_mm", default=np.nan, least=0.0)
+    attachment = table.numbers("attachment_mm", default=np.nan, above=0.0)
     description = table.texts("description", default="")
     joint_type, performance, inspection = (table.texts(name, default="") for name in QUALITY)
     table.refuse()
@@ -71,6 +74,7 @@ def read_welds(path: Path, curves: Collection[str] | None, *, strict: bool) -> t
             joint_type=joint_type[i],
             performance_class=performance[i],
             inspection_class=inspection[i],
+            attachment=None if np.isnan(attachment[i]) else float(attachment[i]),
         )
         for i in range(table.rows)
     )

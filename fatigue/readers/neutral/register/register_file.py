@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.neutral.body.welds import SURFACES
+from fatigue.readers.neutral.body.welds import QUALITY, SURFACES
 from fatigue.readers.neutral.register.weld_register import STATUSES, Register, RegisterRow
 from fatigue.readers.text.flags import WORDS_BY_HAND, flag_of
 from fatigue.readers.text.rows import read_rows
@@ -19,14 +19,17 @@ _COLUMNS = [
     *("thickness_mm", "confirmed", "surface", "curve", "end_length_mm", "description"),
 ]
 
+_KNOWN = [*_COLUMNS, *QUALITY]  # the columns of quality data are written where a weld has some
+
 
 def register_text(rows: Iterable[RegisterRow]) -> str:
     """Text of the register as CSV, rows to assess first."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     rows = list(rows)
+    quality = [name for name in QUALITY if any(getattr(row, name) for row in rows)]
     others = list(dict.fromkeys(name for row in rows for name in row.others))
-    writer.writerow([*_COLUMNS, *others])
+    writer.writerow([*_COLUMNS, *quality, *others])
     for row in sorted(rows, key=lambda r: (STATUSES.index(r.status), r.weld)):
         writer.writerow(
             [
@@ -45,6 +48,7 @@ def register_text(rows: Iterable[RegisterRow]) -> str:
                 row.curve,
                 row.end_length,
                 row.description,
+                *(getattr(row, name) for name in quality),
                 *(row.others.get(name, "") for name in others),
             ]
         )
@@ -89,8 +93,8 @@ def open_register(path: Path, *, strict: bool) -> Register:
 def _unknown_columns(path: Path, names: Iterable[str]) -> Iterable[Problem]:
     """Name the columns that nothing reads."""
     for name in names:
-        if name and name not in _COLUMNS:
-            near = difflib.get_close_matches(name, _COLUMNS, n=1)
+        if name and name not in _KNOWN:
+            near = difflib.get_close_matches(name, _KNOWN, n=1)
             remedy = f"Rename it to {near[0]!r}" if near else "Remove it if it is not for yourself"
             what = "the column is unknown and not read"
             yield Problem("unknown_column", f"{path.name}: column {name}", what, remedy)
@@ -126,8 +130,9 @@ def _row(cells: Mapping[str, str], number: int) -> RegisterRow:
         curve=cells.get("curve", ""),
         end_length="" if np.isnan(end_length) else f"{end_length:.12g}",
         description=cells.get("description", ""),
+        **{name: cells.get(name, "") for name in QUALITY},
         number=number,
-        others={name: value for name, value in cells.items() if name and name not in _COLUMNS},
+        others={name: value for name, value in cells.items() if name and name not in _KNOWN},
     )
 
 

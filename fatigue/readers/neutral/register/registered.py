@@ -224,7 +224,15 @@ def _weld(name: str, group: Sequence[tuple[Weld, list[RegisterRow]]], conversion
         curve=row.curve or (None if is_converted else weld.curve),
         end_length=float(row.end_length) if row.end_length else None if is_converted else weld.end_length,
         description=description_of(rows) if described else weld.description,
+        joint_type=_given(rows, "joint_type") or weld.joint_type,
+        performance_class=_given(rows, "performance_class") or weld.performance_class,
+        inspection_class=_given(rows, "inspection_class") or weld.inspection_class,
     )
+
+
+def _given(rows: Sequence[RegisterRow], column: str) -> str:
+    """What the register gives for a weld; empty where all its lines leave it open."""
+    return next((value for row in rows if (value := str(getattr(row, column)))), "")
 
 
 def _named_apart(rows: Sequence[RegisterRow], taken: set[str]) -> Iterator[RegisterRow]:

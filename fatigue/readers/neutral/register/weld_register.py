@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from fatigue.errors import Problem
+from fatigue.readers.neutral.body.welds import QUALITY
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.line_geometry import length
 
@@ -45,6 +46,9 @@ class RegisterRow:
     curve: str = ""
     end_length: str = ""
     description: str = ""
+    joint_type: str = ""
+    performance_class: str = ""
+    inspection_class: str = ""
     number: int = field(default=0, compare=False)
     others: Mapping[str, str] = field(default_factory=dict, compare=False)
 
@@ -82,6 +86,12 @@ def contradictions(rows: Iterable[RegisterRow], where: str) -> Iterator[Problem]
         if len(of_row) > 1:
             values = " and ".join(f"{value or 'none'} (line {row.key})" for value, row in sorted(of_row.items()))
             what = f"its lines have different {title}: {values}"
+            yield Problem("contradiction", where, what, "Give them one, or give the lines two names")
+    for column in QUALITY:
+        given = {getattr(row, column): row for row in reversed(rows) if getattr(row, column)}
+        if len(given) > 1:
+            values = " and ".join(f"{value} (line {row.key})" for value, row in sorted(given.items()))
+            what = f"its lines have different {column}: {values}"
             yield Problem("contradiction", where, what, "Give them one, or give the lines two names")
 
 
@@ -143,6 +153,7 @@ def merged(rows: Iterable[RegisterRow], register: Register) -> tuple[list[Regist
                 curve=old.curve,
                 end_length=old.end_length,
                 description=old.description,
+                **{name: getattr(old, name) for name in QUALITY},
             )
         )
     for line, old in edited.items():

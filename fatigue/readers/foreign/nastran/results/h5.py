@@ -43,7 +43,7 @@ def read_h5(
     ------
     DataError : damaged file, no GRID_FORCE table, other than modal and static results, superelements
     """
-    with _open(path) as read:
+    with opened(path) as read:
         if not len(read("NASTRAN/RESULT/NODAL/GRID_FORCE", False)) and len(
             read("NASTRAN/RESULT/NODAL/GRID_FORCE_CPLX", False)
         ):
@@ -63,16 +63,16 @@ def read_h5(
                     )
                 )
             where = f"{path}, subcase {domain['SUBCASE']} mode {domain['MODE']} (domain {key})"
-            if (other := _unusable(domain, where)) is not None:
+            if (other := unusable_domain(domain, where)) is not None:
                 unusable.append(UnusableBlock(int(domain["SUBCASE"]), other))
                 continue
             forces.append(sharing_rows(_force_block(domain, rows, where), forces))
-            stated[_key(domain)] = [float(domain["TIME_FREQ_EIGR"])]
+            stated[domain_key(domain)] = [float(domain["TIME_FREQ_EIGR"])]
         shapes = [
-            ShapeBlock(*_key(domains[key]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE))
+            ShapeBlock(*domain_key(domains[key]), rows["ID"].astype(np.int64), _columns(rows, _SHAPE))
             for name in ("EIGENVECTOR", "DISPLACEMENT")
             for key, rows in _by_domain(read(f"NASTRAN/RESULT/NODAL/{name}", required=False))
-            if key in domains and _unusable(domains[key], "") is None
+            if key in domains and unusable_domain(domains[key], "") is None
         ]
         summary = [
             Eigenvalue(
@@ -97,7 +97,7 @@ def read_h5_model(path: Path) -> FeModel:
     DataError : as ``read_h5``, and geometry that contradicts itself
     """
     source = str(path)
-    with _open(path) as read:
+    with opened(path) as read:
         grid = read("NASTRAN/INPUT/NODE/GRID")
         cards = _frame_cards(read)
         sections, unconfirmed = _sections(read)
@@ -155,7 +155,7 @@ def _other_elements(path: Path) -> tuple[Problem, ...]:
 
 
 @contextmanager
-def _open(path: Path) -> Iterator[Any]:
+def opened(path: Path) -> Iterator[Any]:
     """Function that reads one table of the open file; every failure of the library becomes a DataError."""
 
     def read(name: str, required: bool = True) -> Rows:
@@ -218,12 +218,12 @@ def _text(raw: bytes) -> str:
     return "".join(c if c.isprintable() else " " for c in raw.decode("latin-1"))
 
 
-def _key(domain: Any) -> tuple[int, int]:
+def domain_key(domain: Any) -> tuple[int, int]:
     """Subcase and mode, 0 in a static subcase."""
     return int(domain["SUBCASE"]), int(domain["MODE"]) if int(domain["ANALYSIS"]) == MODES else 0
 
 
-def _unusable(domain: Any, where: str) -> Problem | None:
+def unusable_domain(domain: Any, where: str) -> Problem | None:
     """Why a domain is no real static or modal result of the residual structure; None if it is."""
     if int(domain["ANALYSIS"]) not in (STATIC, MODES):
         return wrong_analysis(where, int(domain["ANALYSIS"]))
@@ -237,7 +237,7 @@ def _force_block(domain: Any, rows: Rows, where: str) -> ForceBlock:
     kind = np.array([name.decode("ascii").strip() for name in distinct.tolist()], dtype=np.str_)
     return ForceBlock(
         where,
-        *_key(domain),
+        *domain_key(domain),
         rows["ID"].astype(np.int64),
         rows["EID"].astype(np.int64),
         kind[which],

@@ -21,9 +21,12 @@ class Identification:
 
     approach: int
     table_code: int
+    element_type: int
     subcase: int
     mode: int
+    format_code: int
     words_per_row: int
+    stress_code: int
     is_thermal: bool
     eigenvalue: float  # word 6
     own: tuple[float, float]  # words 14 and 16, in force tables of MSC Nastran the eigenvalue and the frequency
@@ -89,9 +92,12 @@ def _identification(op2: Op2File, record: Record) -> Identification:
     return Identification(
         approach=int(words[0]) // 10,  # the last digit is the device
         table_code=int(words[1]),
+        element_type=int(words[2]),
         subcase=int(words[3]),
         mode=int(words[4]),
+        format_code=int(words[8]),
         words_per_row=int(words[9]),
+        stress_code=int(words[10]),
         is_thermal=int(words[22]) == 1,
         eigenvalue=float(reals[5]),
         own=(float(reals[13]), float(reals[15])),

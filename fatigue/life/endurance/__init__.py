@@ -1,0 +1,1 @@
+"""Endurance between static load cases: lines in the Haigh plane, pairs of cases, corners of independent loads."""

@@ -1,0 +1,59 @@
+"""What the counted mission of some stresses says in the rows of their check."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.mission import Plan
+from fatigue.life.rule import CycleRule
+from fatigue.pipeline.checks.signals import Signals, counted_mission
+from fatigue.pipeline.count.mission_block import MissionBlock
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.quotient import quotient
+
+
+def counted_columns(mission: MissionBlock, face: int, plan: Plan) -> dict[str, NDArray[Any]]:
+    """Columns of ``check_rows`` (n,) for one face of n points that were counted."""
+    factor = mission.load_factor[:, face]
+    return {
+        "range_max_MPa": mission.max_range[:, face],
+        "damage_per_km": mission.damage_per_km[:, face],
+        "damage_sum": mission.damage_per_km[:, face] * plan.target_km,
+        "damage_limit": np.full(len(factor), plan.damage_limit),
+        "utilisation_stress": np.where(np.isinf(factor), 0.0, quotient(np.ones(len(factor)), factor)),
+        "fulfilled": (mission.utilisation[:, face] <= 1.0).astype(np.int64),
+        "governing_event": np.array([*plan.names, ""])[mission.governing[:, face]],
+    }
+
+
+def counted_each(
+    stresses: Sequence[NDArray[np.float64]],
+    size: NDArray[np.float64],
+    rule: CycleRule,
+    loads: Sequence[EventLoad],
+    plan: Plan,
+    names: str,
+) -> list[dict[str, NDArray[Any]]]:
+    """Columns of ``check_rows`` (n,) for each of some stresses (n, c) without bending, at n points of these sizes.
+
+    Two stresses are counted side by side, unless the damage of a cycle depends on its bending ratio: two stresses are
+    no membrane and bending stress.
+
+    Raises
+    ------
+    NumericalError : stress or damage exceeds double precision
+    """
+    found = []
+    at_once = 1 if rule.uses_bending_ratio else 2
+    for first in range(0, len(stresses), at_once):
+        some = stresses[first : first + at_once]
+        nothing = np.zeros_like(some[0])
+        if at_once == 1:
+            signals = Signals(some[0], nothing, size, rule)
+        else:
+            signals = Signals.of_pairs(some[0], some[1] if len(some) == 2 else nothing, size, rule)
+        mission = counted_mission(signals, loads, plan, names)
+        found += [counted_columns(mission, face, plan) for face in range(len(some))]
+    return found

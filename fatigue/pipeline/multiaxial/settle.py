@@ -1,0 +1,99 @@
+"""Which toe points need no path counter: by normal stress alone, or by a proven bound of what shear can add.
+
+First without a history: the path of a point is bounded by how far and how much the modal coordinates move. Only points
+that this leaves are traced, chunk by chunk, and bounded once more.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.life.bounds.path_extent import PathExtent, path_limits
+from fatigue.life.bounds.screening import may_need_mean_stress
+from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.multiaxial.histories import ranges, traced
+from fatigue.pipeline.multiaxial.t1 import path_damage_bound
+from fatigue.pipeline.multiaxial.toes import Toes, weights_of
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+REQUIRED = 1.0 / 3.0  # shear over normal stress range, from which on ASME VIII-2 5.5.5.3 asks for shear
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bounded:
+    """What bounds say of some stations, arrays (n, 2); everything over the limit at the target.
+
+    ``bound`` is that of the sum by path range, cycles across events included; ``settled`` says where it is enough.
+    ``shear_range`` (e, n, 2) and ``least_shear_range`` bound the range of the shear [MPa].
+    """
+
+    bound: Floats
+    shear_range: Floats
+    least_shear_range: Floats
+
+
+def first_tier(
+    toes: Toes, loads: Sequence[EventLoad], extents: Sequence[PathExtent], passes: Floats, beta: float
+) -> Bounded:
+    """Bound the paths of all stations without a history."""
+    stress, total = toes.stress, toes.transitions.copy()
+    shear_range, least = np.empty((2, *toes.normal_range.shape))
+    for number, (load, extent) in enumerate(zip(loads, extents, strict=True)):
+        f = load.stress_factor
+        normal, shear = (stress.membrane, stress.bending), (stress.in_plane_shear, stress.twist_shear)
+        limits = path_limits(normal, shear, beta, extent)
+        shear_range[number], least[number] = f * limits.shear_range, f * limits.least_shear_range
+        total += passes[number] * event_bound(toes, number, f * limits.length, shear_range[number], beta)
+    return Bounded(total, shear_range, least)
+
+
+def event_bound(toes: Toes, number: int, length: Floats, shear_range: Floats, beta: float) -> Floats:
+    """Bound of the damage of one pass by path range, (n, 2); infinite where f_M may make a cycle worse."""
+    stress, normal_range = toes.stress, toes.normal_range[number]
+    damage = path_damage_bound(length, normal_range, shear_range, stress.size[:, None], stress.rule, beta)
+    yield_MPa = stress.rule.yield_of_damage
+    if yield_MPa is None:
+        return damage
+    return np.where(may_need_mean_stress(toes.normal_mean[number], normal_range, yield_MPa), np.inf, damage)
+
+
+def second_tier(
+    toes: Toes, at: tuple[NDArray[np.intp], NDArray[np.intp]], loads: Sequence[EventLoad], passes: Floats, beta: float
+) -> Floats:
+    """Bound of the sum by path range at some faces (k,), from the exact length of their paths and range of shear."""
+    station, face = at
+    stress, rule = toes.stress, toes.stress.rule
+    total = toes.transitions[at].copy()
+    for number, load in enumerate(loads):
+        path = traced(weights_of(stress, station, face, load), load.counted.q, load.residue, beta)
+        damage = path_damage_bound(path.length, path.normal_range, path.shear_range, stress.size[station], rule, beta)
+        if rule.yield_of_damage is not None:
+            mean = toes.normal_mean[number][at]
+            damage = np.where(may_need_mean_stress(mean, path.normal_range, rule.yield_of_damage), np.inf, damage)
+        total += passes[number] * damage
+    return total
+
+
+def shear_required(toes: Toes, bounded: Bounded, loads: Sequence[EventLoad]) -> NDArray[np.int8]:
+    """Whether the largest range of the shear is above a third of that of the normal stress, (n, 2): 1, 0, else -1.
+
+    Bounds decide as far as they can. Of stations that were counted the others are traced; the normal stress of those
+    that were not is not known.
+    """
+    limit = REQUIRED * toes.normal_range.max(axis=0)
+    found = np.full(limit.shape, -1, dtype=np.int8)
+    counted = toes.toe & toes.counted[:, None]
+    found[toes.toe & (bounded.least_shear_range.max(axis=0) > limit)] = 1
+    found[counted & (bounded.shear_range.max(axis=0) <= limit)] = 0
+    station, face = np.nonzero(counted & (found < 0))
+    if station.size:
+        of_events = [
+            ranges(weights_of(toes.stress, station, face, load)[1], load.counted.q, limit[station, face])
+            for load in loads
+        ]
+        found[station, face] = np.max(of_events, axis=0) > limit[station, face]
+    return found

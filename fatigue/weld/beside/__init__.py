@@ -1,0 +1,1 @@
+"""Stress beside a weld and in parent metal: extrapolated to the toe, and on planes across the plate."""
