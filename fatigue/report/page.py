@@ -20,13 +20,13 @@ from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.result import ShownResult, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
-from fatigue.report.sections.beside import beside
+from fatigue.report.sections.beside.checks import beside
+from fatigue.report.sections.beside.sensitivity import sensitivity
+from fatigue.report.sections.beside.shear import shear
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
-from fatigue.report.sections.sensitivity import sensitivity
-from fatigue.report.sections.shear import shear
 from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page

@@ -34,6 +34,7 @@ class Varied:
     lower : (n, 2) what it is at least where it is not known; None: nothing is known
     rule, size : the rule of cycles and the factor of each thickness (n,) to count again with; None: nothing to count
     note : code of what limits every number of it
+    tells_counted : whether the largest number that is known says more than the bound of the others
     """
 
     exact: Floats
@@ -42,6 +43,7 @@ class Varied:
     size: Floats | None = None
     note: int = NOTHING
     lower: Floats | None = None
+    tells_counted: bool = False
 
 
 def scaled(utilisation: Floats, factor: Floats | float, counted: NDArray[np.bool_]) -> Varied:

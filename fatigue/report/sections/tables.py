@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from fatigue.report.sections.beside import CHECKS
+from fatigue.report.sections.beside.checks import CHECKS
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, linked, num, percent, span, text, verdict
 from fatigue.report.wording import number, size
 
@@ -94,6 +94,7 @@ def _place(row: Any) -> str:
 def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
     """Every weld of the case: assessed, or not and why."""
     more = [column for column in _REGISTER if column in welds and _says_something(welds[column])]
+    more = more if {*more} - {*_CATEGORY} else []  # where nothing else was asked for, nobody asked for a category
     rows = tuple(
         (*_register_row(row, links), *(_REGISTER[column][1](getattr(row, column)) for column in more))
         for row in welds.itertuples()
@@ -128,6 +129,9 @@ _REGISTER: dict[str, tuple[Heading, Callable[[Any], Cell]]] = {  # columns that 
     "stress_utilisation": (Heading("stress utilisation", "-"), num),
     "stress_category": (Heading("stress category", numeric=False), text),
 }
+
+
+_CATEGORY = ("stress_utilisation", "stress_category")
 
 
 def _says_something(column: "pd.Series[Any]") -> bool:

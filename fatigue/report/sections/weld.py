@@ -12,12 +12,12 @@ from fatigue.report import figures, wording
 from fatigue.report.checks import ShownChecks
 from fatigue.report.result import ShownResult
 from fatigue.report.sections import weld_tables
-from fatigue.report.sections.beside import weld_checks
+from fatigue.report.sections.beside.checks import weld_checks
+from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.load_spectra import LoadSpectra, equivalent_table, spectra_figures
-from fatigue.report.sections.shear import shear_facts
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
 

@@ -117,13 +117,12 @@ def _place(row: Mapping[str, Any]) -> str:
 def _note(row: Mapping[str, Any]) -> str:
     """What a reader has to know, with how many places the row stands for where some differ from it."""
     places, missed, without = int(row["places"]), int(row["missed"]), int(row["not_assessed"])
+    value, note = row.get("value"), row["note"]
     said = [
-        f"{value:.4g} of {row['limit_value']:.4g} allowed"
-        if (value := row.get("value")) is not None and value == value
-        else "",
+        "" if value is None or pd.isna(value) else f"{number(value)} of {number(row['limit_value'])} allowed",
         f"{whole(missed)} of {whole(places)} places not met" if missed and places > 1 else "",
         f"{whole(without)} of {whole(places)} places not assessed" if without and places > 1 else "",
-        "" if row["note"] is None or row["note"] != row["note"] else str(row["note"]),
+        "" if note is None or pd.isna(note) else str(note),
     ]
     return "; ".join(filter(None, said))
 

@@ -35,6 +35,7 @@ def shear(result: ShownResult, links: Mapping[str, str]) -> dict[str, Any]:
     if "multiaxial_verdict" not in nodes or nodes["multiaxial_verdict"].isna().all():
         return {"shear": None}
     points = worst_by_shear(nodes)
+    doubtful = points["weld"][points["multiaxial_verdict"] == "model_dependent"]
     rule = result.record["rules"].get("multiaxial", {})
     toes = rule.get("toe_points", {})
     return {
@@ -46,9 +47,7 @@ def shear(result: ShownResult, links: Mapping[str, str]) -> dict[str, Any]:
             "settled": [f"{whole(number_)} {STATUSES.get(name, name)}" for name, number_ in toes.items()],
             "table": _table(points.head(MOST), links, with_mlp=bool(points["utilisation_path_mlp"].notna().any())),
             "left_out": max(0, len(points) - MOST),
-            "model_dependent": [
-                str(weld) for weld in points["weld"][points["multiaxial_verdict"] == "model_dependent"]
-            ],
+            "model_dependent": doubtful.tolist(),
         }
     }
 
