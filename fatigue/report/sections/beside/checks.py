@@ -23,17 +23,17 @@ CHECKS: dict[str, str] = {
 }
 _HEADINGS = (
     Heading("check", numeric=False),
+    Heading("verdict", numeric=False),
+    Heading("utilisation, stress", "-"),
+    Heading("damage / limit", "-"),
+    Heading("life", "km"),
+    Heading("largest range", "MPa"),
     Heading("where", numeric=False),
     Heading("stress", numeric=False),
     Heading("curve", numeric=False),
-    Heading("largest range", "MPa"),
-    Heading("life", "km"),
-    Heading("damage / limit", "-"),
-    Heading("utilisation, stress", "-"),
-    Heading("verdict", numeric=False),
     Heading("note", numeric=False),
 )
-PLACE, WELD = Heading("point", numeric=False), Heading("weld", numeric=False)
+WELD = Heading("weld", numeric=False)
 
 
 def weld_checks(id_: str, checks: ShownChecks, weld: str) -> PageTable | None:
@@ -92,14 +92,14 @@ def _cells(row: Mapping[str, Any]) -> tuple[Cell, ...]:
     status = f" ({row['curve_status']})" if row.get("curve_status") else ""
     return (
         Cell(CHECKS.get(row["check"], row["check"])),
+        _verdict(row),
+        num(row["utilisation_stress"]),
+        num(row["utilisation_damage"]),
+        num(row["life_km"]),
+        num(row["range_max_MPa"]),
         text(_place(row)),
         text(row["component"]),
         text(f"{row['curve']}{status}" if row["curve"] else None),
-        num(row["range_max_MPa"]),
-        num(row["life_km"]),
-        num(row["utilisation_damage"]),
-        num(row["utilisation_stress"]),
-        _verdict(row),
         text(_note(row)),
     )
 
@@ -150,33 +150,33 @@ def _endurance(result: ShownResult, checks: ShownChecks, links: Mapping[str, str
         cells.append(
             (
                 linked(row["weld"], links) if row["weld"] else text(None),
+                _verdict(row),
+                num(row["utilisation_stress"]),
+                num(miner),
                 text(_place(row)),
                 text(row["component"]),
                 text(row["curve"]),
-                text(row["governing_event"]),
                 num(row["range_max_MPa"]),
                 num(row.get("R")),
                 num(row.get("amplitude_MPa")),
                 num(row.get("allowed_amplitude_MPa")),
-                num(row["utilisation_stress"]),
-                _verdict(row),
-                num(miner),
+                text(row["governing_event"]),
                 text(_note(row)),
             )
         )
     headings = (
         WELD,
+        Heading("verdict", numeric=False),
+        Heading("endurance utilisation", "-"),
+        Heading("Miner life", "km"),
         Heading("where", numeric=False),
         Heading("stress", numeric=False),
         Heading("line or curve", numeric=False),
-        Heading("load cases", numeric=False),
         Heading("range", "MPa"),
         Heading("R"),
         Heading("amplitude", "MPa"),
         Heading("allowed", "MPa"),
-        Heading("endurance utilisation", "-"),
-        Heading("verdict", numeric=False),
-        Heading("Miner life", "km"),
+        Heading("load cases", numeric=False),
         Heading("note", numeric=False),
     )
     return PageTable("endurance", headings, tuple(cells), "Find a check")

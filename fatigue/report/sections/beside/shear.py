@@ -92,7 +92,7 @@ def _table(points: pd.DataFrame, links: Mapping[str, str], *, with_mlp: bool) ->
         Heading("bound of range"),
         Heading("path factor"),
         Heading("path moment"),
-        Heading("shear above a third", numeric=False),
+        Heading("shear required", numeric=False),
         Heading("node"),
         Heading("face", numeric=False),
     )
