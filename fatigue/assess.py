@@ -372,7 +372,7 @@ def write_tables(
         if paths:
             paths.flush()
         if wants_checks:
-            tables["checks"].write(check_table_rows(apart, body.curves))
+            tables["checks"].write(check_table_rows(apart, body.curves, body.compared.lines))
         tables["welds"].write(excluded_rows(body.excluded))
 
 

@@ -14,17 +14,20 @@ from plotly.offline import get_plotlyjs
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.mishaps import refused_writing
 from fatigue.report import figures, wording
+from fatigue.report.checks import read_checks
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.result import ShownResult, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
+from fatigue.report.sections.beside.checks import beside
+from fatigue.report.sections.beside.sensitivity import sensitivity
+from fatigue.report.sections.beside.shear import shear
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
-from fatigue.report.sections.sensitivity import sensitivity
 from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
@@ -88,7 +91,7 @@ def report_page(
     missing: list[Problem] = []
     details, steps = _details(result, inputs, missing)
     body = _body(inputs, missing)
-    why, spectra = read_why(folder, result), read_load_spectra(folder, result)
+    why, spectra, checks = read_why(folder, result), read_load_spectra(folder, result), read_checks(folder)
     for problem in missing:
         log.warning("the report lacks something: %s", problem)
     for problem in inputs.outdated:
@@ -115,8 +118,11 @@ def report_page(
         **body_sections.causes(result, why, figs),
         **transitions(result, links),
         "pages": [
-            weld_page(result, weld, details.get(weld), why, spectra, figs, links[weld]) for weld in result.detailed
+            weld_page(result, weld, details.get(weld), why, spectra, checks, figs, links[weld])
+            for weld in result.detailed
         ],
+        **shear(result, links),
+        **beside(result, checks, links),
         "spectra_words": spectra_words(spectra),
         **body_sections.domains(result, figs),
         "undetailed": len(result.assessed) - len(result.detailed),

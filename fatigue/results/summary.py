@@ -10,10 +10,11 @@ import pandas as pd
 
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
 from fatigue.results.belonging import refuse_mixed
+from fatigue.results.beside.checks import BesideToe, read_beside_toe
+from fatigue.results.beside.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.dictionary.sensitivity import VARIANTS
 from fatigue.results.provenance import curves_of_status, read_provenance
 from fatigue.results.rows import read_rows, worst_toes
-from fatigue.results.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
 from fatigue.shown import few, shortened, visible
 
@@ -49,6 +50,7 @@ class Summary:
     points: pd.DataFrame
     unverified_curves: tuple[str, ...] = ()
     sensitivity: Sensitivity | None = None
+    beside_toe: BesideToe | None = None
 
     @property
     def fulfilled(self) -> bool:
@@ -66,6 +68,7 @@ class Summary:
             "welds": self.welds.to_dict("records"),
             "not_assessed": self.not_assessed.to_dict("records"),
             "points": self.points.to_dict("records"),
+            **({} if self.beside_toe is None else self.beside_toe.as_record()),
             "sensitivity": None if self.sensitivity is None else self.sensitivity.as_record(),
         }
 
@@ -90,6 +93,7 @@ class Summary:
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
                 *self._at_summed_corners(),
                 *self._left_out(),
+                *([] if self.beside_toe is None else self.beside_toe.as_lines(_cell)),
                 *self._otherwise(),
                 "",
                 "The worst point" if len(self.points) == 1 else f"The {len(self.points)} worst points",
@@ -191,7 +195,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         raise CaseError(Problem("argument", "top", f"{top!r} is no number of points", "Give a whole number from 1 on"))
     folder, only = given_path(folder, "folder"), given_names(only, "only")
     record = read_provenance(folder)
-    refuse_mixed(folder, record, ("nodes", "welds", "sensitivity"))
+    refuse_mixed(folder, record, ("nodes", "welds", "sensitivity", "checks"))
     every = read_welds(folder)
     welds, left_out = assessed(every), not_assessed(every)
     unknown = sorted(set(only) - set(welds["weld"]))
@@ -206,6 +210,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
     if only:
         sensitivity = None if sensitivity is None else sensitivity.of_welds(only)
         welds, left_out = welds[welds["weld"].isin(only)], left_out[:0]
+    beside_toe = read_beside_toe(folder, set(welds["weld"]), every=not only)
     return Summary(
         title=record["title"],
         assumptions=assumptions(record),
@@ -215,6 +220,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         points=read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas(),
         unverified_curves=tuple(curves_of_status(record, "unverified")),
         sensitivity=sensitivity,
+        beside_toe=beside_toe,
     )
 
 

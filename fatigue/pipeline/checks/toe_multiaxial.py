@@ -28,6 +28,7 @@ def toe_multiaxial_rows(method: str, model: Model, result: GroupResult, plan: Pl
     names = np.array([*plan.names, ""])
     limit = model.damage_limits(plan.damage_limit)[station]
     curve = np.array([rated.curve.name for rated in model.curve_of_weld])
+    limit = np.array([rated.damage_limit(plan.damage_limit) for rated in model.curve_of_weld])[stations.weld[station]]
     with np.errstate(divide="ignore"):
         of_stress = 1.0 / load_factor
     return check_rows(

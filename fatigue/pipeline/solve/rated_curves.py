@@ -1,6 +1,6 @@
 """The S-N curves a case asks for, at its survival level and with its extension, for the stress that asks for them."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -16,7 +16,6 @@ from fatigue.life.mission import Plan
 from fatigue.life.rule import CycleRule, size_exponent, size_factor
 from fatigue.pipeline.solve.known_curves import curves_of_case
 from fatigue.readers.neutral.body.strength_factors import StrengthFactor, on_limit, on_range
-from fatigue.readers.neutral.body.throats import WeldThroat
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.shown import few
 
@@ -130,9 +129,9 @@ class AskedCurve:
         return self.use == "toe" and self.quantity == "normal"
 
 
-def asked_curves(case: Case, welds: Sequence[Weld], throats: Iterable[WeldThroat] = ()) -> list[AskedCurve]:
-    """Curves that the case and its welds ask for, normal stress and shear at the toe, and those of the throats."""
-    file, of_throats = case.body.welds, case.body.weld_throats
+def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
+    """Curves that the case and its welds ask for, normal stress and shear at the toe."""
+    file = case.body.welds
     return [
         AskedCurve(case.curve.name, f"{case.path.name}: curve.name"),
         *(AskedCurve(w.curve, f"{file}: weld {w.name}: curve") for w in welds if w.curve),
@@ -141,15 +140,7 @@ def asked_curves(case: Case, welds: Sequence[Weld], throats: Iterable[WeldThroat
             for w in welds
             if w.curve_shear
         ),
-        *(curve for throat in throats for curve in _of_throat(throat, f"{of_throats}: weld {throat.weld}")),
     ]
-
-
-def _of_throat(throat: WeldThroat, where: str) -> Iterator[AskedCurve]:
-    yield AskedCurve(throat.curve, f"{where}: curve", use="throat")
-    yield AskedCurve(throat.curve_shear, f"{where}: curve_shear", use="throat", quantity="shear")
-    if throat.curve_root:
-        yield AskedCurve(throat.curve_root, f"{where}: curve_root", use="root")
 
 
 def rated_curves(

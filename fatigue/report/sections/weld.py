@@ -9,8 +9,11 @@ import pandas as pd
 
 from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
+from fatigue.report.checks import ShownChecks
 from fatigue.report.result import ShownResult
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.beside.checks import weld_checks
+from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.curves import all_marked, curve_words, figure_mark, of_toes
 from fatigue.report.sections.details import Detail
@@ -35,6 +38,7 @@ class WeldPage:
     row: Mapping[str, Any]
     unverified: bool
     facts: list[tuple[str, str]]
+    checks: PageTable | None
     along: Shown
     point: list[Shown]
     variants: PageTable
@@ -53,6 +57,7 @@ def weld_page(
     detail: Detail | None,
     why: Why | None,
     spectra: LoadSpectra | None,
+    checks: ShownChecks,
     figs: Figures,
     id_: str,
 ) -> WeldPage:
@@ -91,7 +96,8 @@ def weld_page(
         name=weld,
         row=row.to_dict(),
         unverified=bool(unverified),
-        facts=weld_tables.facts(point, row, curve_words(row["curve"], result.record)),
+        facts=[*weld_tables.facts(point, row, curve_words(row["curve"], result.record)), *shear_facts(point)],
+        checks=weld_checks(f"{id_}-checks", checks, weld),
         along=along,
         point=shown,
         variants=all_marked(of_variants, ("life",)) if unverified else of_variants,
