@@ -13,6 +13,7 @@ from fatigue.assess import assess
 from fatigue.cli import main
 from fatigue.diagnose import diagnose
 from fatigue.results.summary import result_summary
+from fatigue.verify.recount import recount
 from tests.small_case import SmallCase, sine_only, small_case
 
 CLASS = """
@@ -226,3 +227,15 @@ def test_a_damage_limit_of_the_curve_holds_for_shear_too(tmp_path: Path) -> None
     assert (of_strict["utilisation_path_range"].dropna() > 0.0).all()
     checks = pd.read_parquet(tmp_path / "result" / "checks.parquet")
     assert checks.groupby("weld")["damage_limit"].unique().map(list).to_dict() == {"A": [0.25], "B": [1.0]}
+
+
+def test_the_recount_agrees_with_every_rule(two_welds: Path, tmp_path: Path) -> None:
+    """Computed anew from the input files, also of a curve of the catalogue that the case changes."""
+    assert recount(two_welds / "result", sample=None).passed
+    case = sine_only()
+    case.welds["curve"] = ["iiw-steel-90", "master-steel"]
+    case.extra = '[curves.iiw-steel-90]\ngamma_Mf = 1.15\nmean_stress = "iiw_medium"\n'
+    case.extra += "[curves.master-steel]\ngamma_Ff = 1.1\n"
+    welds = assessed(case, tmp_path)
+    assert welds["curve_status"].tolist() == ["user", "user"]
+    assert recount(tmp_path / "result", sample=None).passed

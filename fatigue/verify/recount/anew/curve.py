@@ -160,16 +160,19 @@ def curve_named(
 ) -> RecountCurve:
     """Curve as the case asks for it, with the rows of its table of strength ``factors``.
 
-    Master curves come from this module, curves of the case from its text; what else the catalogue holds is taken from
-    the provenance, which lists slopes, knees and ranges.
+    Master curves come from this module, curves of the case from its text; what else the catalogue holds, and what a
+    case keeps of a curve that it changes, is taken from the provenance, which lists slopes, knees and ranges.
     """
     asked = case["curve"]
     own = case.get("curves", {}).get(name)
-    if name in MASTER:
+    line_is_own = own is not None and {"slopes", "range_at_2e6_MPa"} <= own.keys()
+    if name in MASTER and not line_is_own:
         h, ranges = MASTER[name]
         given = Given((1.0 / h,), (), 1.0, dict(zip(LEVELS, ranges, strict=True)), "dS", None, 0.0)
-    elif own is not None:
-        given = _own(own)
+    elif own is not None and line_is_own:
+        listed = record["curves"][name]  # of what a changed curve of the catalogue keeps
+        keeps = ("applies", "thickness_reference_mm", "thickness_exponent")
+        given = _own({key: listed[key] for key in keeps} | dict(own))
     else:
         given = _listed(record["curves"][name])
     level = asked.get("survival", "mean-2sigma") if len(given.ranges) > 1 else next(iter(given.ranges))
@@ -201,7 +204,7 @@ def curve_named(
 def origin_of(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> tuple[str, str]:
     """Status and edition of a curve: of the case by its text, else as the provenance lists it."""
     own = case.get("curves", {}).get(name)
-    if own is None:
+    if own is None or not {"slopes", "range_at_2e6_MPa", "applies", "source"} <= own.keys():  # all or part of it listed
         listed = record["curves"][name]
         return str(listed.get("status", "")), str(listed.get("edition", ""))
     return own.get("status", "user"), own.get("edition", "")
