@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import EnduranceCheck
+from fatigue.errors import NumericalError, Problem
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.modal_stress import faces
 from fatigue.pipeline.solve.model import Model
@@ -17,6 +18,7 @@ from fatigue.readers.neutral.points.stress_points import StressPoints
 
 Floats = NDArray[np.float64]
 
+LARGEST = 1e100  # [MPa]: its square is still a number
 SURFACES = np.array(["top", "bottom"])
 
 
@@ -38,6 +40,20 @@ class CaseStress:
     loads: Floats
     thickness: Floats
     place: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        """Refuse stresses that are no longer numbers.
+
+        Raises
+        ------
+        NumericalError : a stress is beyond ``LARGEST``
+        """
+        largest = np.max([np.abs(some).max(initial=0.0) for some in (self.static, self.loads)])
+        if not largest <= LARGEST:
+            where = f"static load cases, group {self.group.name}"
+            what = f"a stress of {largest:g} MPa exceeds what can be computed with"
+            remedy = "Check amounts, factors and units of the cases for a value that is far too large"
+            raise NumericalError(Problem("overflow", where, what, remedy))
 
     def __len__(self) -> int:
         """Count the points."""

@@ -5,6 +5,7 @@ import pytest
 
 from fatigue.assess import assess
 from fatigue.case import load_case
+from fatigue.errors import NumericalError
 from fatigue.pipeline.checks.endurance import weld_endurance
 from fatigue.pipeline.solve.model import read_model
 from fatigue.results import read_table
@@ -194,3 +195,11 @@ def test_partial_factors_and_the_stress_ratio_are_in_the_design_range(tmp_path):
     found = row(rows[rows["order"] == 2], "perp")
     f = 1.2 + 0.4 * 0.661971830986
     np.testing.assert_allclose(found["utilisation_stress"], 1.1 * 70.8 / f / (36.0 * 0.584803547643), rtol=1e-9)
+
+
+def test_amounts_beyond_all_bounds_are_refused(tmp_path):
+    """A stress that is no number any more is told by its group, not compared."""
+    for number, amount in enumerate(("1e308", "-1e200")):
+        cases = CASES.replace("pitch,alternating,ride,2,1,", f"pitch,alternating,ride,2,{amount},")
+        with pytest.raises(NumericalError, match="static load cases, group ride: a stress of"):
+            rows_of(tmp_path / str(number), check(perp="across"), cases=cases)

@@ -47,11 +47,13 @@ class CaseGroup:
 
     def static_of(self, modal: Floats) -> Floats:
         """Stress (n, ...) of the static cases together, from a stress (n, c, ...) per unit of the coordinates."""
-        return np.asarray(np.tensordot(modal, self.static, axes=(1, 0)))
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(np.tensordot(modal, self.static, axes=(1, 0)))
 
     def loads_of(self, modal: Floats) -> Floats:
         """Stress (n, s, ...) of the states or alternating loads, from a stress (n, c, ...) per unit."""
-        return np.asarray(np.einsum("sc,nc...->ns...", self.loads, modal))
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(np.einsum("sc,nc...->ns...", self.loads, modal))
 
     def stress_at(self, points: Sequence[str]) -> tuple[Floats, Floats]:
         """Stress of the static cases (n, 3) and of the loads (n, s, 3) at some of its points."""
@@ -78,7 +80,8 @@ def read_static_cases(
     amounts = _stress_columns(table) if at_points else _amount_columns(table, coordinates, ignore_modes)
     looked_at = [] if at_points else [name for name in table.position if _is_amount(name)]
     wanted = ("case", "kind", "group", *(("point",) if at_points else ()))
-    table.expect(wanted, (*_OPTIONAL, *amounts, *looked_at), strict=True)
+    may_be = STRESSES if at_points else coordinates.column
+    table.expect(wanted, (*_OPTIONAL, *may_be, *amounts, *looked_at), strict=True)
     table.refuse()
     names, code = table.groups("case")
     kinds = table.texts("kind")
@@ -93,7 +96,8 @@ def read_static_cases(
     table.report(factor == 0.0, "bad_value", "factor", "0 takes the case out", "Remove the case instead")
     values = np.zeros((table.rows, len(coordinates) if not at_points else len(STRESSES)))
     for name, place in amounts.items():
-        values[:, place] = factor * table.numbers(name, default=0.0)
+        with np.errstate(over="ignore"):  # what is no number any more is refused as a stress
+            values[:, place] = factor * table.numbers(name, default=0.0)
     table.refuse()
     found: dict[str, CaseGroup] = {}
     for i, name in enumerate(groups):

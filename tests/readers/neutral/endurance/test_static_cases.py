@@ -107,6 +107,7 @@ def test_one_case_may_be_in_two_groups(tmp_path):
         (CASES | {"q_9": [1.0] * 7}, "column q_9: the body has no mode 9. Remove the column, or add the mode to the"),
         (CASES | {"u_wind": [1.0] * 7}, "column u_wind: the body has no unit load 'wind', it has payload. Remove the"),
         (CASES | {"mode_7": [1.0] * 7}, "column mode_7: the column is unknown and not read. "),
+        (CASES | {"Q_3": [1.0] * 7}, "column Q_3: the column is unknown and not read. Rename it to 'q_3'."),
         (
             without(without(CASES, "q_7"), "u_payload"),
             " no column is an amount of a mode or unit load. Give columns q_",
