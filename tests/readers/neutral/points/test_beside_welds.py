@@ -4,14 +4,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fatigue.readers.convert.options import Density
-from fatigue.readers.convert.stresses.points import OF_EDGE_MM, OF_THICKNESS
 from fatigue.readers.neutral.body.lines import read_lines
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.line_file import line_file
 from fatigue.readers.neutral.points.beside_welds import assessed_names, compared_with_welds
 from fatigue.readers.neutral.points.stress_points import read_stress_points
-from fatigue.weld.beside.hot_spot import EDGE, FACE, matching_set
 from tests.readers.neutral_tables import WELD_NODES, write
 from tests.stress_point_case import point
 
@@ -94,10 +91,3 @@ def test_names_of_welds():
     """A weld may be named as it is assessed, which goes first, or as in the tables; others keep their name."""
     names = assessed_names({"line 1": "bracket", "line 2": "bracket", "line 3": "line 1"}, ["gone", "line 2"])
     assert names == {"gone": "gone", "line 2": "bracket", "line 1": "line 1", "line 3": "line 1", "bracket": "bracket"}
-
-
-@pytest.mark.parametrize("density", ["fine", "quadratic", "coarse"])
-def test_read_outs_of_a_conversion_are_those_of_the_rules(density: Density):
-    """What a conversion reads from FE stresses is a set of read-outs here."""
-    assert matching_set(FACE, 7.0 * np.array(OF_THICKNESS[density]), 7.0) is not None
-    assert matching_set(EDGE, np.array(OF_EDGE_MM[density]), 7.0) is not None
