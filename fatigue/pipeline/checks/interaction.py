@@ -14,6 +14,7 @@ from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
 from fatigue.pipeline.checks.signals import Signals, counted_mission
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 
@@ -77,13 +78,13 @@ def _normal(
 ) -> Counted:
     """Normal stress under the limit of the rule: as it was assessed, where that was counted and has this limit.
 
-    On one slope the factor follows from the damage sum for any limit. Where bounds stand for counting, and on other
-    curves under another limit, it is counted again.
+    On one slope the factor follows from the damage sum for any limit. Where bounds stand for counting, where a method
+    for shear decides about the damage of the toe, and on other curves under another limit, it is counted again.
     """
     law, limit = rated.rule.law, own.damage_limit
-    screened = bool(result.tier[stations].any())
+    screened = bool(result.tier[stations].any()) or model.case.multiaxial.method in DECIDING
     scales = law.is_straight and rated.rule.yield_of_damage is None
-    if screened or not (scales or plan.damage_limit == limit):
+    if screened or not (scales or rated.damage_limit(plan.damage_limit) == limit):
         stress, size = model.stations.treated, rated.size(model.stations.thickness[stations])
         signals = Signals(stress.membrane[stations], stress.bending[stations], size, rated.rule)
         return _counted(signals, loads, own, "normal stress at the toe")

@@ -68,17 +68,17 @@ def check_table(
 ) -> list[ColumnCheck]:
     """Checks of the table of checks; ``most`` stresses may be counted."""
     tables = read_tables(inputs, coordinates, record)
-    found = consistent(frame, inputs.case["mission"])
-    found += missing_rows(frame, _expected_keys(tables, body))
-    if not all(check.passed for check in found):
+    missing = missing_rows(frame, _expected_keys(tables, body))
+    found = [*missing, *consistent(frame, inputs.case["mission"])]
+    if not all(check.passed for check in missing):
         return found
     others = None if sample is None else min(sample, OTHERS)
     chosen = chosen_rows(frame, sample=others, seed=seed)
     rows, asked, left = [], [], max(most, 1)
-    for check, places in chosen.items():
+    for places in chosen.values():
         for number, place in enumerate(places):
             row = frame.loc[place].to_dict()
-            if check == "endurance":
+            if row["check"] == "endurance":
                 rows += endurance_rows(row, tables, station_of)
                 continue
             one = _asked(row, tables, station_of)
@@ -93,8 +93,8 @@ def check_table(
         own = counted[first : first + len(of.signals)]
         first += len(of.signals)
         if of.path is not None:
-            (one,) = of.signals
-            values = path_mission(inputs, coordinates, of.path, one.curve, one.thickness, sampling)
+            (across,) = of.signals
+            values = path_mission(inputs, coordinates, of.path, across.curve, across.thickness, sampling)
             own = [(values, own[0][1])]
         rows += _counted_rows(of, own, inputs)
     straight = all(one.curve.is_straight and not mean_stress_of(inputs).counts for one in signals)

@@ -95,7 +95,7 @@ def path_mission(
     damage = sum(damages)
 
     def is_too_much(log_factor: float) -> bool:
-        return float(n @ curve.damage(np.exp(log_factor) * size * S)) * target > limit
+        return bool(float(n @ curve.damage(np.exp(log_factor) * size * S)) * target > limit)
 
     low, high = -60.0, 60.0
     for _ in range(80):
