@@ -26,6 +26,7 @@ def toe_multiaxial_rows(method: str, model: Model, result: GroupResult, plan: Pl
     of_path = (method in MODELS) & ~by_normal
     event = np.where(of_path, found["event"][at], mission.governing[at])
     names = np.array([*plan.names, ""])
+    limit = model.damage_limits(plan.damage_limit)[station]
     curve = np.array([rated.curve.name for rated in model.curve_of_weld])
     limit = np.array([rated.damage_limit(plan.damage_limit) for rated in model.curve_of_weld])[stations.weld[station]]
     with np.errstate(divide="ignore"):
