@@ -135,6 +135,7 @@ NOT_RECOUNTED = {  # keys of the rows, which a test below spoils, and what no nu
     "structural_stress": POINT | {"mode"},
     "cycles": POINT | {"event", "node"},
     "histogram": POINT | {"event", "node", "kind", "bin"},
+    "path_cycles": POINT | {"event", "node"},
     "welds": {"weld", "status", "reason", "description", "survival"},
 }
 CHECKED = {
@@ -173,12 +174,15 @@ def spoil(folder: Path, table: str, column: str) -> None:
 
     def change(frame: pd.DataFrame) -> pd.DataFrame:
         values = frame[column]
-        if values.dtype == bool:
-            frame.loc[0, column] = not values[0]
+        if values.dtype == bool or any(isinstance(value, bool) for value in values):
+            row = values.first_valid_index()
+            frame.loc[row, column] = not values[row]
         elif values.dtype.kind == "i":
             frame.loc[0, column] = values[0] + 1
         elif values.dtype.kind == "f":
             known = values[np.isfinite(values) & (values != 0.0)]
+            if column == "multiaxial_bound":  # exact where the path was counted; elsewhere it may be larger
+                known = known[frame["utilisation_path_range"].notna()]
             row = known.abs().idxmax() if len(known) else 0
             frame.loc[row, column] = known[row] * 1.001 if len(known) else 7.0
         else:
@@ -237,6 +241,36 @@ def test_a_weld_without_cycles_is_found(copy_of_short):
     """An empty table of cycles does not pass for one without differences."""
     edit(copy_of_short, "cycles", lambda frame: frame[:0])
     assert "cycles.range_MPa" in differing(recount(copy_of_short, sample=0))
+
+
+def test_a_bound_below_the_counted_sum_is_found(copy_of_short):
+    """A bound of the sum by path range below this sum is found, wherever it is."""
+
+    def lowered(frame: pd.DataFrame) -> pd.DataFrame:
+        toe = frame["toe"] & frame["utilisation_path_range"].isna()
+        row = frame.index[toe][0]
+        frame.loc[row, "multiaxial_bound"] *= 0.1
+        return frame
+
+    edit(copy_of_short, "nodes", lowered)
+    assert "nodes.multiaxial_bound" in differing(recount(copy_of_short, sample=None))
+
+
+@pytest.mark.parametrize("fault", ["dropped", "swapped ends"])
+def test_faults_in_half_cycles_are_found(copy_of_short, fault):
+    """A half cycle that is missing, and one between other instants, show."""
+
+    def change(frame: pd.DataFrame) -> pd.DataFrame:
+        row = frame["range_MPa"].idxmax()
+        if fault == "dropped":
+            return frame.drop(index=row)
+        frame.loc[row, ["start_s", "end_s"]] = frame.loc[row, ["end_s", "start_s"]].to_numpy()
+        return frame
+
+    edit(copy_of_short, "path_cycles", change)
+    found = differing(recount(copy_of_short, sample=None))
+    assert {"path_cycles.start_s", "path_cycles.end_s"} <= found
+    assert ("path_cycles.range_MPa" in found) == (fault == "dropped")
 
 
 # ------------------------------------------------------------------------------------------------- what is chosen

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.beside.mission import missions, signal
+from fatigue.verify.recount.anew.beside.mission import missions, path_mission, signal
 from fatigue.verify.recount.anew.beside.point_stress import ALL_ROUND, NEAR_TOE, on_plane, shear_on_plane
 from fatigue.verify.recount.anew.beside.throat import SIDES, throat_stress
 from fatigue.verify.recount.anew.point import RecountPoint, Values
@@ -44,11 +44,13 @@ class Asked:
     row : as it is in the table
     signals : stresses of which one decides, or of an interaction both parts
     directions : of each signal [deg]; empty where none are searched
+    path : the two stresses (2, c) whose path is counted in the place of directions
     """
 
     row: Mapping[str, Any]
     signals: list[RecountPoint]
     directions: list[float] = field(default_factory=list)
+    path: Floats | None = None
 
 
 def check_table(
@@ -66,17 +68,17 @@ def check_table(
 ) -> list[ColumnCheck]:
     """Checks of the table of checks; ``most`` stresses may be counted."""
     tables = read_tables(inputs, coordinates, record)
-    found = consistent(frame, inputs.case["mission"])
-    found += missing_rows(frame, _expected_keys(tables, body))
-    if not all(check.passed for check in found):
+    missing = missing_rows(frame, _expected_keys(tables, body))
+    found = [*missing, *consistent(frame, inputs.case["mission"])]
+    if not all(check.passed for check in missing):
         return found
     others = None if sample is None else min(sample, OTHERS)
     chosen = chosen_rows(frame, sample=others, seed=seed)
     rows, asked, left = [], [], max(most, 1)
-    for check, places in chosen.items():
+    for places in chosen.values():
         for number, place in enumerate(places):
             row = frame.loc[place].to_dict()
-            if check == "endurance":
+            if row["check"] == "endurance":
                 rows += endurance_rows(row, tables, station_of)
                 continue
             one = _asked(row, tables, station_of)
@@ -88,8 +90,13 @@ def check_table(
     counted = missions(inputs, coordinates, signals, sampling, mean_stress_of(inputs))
     first = 0
     for of in asked:
-        rows += _counted_rows(of, counted[first : first + len(of.signals)], inputs)
+        own = counted[first : first + len(of.signals)]
         first += len(of.signals)
+        if of.path is not None:
+            (across,) = of.signals
+            values = path_mission(inputs, coordinates, of.path, across.curve, across.thickness, sampling)
+            own = [(values, own[0][1])]
+        rows += _counted_rows(of, own, inputs)
     straight = all(one.curve.is_straight and not mean_stress_of(inputs).counts for one in signals)
     steps = {} if straight else {"utilisation_stress": LOAD_FACTOR_STEP, "value": LOAD_FACTOR_STEP}
     return [*found, *merged(compare("checks", rows, steps))] if rows else found
@@ -147,6 +154,9 @@ def _of_throat(row: Mapping[str, Any], tables: Tables, station: Station) -> Aske
         bends = [sign * stress["bending"] for sign in (1.0, -1.0)]
         return Asked(row, [signal(stress["sigma_perp"], largest, curve, a, bending) for bending in bends])
     curve, turns = tables.curve(throat["curve"]), np.deg2rad(HALF_CIRCLE)
+    if throat.get("combination") == "path":
+        path = np.stack([stress["sigma_perp"], stress["tau_perp"]])
+        return Asked(row, [signal(stress["sigma_perp"], largest, curve, a)], path=path)
     parts = [np.cos(psi) * stress["sigma_perp"] + np.sin(psi) * stress["tau_perp"] for psi in turns]
     return Asked(row, [signal(one, largest, curve, a) for one in parts], HALF_CIRCLE)
 

@@ -40,7 +40,7 @@ from fatigue.verify.recount.stored.rows import (
     weld_row,
 )
 from fatigue.verify.recount.stored.shear import shear_rows, stored_shear
-from fatigue.verify.recount.stored.sums import check_load_factors, check_sums
+from fatigue.verify.recount.stored.sums import check_load_factors, check_sums, smallest_load_factors
 from fatigue.verify.recount.stored.tables import (
     Stored,
     fastest_peaks,
@@ -340,10 +340,11 @@ def _compared_welds(
     all_counted: bool,
 ) -> list[ColumnCheck]:
     """Checks of the stored rows of some welds beside the recounted ones; ``frame`` is the table of checks."""
+    least = smallest_load_factors(stored, _toes(inputs, stored.body))
     rows, asked, failed = [], inputs.case.get("checks", {}), failed_by_checks(stored.folder, inputs.case)
     for name, weld in welds.items():
         found = stored.welds.loc[name].to_dict()
-        of_checks = of_weld(frame, name, found["load_factor"], asked) | dict(inputs.register.welds[name].quality)
+        of_checks = of_weld(frame, name, least[name], asked) | dict(inputs.register.welds[name].quality)
         own = {key: of for key, of in values.items() if key[0] == name}
         more = of_checks | {"a check fails": name in failed}
         rows.append(weld_row(weld, own, bounds, found, more, all_counted=all_counted))

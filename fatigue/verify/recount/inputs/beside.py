@@ -39,7 +39,7 @@ def throat_rows(inputs: RecountInputs) -> dict[str, dict[str, Any]]:
 def _filled(row: Mapping[Any, Any]) -> dict[str, Any]:
     """A row with texts trimmed and what may be left out filled in."""
     filled = {str(name): value.strip() if isinstance(value, str) else value for name, value in row.items()}
-    for name, default in (("penetration_mm", 0.0), ("lever", ""), ("curve_root", "")):
+    for name, default in (("penetration_mm", 0.0), ("lever", ""), ("curve_root", ""), ("combination", "")):
         if name not in filled or pd.isna(filled[name]):
             filled[name] = default
     return filled

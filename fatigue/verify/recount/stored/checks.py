@@ -50,17 +50,17 @@ def where(row: Mapping[str, Any]) -> str:
 
 
 def chosen_rows(frame: pd.DataFrame, *, sample: int | None, seed: int) -> dict[str, list[int]]:
-    """Rows of each check in the order in which they are counted again: the worst one, then others as they are drawn.
+    """Rows of each check, component and curve as they are counted again: the worst one, then others as they are drawn.
 
     ``sample`` is how many others there are at most; None: all.
     """
     rng = np.random.default_rng(seed)
-    chosen = {}
-    for check, rows in frame.groupby("check", sort=False):
+    chosen: dict[str, list[int]] = {}
+    for key, rows in frame.groupby(["check", "component", "curve"], sort=False):
         places = rows.index.to_numpy()
         worst = int(places[rows["utilisation_stress"].fillna(-1.0).to_numpy().argmax()])
         others = rng.permutation(places[places != worst]).tolist()
-        chosen[str(check)] = [worst, *(others if sample is None else others[:sample])]
+        chosen[", ".join(key)] = [worst, *(others if sample is None else others[:sample])]
     return chosen
 
 

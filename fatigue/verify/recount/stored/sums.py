@@ -199,6 +199,11 @@ def _of_welds(stored: Stored, case: Mapping[str, Any]) -> Iterator[Sum]:
     yield Sum("welds", "utilisation", welds["utilisation"].to_numpy()[number], utilisation[worst][number], number)
 
 
+def smallest_load_factors(stored: Stored, toe: NDArray[np.bool_]) -> dict[str, float]:
+    """Smallest load factor of the counted toe points of each weld, of which some points are at a toe, (p,)."""
+    return dict(zip(stored.body.welds, _smallest_load_factors(stored, toe).expected.tolist(), strict=True))
+
+
 def _smallest_load_factors(stored: Stored, toe: NDArray[np.bool_]) -> Sum:
     """Load factor of a weld as the smallest one of its counted toe points makes it."""
     names = list(stored.body.welds)

@@ -13,6 +13,7 @@ from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, p
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values, one_pass
 from fatigue.verify.recount.anew.record import read_record, spectrum_rules
 from fatigue.verify.recount.anew.rounding import Bounds
+from fatigue.verify.recount.anew.shear.path import half_cycles
 from fatigue.verify.recount.inputs.case import RecountInputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
 
@@ -70,3 +71,42 @@ def missions(
         of_raw = [each.bounds["damage_per_pass"] for each in of]
         found.append((values, bounds_of_point(of, of_raw, events, mission, one.curve, values)))
     return found
+
+
+def path_mission(
+    inputs: RecountInputs,
+    coordinates: RecountCoordinates,
+    parts: Floats,
+    curve: RecountCurve,
+    thickness: float,
+    sampling: Sequence[tuple[float, int]],
+) -> Values:
+    """Columns of the mission of two stresses (2, c) whose path is counted by range, each half cycle as half a cycle."""
+    mission, size = inputs.case["mission"], curve.size_factor(thickness)
+    ranges, counts, damages, names = [], [], [], []
+    for number, given in enumerate(mission["event"]):
+        record = read_record(inputs, given, coordinates, *sampling[number])
+        path = half_cycles((record.factor * parts @ record.counted).T, recurs=record.recurs)
+        ranges.append(path.range)
+        counts.append(np.full(len(path.range), 0.5 * record.passes_per_km))
+        damages.append(float(counts[-1] @ curve.damage(size * path.range)))
+        names.append(record.name)
+    S, n, limit, target = np.concatenate(ranges), np.concatenate(counts), curve.limit(mission), mission["target_km"]
+    damage = sum(damages)
+
+    def is_too_much(log_factor: float) -> bool:
+        return bool(float(n @ curve.damage(np.exp(log_factor) * size * S)) * target > limit)
+
+    low, high = -60.0, 60.0
+    for _ in range(80):
+        middle = (low + high) / 2.0
+        low, high = (low, middle) if is_too_much(middle) else (middle, high)
+    return {
+        "damage_per_km": damage,
+        "life_km": limit / damage if damage > 0.0 else np.inf,
+        "utilisation": damage * target / limit,
+        "fulfilled": damage * target <= limit,
+        "load_factor": float(np.exp(low)) if S.any() else np.inf,
+        "max_range_MPa": float(S.max(initial=0.0)),
+        "governing_event": names[int(np.argmax(damages))] if damage > 0.0 else "",
+    }
