@@ -1,7 +1,7 @@
 """Half cycles of the paths of normal stress and shear that matter, with the instants of each.
 
-Kept is of every weld the point with the largest sum by range, from a tenth of the damage limit on, of those that only the
-counter could settle, or of all where a method of the path counter decides: what the other points have are sums, in
+Kept is of every weld the point with the largest sum by range, from a tenth of the damage limit on, of those that only
+the counter could settle, or of all where a method of the path counter decides: what the other points have are sums, in
 ``nodes.parquet``. Paths are counted again here, a few points at a time.
 """
 
