@@ -362,7 +362,7 @@ def write_tables(
                 binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
                 histograms.add([kept_point(group.model, point) for point in binned])
             if paths:
-                paths.add(kept_paths(group))
+                paths.add(kept_paths(group, everything=work.counts_all_paths))
             done.add(group, work, worst)
             del group  # not to be held until the next one is there
             give_back()

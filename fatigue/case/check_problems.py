@@ -1,4 +1,4 @@
-"""What is wrong with the checks of a case: keys of an interaction or an endurance check that do not fit together."""
+"""What is wrong with the checks of a case: keys of an interaction, an endurance check or shear that do not fit."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -6,6 +6,7 @@ from typing import Any
 from fatigue.case.problems import absent, clash
 from fatigue.errors import Problem
 
+COUNTED = ("range", "length", "mlp")  # methods of [multiaxial] by the path counter
 LINE_KEYS = ("perp", "par", "shear")  # of [[checks.endurance]]: the component of each line
 NEEDED = {"en1993": (), "iiw": ("cv", "damage_limit"), "en1999": ("damage_limit",)}  # keys of each rule
 LARGEST_KAPPA = 2.0  # beyond it u_perp^2 + u_par^2 - kappa u_perp u_par is negative for some stresses
@@ -106,3 +107,17 @@ def _twice(key: str, names: Sequence[str]) -> Iterator[Problem]:
     again = [name for i, name in enumerate(names) if name in names[:i]]
     if again:
         yield clash(key, f"names '{again[0]}' twice", "Name it once")
+
+
+def shear_problems(raw: Mapping[str, Any]) -> Iterator[Problem]:
+    """Refusal of a path of samples that decides beside a normal stress whose reversals lie beyond the samples."""
+    multiaxial, counting = (_table(raw.get(name)) for name in ("multiaxial", "counting"))
+    method = multiaxial.get("method")
+    if method in COUNTED and counting.get("reversals") == "vertex":
+        what = f"method = {method!r} counts paths from sample to sample, and reversals = 'vertex' reads normal stress "
+        what += "beyond them: the two sums could not be compared"
+        yield clash("multiaxial.method", what, "Give reversals = 'samples' and upsample = 'auto', or method = 'report'")
+
+
+def _table(value: object) -> Mapping[str, Any]:
+    return value if isinstance(value, dict) else {}

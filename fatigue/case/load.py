@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from fatigue.case.check_problems import counts_problems
+from fatigue.case.check_problems import counts_problems, shear_problems
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
@@ -17,7 +17,6 @@ from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
 from fatigue.case.sequence_problems import sequence_problems
 from fatigue.case.sequences import Sequence
-from fatigue.case.shear_problems import shear_problems
 from fatigue.case.tables import Body, Case, Counting, Event, Mission, Spectrum
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse

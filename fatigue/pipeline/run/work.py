@@ -32,6 +32,8 @@ from fatigue.side_by_side import in_order
 
 log = logging.getLogger(__name__)
 
+WORST_PATHS = 4e6  # samples of the paths of all worst points together: some seconds; of more only those that matter,
+SMALL_SHARE = 1e-3  # from this share of the damage limit on
 SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten times as long as it must
 
 
@@ -67,6 +69,11 @@ class Work:
     histogram: HistogramPoints
     sampling: OtherSampling
     shear: Shear | None = None
+
+    @property
+    def counts_all_paths(self) -> bool:
+        """Whether a method of the path counter decides about every toe point."""
+        return self.shear is not None and self.shear.counts_all
 
     @property
     def factors(self) -> tuple[int, ...]:
@@ -107,10 +114,16 @@ def open_work(
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
     sampling = other_sampling(groups, loads, plan)
-    shear = shear_of(groups.body.case, loads, 0.0 if named else large, threads)
+    shear = shear_of(groups.body.case, loads, 0.0 if named else _worst_paths_from(groups, loads, large), threads)
     return Work(
         groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling, shear=shear
     )
+
+
+def _worst_paths_from(groups: WeldGroups, loads: Sequence[EventLoad], large: float) -> float:
+    """Utilisation from which on the path of the worst point of a weld is counted, whatever settles it."""
+    samples = len(groups.body.welds) * sum(load.counted.q.shape[1] for load in loads)
+    return max(large, SMALL_SHARE if samples > WORST_PATHS else 0.0)
 
 
 def shear_of(case: Case, loads: Sequence[EventLoad], counted_from: float, threads: int | None) -> Shear | None:

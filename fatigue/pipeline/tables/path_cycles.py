@@ -1,7 +1,8 @@
 """Half cycles of the paths of normal stress and shear that matter, with the instants of each.
 
-Kept is of every weld the counted toe point with the largest sum by range, from a tenth of the damage limit on: what the
-other points have are sums, in ``nodes.parquet``. Paths are counted again here, a few points at a time.
+Kept is of every weld the point with the largest sum by range, from a tenth of the damage limit on, of those that only
+the counter could settle, or of all where a method of the path counter decides: what the other points have are sums, in
+``nodes.parquet``. Paths are counted again here, a few points at a time.
 """
 
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from fatigue.life.rule import cycle_damage
 from fatigue.pipeline.count.worst import ABOVE, EQUAL
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.multiaxial.counted import PathParts, Point, paths_of
+from fatigue.pipeline.multiaxial.found import STATUSES
 from fatigue.pipeline.run.workers import Group
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
@@ -59,10 +61,14 @@ class PathWriter:
                 self._table.write(path_rows(kept, load, parts))
 
 
-def kept_paths(group: Group) -> list[KeptPath]:
-    """The points of a group of welds whose half cycles go into ``path_cycles.parquet``; the first of equal ones."""
+def kept_paths(group: Group, *, everything: bool) -> list[KeptPath]:
+    """The points of a group of welds whose half cycles go into ``path_cycles.parquet``; the first of equal ones.
+
+    With ``everything`` any counted point may be one of them.
+    """
     stations, found = group.model.stations, group.result.multiaxial
-    by_range = np.where(stations.toe, np.nan_to_num(found["range"], nan=-1.0), -1.0)
+    open_ = np.isin(found["status"], (STATUSES.index("fails"), STATUSES.index("counted"))) | everything
+    by_range = np.where(stations.toe & open_, np.nan_to_num(found["range"], nan=-1.0), -1.0)
     kept = []
     for weld, rated in enumerate(group.model.curve_of_weld):
         first, end = stations.first[weld : weld + 2]

@@ -130,7 +130,8 @@ def _shear_record(case: Case, work: Work, points: Mapping[str, int]) -> dict[str
         "paths": "half cycles from sample to sample, upsampled as the normal stress; cycles across the events of "
         "sequences by normal stress",
         "worst_points_counted_from_utilisation": work.shear.counted_from,
-        "path_cycles": f"of each weld the counted point with the largest sum by range, from {ABOVE:g} of the limit on",
+        "path_cycles": f"of each weld the point with the largest sum by range, from {ABOVE:g} of the limit on, of "
+        + ("all" if work.counts_all_paths else "those that only the counter settles"),
         "toe_points": dict(points),
     }
 
