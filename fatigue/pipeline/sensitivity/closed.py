@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import REFERENCE_CYCLES, Plan
-from fatigue.life.rule import CycleRule, ratio_factor
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.sensitivity.notes import NOTHING
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 
@@ -34,6 +34,7 @@ class Varied:
     lower : (n, 2) what it is at least where it is not known; None: nothing is known
     rule, size : the rule of cycles and the factor of each thickness (n,) to count again with; None: nothing to count
     note : code of what limits every number of it
+    tells_counted : whether the largest number that is known says more than the bound of the others
     """
 
     exact: Floats
@@ -42,6 +43,7 @@ class Varied:
     size: Floats | None = None
     note: int = NOTHING
     lower: Floats | None = None
+    tells_counted: bool = False
 
 
 def scaled(utilisation: Floats, factor: Floats | float, counted: NDArray[np.bool_]) -> Varied:
@@ -90,7 +92,7 @@ def first_slope_bound(equivalent_range: Floats, size: Floats, rule: CycleRule, p
     if rule.mean_stress or (law.slopes < law.slopes[0]).any():
         return np.full_like(equivalent_range, np.inf)
     k, log_a = float(law.slopes[0]), float(law.log_constants[0])
-    I_0 = float(ratio_factor(0.0)) if rule.uses_bending_ratio else 1.0
+    I_0 = float(rule.ratio_factor(np.zeros(1))[0])
     damage = REFERENCE_CYCLES * (equivalent_range * size[:, None] / I_0) ** k * np.exp(-log_a)
     return np.where(np.isnan(damage), np.inf, damage / plan.damage_limit)
 

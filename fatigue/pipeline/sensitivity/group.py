@@ -11,15 +11,16 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.bounds import Screening
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.sensitivity import notes
 from fatigue.pipeline.sensitivity.closed import Floats, Varied
 from fatigue.pipeline.sensitivity.recount import counted_again
 from fatigue.pipeline.sensitivity.sampling import OtherSampling
 from fatigue.pipeline.sensitivity.toes import Toes, toes_of_curve
-from fatigue.pipeline.sensitivity.variants import CLOSED, varied
+from fatigue.pipeline.sensitivity.variants import varied
 from fatigue.pipeline.sensitivity.worst import FEW_STATIONS, NOWHERE, Again, Weld, worst_of_welds
 from fatigue.pipeline.solve.model import Model
-from fatigue.results.dictionary.sensitivity import AS_ASSESSED, BASES, BOUND, UNDECIDED, VARIANTS
+from fatigue.results.dictionary.sensitivity import AS_ASSESSED, BASES, BOUND, EXACT, UNDECIDED, VARIANTS
 
 FIELDS = ("utilisation", "fulfilled", "station", "face", "basis", "recounted", "note")
 
@@ -45,7 +46,7 @@ def variants_of(case: Case, sampling: OtherSampling) -> tuple[str, ...]:
         left_out.add("no_knee")
     if case.multiaxial.method == "off":
         left_out |= {"shear_path_range", "shear_asme"}
-    return tuple(name for name in VARIANTS if name not in left_out and (name in CLOSED or name == sampling.variant))
+    return tuple(name for name in VARIANTS if name not in left_out)
 
 
 def group_sensitivity(model: Model, result: GroupResult, job: Job) -> Floats:
@@ -76,11 +77,11 @@ def _unchanged(toes: Toes, note: int) -> list[tuple[float, ...]]:
 
 def _changed(name: str, toes: Toes, under: Varied, job: Job) -> list[tuple[float, ...]]:
     """Welds under a variant, their points counted again where that decides and can be done."""
-    again, limit = None, notes.SHEAR_LEFT if name.startswith("shear") else notes.BOUNDED
+    again, limit = None, under.note or notes.BOUNDED
     if under.rule is not None:
         if not job.counts_again:
             limit = notes.LARGE
-        elif toes.case.multiaxial.method not in ("report", "off"):
+        elif toes.case.multiaxial.method in DECIDING:
             limit = notes.SHEAR_DECIDES
         else:
             again = _again(toes, under, job, sampled=name == job.sampling.variant)
@@ -91,6 +92,8 @@ def _changed(name: str, toes: Toes, under: Varied, job: Job) -> list[tuple[float
 
 def _limit(weld: Weld, under: Varied, limit: int, counts_again: bool) -> int:
     """Code of the note about what limits the number of a weld: what could not be counted, not what need not be."""
+    if BASES[weld.basis] == EXACT:
+        return notes.NOTHING
     if BASES[weld.basis] not in (BOUND, UNDECIDED):
         return under.note
     if not counts_again:
@@ -107,7 +110,7 @@ def _again(toes: Toes, under: Varied, job: Job, *, sampled: bool) -> Again:
 
     def counted(rows: NDArray[np.intp]) -> Floats | None:
         loads = job.sampling.sampled() if sampled else job.loads
-        return None if loads is None else counted_again(toes.stress.at(rows), rule, size[rows], loads, job.plan)
+        return None if loads is None else counted_again(toes.stress.at(rows), rule, size[rows], loads, toes.plan)
 
     return counted
 

@@ -15,7 +15,7 @@ NOTES = (
     "of the weld no more stations were counted again",
     "by what its samples per peak let expect of a point, the others were not counted again",
     "shear, which decides, is not counted again",
-    "shear was not counted at every point",
+    "paths of points that a bound has settled, or that fail by normal stress, were not counted",
 )
 (
     NOTHING,

@@ -14,6 +14,7 @@ from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.modal_bound import bounded_raw_ends
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.multiaxial.found import Found
 from fatigue.pipeline.sensitivity.closed import Floats
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.model import Model
@@ -36,6 +37,7 @@ class Toes:
     mission : the whole mission
     stress, thickness : modal stress, and thickness [mm]
     samples_per_peak : (n, 2) the fewest of all events that damage
+    shear : (n, 2) what shear adds, ``multiaxial.found``; None where the case wants none of it
     raw_end_bound : (n, 2) what the utilisation of a raw end does not exceed where it was not counted
     """
 
@@ -51,6 +53,7 @@ class Toes:
     stress: ModalStress
     thickness: Floats
     samples_per_peak: Floats
+    shear: Found | None
     raw_end_bound: Floats
 
     @property
@@ -68,16 +71,16 @@ def toes_of_curve(
     for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
         welds = np.flatnonzero(name_of == name)
         rows = np.flatnonzero(np.isin(stations.weld, welds))
-        stress = modal_stress(stations, rows, rated)
+        stress, own_plan = modal_stress(stations, rows, rated), rated.plan(plan)
         bound = np.full((len(rows), 2), np.inf)
         ends = stress.raw_ends.rows
         if screening is not None and ends.size:
             names = ", ".join(stations.welds[int(weld)].name for weld in welds[:1])
-            block = Block(stress, stations.weld[rows], stations.toe[rows], loads, plan, f"weld {names} and others")
+            block = Block(stress, stations.weld[rows], stations.toe[rows], loads, own_plan, f"weld {names} and others")
             bound[ends] = bounded_raw_ends(block, screening)
         yield Toes(
             case=model.case,
-            plan=plan,
+            plan=own_plan,
             rated=rated,
             welds=welds,
             rows=rows,
@@ -88,6 +91,7 @@ def toes_of_curve(
             stress=stress,
             thickness=stations.thickness[rows],
             samples_per_peak=_fewest(result, rows),
+            shear=result.multiaxial[rows] if result.multiaxial.size else None,
             raw_end_bound=bound,
         )
 

@@ -5,7 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from fatigue.life.rule import CycleRule, ratio_factor
+from fatigue.life.rule import CycleRule
+from fatigue.pipeline.multiaxial.found import STATUSES
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.sensitivity import notes
 from fatigue.pipeline.sensitivity.closed import (
     KNEE,
@@ -37,11 +39,30 @@ def varied(name: str, toes: Toes, sampling: OtherSampling) -> Varied | int:
     return CLOSED[name](toes)
 
 
+def _shear_path_range(toes: Toes) -> Varied | int:
+    """Normal stress and shear by the range of their path: counted at the points that no bound settles."""
+    if toes.case.multiaxial.method == "range":
+        return notes.ASKED_FOR
+    assert toes.shear is not None
+    normal, of_path = toes.shear["normal"], toes.shear["range"]
+    settled = toes.shear["status"] == STATUSES.index("settled_passes")
+    return Varied(
+        exact=np.where(np.isnan(of_path), np.nan, np.fmax(normal, of_path)),
+        upper=np.where(settled, np.fmax(normal, np.minimum(toes.shear["bound"], 1.0)), np.inf),
+        lower=np.where(toes.counted, normal, 0.0),
+        note=notes.SHEAR_LEFT,
+        tells_counted=True,
+    )
+
+
 def _shear_asme(toes: Toes) -> Varied | int:
-    """Shear combined as in ASME VIII-2 5.5.5.3; nothing is known of it where a bound stands for counting."""
-    factor = np.where(toes.utilisation > 0.0, toes.mission.factor_if_shear, 1.0)
-    value = toes.utilisation * factor
-    return Varied(np.where(toes.counted, value, np.nan), np.full_like(value, np.inf))
+    """Shear combined as in ASME VIII-2 5.5.5.3; an upper bound where one stands for counting."""
+    if toes.case.multiaxial.method == "asme":
+        return notes.ASKED_FOR
+    assert toes.shear is not None
+    value = np.fmax(toes.shear["normal"], toes.shear["asme"])
+    known = toes.counted & ~np.isnan(toes.shear["asme"])
+    return Varied(np.where(known, value, np.nan), np.where(np.isnan(value), np.inf, value))
 
 
 def _raw_end(toes: Toes) -> Varied | int:
@@ -52,6 +73,10 @@ def _raw_end(toes: Toes) -> Varied | int:
     known = toes.counted & ~np.isnan(toes.mission.life_km_raw_end)
     treated = np.ones(len(toes.rows), dtype=np.bool_)
     treated[toes.stress.raw_ends.rows] = False
+    if toes.case.multiaxial.method in DECIDING:  # raw ends were counted by normal stress alone
+        exact = np.where(treated[:, None], toes.utilisation, np.nan)
+        lower = np.where(known & ~treated[:, None], raw, 0.0)
+        return Varied(exact, np.full_like(raw, np.inf), note=notes.SHEAR_DECIDES, lower=lower)
     upper = np.where(treated[:, None], toes.utilisation, toes.raw_end_bound)
     return Varied(np.where(known, raw, np.nan), upper)
 
@@ -127,13 +152,14 @@ def _sampled(toes: Toes, sampling: OtherSampling) -> Varied | int:
         return notes.NOT_UPSAMPLED
     rule, is_vertex = toes.rated.rule, toes.case.counting.reversals == "vertex"
     k = float(rule.law.slopes.max())
-    ratios = float(ratio_factor(1.0) / ratio_factor(0.0)) ** k if rule.uses_bending_ratio else 1.0
+    of_bending, of_membrane = rule.ratio_factor(np.array([1.0, 0.0]))
+    ratios = float(of_bending / of_membrane) ** k
     unknown = np.full_like(toes.utilisation, np.nan)
     if sampling.variant == "upsample_auto":
         loss = (vertex_sampling_loss if is_vertex else sampling_loss)(toes.samples_per_peak, k)
         upper = toes.utilisation / np.maximum(1.0 - TIMES_EXPECTED * loss, 0.1)
         return Varied(unknown, upper, rule, note=notes.EXPECTED, lower=toes.utilisation / ratios)
-    is_proven = not (is_vertex or rule.law.cutoff > 0.0 or rule.mean_stress)
+    is_proven = not (is_vertex or rule.law.cutoff > 0.0 or rule.mean_stress or rule.stress_ratio != "none")
     return Varied(unknown, toes.utilisation * ratios, rule, note=notes.NOTHING if is_proven else notes.EXPECTED)
 
 
@@ -142,6 +168,7 @@ def _all_on_first_slope(toes: Toes) -> Floats:
 
 
 CLOSED: dict[str, Callable[[Toes], Varied | int]] = {
+    "shear_path_range": _shear_path_range,
     "shear_asme": _shear_asme,
     "raw_end": _raw_end,
     "asme_thickness": _asme_thickness,

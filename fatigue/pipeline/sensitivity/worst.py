@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.pipeline.count.worst import EQUAL
 from fatigue.pipeline.sensitivity.closed import Floats, Varied
-from fatigue.results.dictionary.sensitivity import BASES, BOUND, EXACT, RECOUNT, UNDECIDED
+from fatigue.results.dictionary.sensitivity import BASES, BOUND, COUNTED, EXACT, RECOUNT, UNDECIDED
 
 Again = Callable[[NDArray[np.intp]], Floats | None]  # utilisation (r, 2) of some stations; None: not to be had
 
@@ -66,7 +66,10 @@ def worst_of_welds(
     found = []
     for a, b in pairwise(first.tolist()):
         recounted = int(done[a:b].sum())
-        found.append(_judged(exact[a:b], float(lower[a:b].max(initial=0.0)), upper[a:b], a, recounted))
+        judged = _judged(exact[a:b], float(lower[a:b].max(initial=0.0)), upper[a:b], a, recounted)
+        if varied.tells_counted and BASES[judged.basis] == BOUND and judged.fulfilled:
+            judged = _counted(judged, exact[a:b], a)
+        found.append(judged)
     return found
 
 
@@ -131,13 +134,26 @@ def _judged(exact: Floats, lower: float, upper: Floats, first: int, recounted: i
     """A weld whose points are known to be ``exact``, or else to lie below ``upper``, and the worst above ``lower``."""
     best, rest = _largest(exact), float(upper.max(initial=-1.0))
     if best >= rest:
-        value = max(best, 0.0)
-        station, face = divmod(int((exact >= EQUAL * best).argmax()), 2) if best >= 0.0 else (NOWHERE, NOWHERE)
-        at = first + station if station != NOWHERE else NOWHERE
-        return Weld(value, int(value <= 1.0), at, face, BASES.index(RECOUNT if recounted else EXACT), recounted)
+        value, basis = max(best, 0.0), BASES.index(RECOUNT if recounted else EXACT)
+        return Weld(value, int(value <= 1.0), *_place(exact, first), basis, recounted)
     at_least = max(best, lower)
     if at_least > 1.0:
         return Weld(at_least, 0, NOWHERE, NOWHERE, BASES.index(BOUND), recounted)
     if rest <= 1.0:
         return Weld(rest, 1, NOWHERE, NOWHERE, BASES.index(BOUND), recounted)
     return Weld(at_least, OPEN, NOWHERE, NOWHERE, BASES.index(UNDECIDED), recounted)
+
+
+def _counted(judged: Weld, exact: Floats, first: int) -> Weld:
+    """The same weld, which meets its target, with the largest number that is known in place of a bound."""
+    best = _largest(exact)
+    return judged if best < 0.0 else Weld(best, 1, *_place(exact, first), BASES.index(COUNTED), judged.recounted)
+
+
+def _place(exact: Floats, first: int) -> tuple[int, int]:
+    """Station and face of the largest number that is known, the first of equal ones; ``NOWHERE`` without any."""
+    best = _largest(exact)
+    if best < 0.0:
+        return NOWHERE, NOWHERE
+    station, face = divmod(int((exact >= EQUAL * best).argmax()), 2)
+    return first + station, face

@@ -1,10 +1,11 @@
 """The tables of the page about the whole body: its worst welds and points, the register, what was given, the checks."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 
+from fatigue.report.sections.beside.checks import CHECKS
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, linked, num, percent, span, text, verdict
 from fatigue.report.wording import number, size
 
@@ -92,7 +93,12 @@ def _place(row: Any) -> str:
 
 def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
     """Every weld of the case: assessed, or not and why."""
-    rows = tuple(_register_row(row, links) for row in welds.itertuples())
+    more = [column for column in _REGISTER if column in welds and _says_something(welds[column])]
+    more = more if {*more} - {*_CATEGORY} else []  # where nothing else was asked for, nobody asked for a category
+    rows = tuple(
+        (*_register_row(row, links), *(_REGISTER[column][1](getattr(row, column)) for column in more))
+        for row in welds.itertuples()
+    )
     headings = (
         WELD,
         Heading("description", numeric=False),
@@ -108,8 +114,35 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
         Heading("survival", numeric=False),
         Heading("end length", "mm"),
         *LIFE,
+        *(_REGISTER[column][0] for column in more),
     )
     return PageTable("weld-register", headings, rows, "Find a weld")
+
+
+_REGISTER: dict[str, tuple[Heading, Callable[[Any], Cell]]] = {  # columns that are shown where a case has them
+    "worst_check": (Heading("worst check beside the toe", numeric=False), lambda name: text(_check_name(name))),
+    "worst_check_utilisation": (Heading("its utilisation, stress", "-"), num),
+    "checks_not_assessed": (Heading("checks not assessed"), integer),
+    "joint_type": (Heading("joint", numeric=False), text),
+    "performance_class": (Heading("performance class", numeric=False), text),
+    "inspection_class": (Heading("inspection class", numeric=False), text),
+    "stress_utilisation": (Heading("stress utilisation", "-"), num),
+    "stress_category": (Heading("stress category", numeric=False), text),
+}
+
+
+_CATEGORY = ("stress_utilisation", "stress_category")
+
+
+def _says_something(column: "pd.Series[Any]") -> bool:
+    """Whether any weld has an entry: a text that is not empty, or a number other than 0."""
+    given = column.dropna()
+    return bool(((given != "") & (given != 0)).any())
+
+
+def _check_name(name: Any) -> Any:
+    """A check in words."""
+    return CHECKS.get(name, name) if isinstance(name, str) else None
 
 
 def _status(row: Any) -> str:

@@ -17,7 +17,8 @@ VARIANTS: dict[str, str] = {
 """What each variant changes, in words, in the order in which they are shown."""
 
 EXACT, RECOUNT, BOUND, AS_ASSESSED, UNDECIDED = "exact", "recount", "bound", "as assessed", "undecided"
-BASES = (EXACT, RECOUNT, BOUND, AS_ASSESSED, UNDECIDED)
+COUNTED = "counted"
+BASES = (EXACT, RECOUNT, BOUND, AS_ASSESSED, UNDECIDED, COUNTED)
 
 SENSITIVITY = (
     Column("variant", "text", "-", f"what is changed: {', '.join(VARIANTS)}"),
@@ -31,7 +32,7 @@ SENSITIVITY = (
         "float",
         "-",
         "largest utilisation of the weld's toe points under the variant; with basis bound at most this where the "
-        "target is met and at least this where it is not; with basis undecided at least this",
+        "target is met and at least this where it is not; with basis undecided or counted at least this",
     ),
     Column("fulfilled", "flag", "-", "the target is met under the variant; empty where that is undecided"),
     Column("flips", "flag", "-", "the verdict is another one than that of the assessment"),
@@ -40,7 +41,8 @@ SENSITIVITY = (
         "text",
         "-",
         "exact: closed form at every toe point; recount: counted again at every point that may be the worst; bound: "
-        "enough for the verdict; as assessed: nothing changes; undecided",
+        "enough for the verdict; counted: the largest of the points that were counted, all others being proven to meet "
+        "the target; as assessed: nothing changes; undecided",
     ),
     Column("recounted", "int", "-", "stations of the weld whose cycles were counted again"),
     Column("note", "text", "-", "why nothing changes, or what limits the number"),

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from fatigue.results.dictionary.sensitivity import AS_ASSESSED, BOUND, UNDECIDED, VARIANTS
+from fatigue.results.dictionary.sensitivity import AS_ASSESSED, BOUND, COUNTED, UNDECIDED, VARIANTS
 from fatigue.results.tables import read_table, table_path
 
 
@@ -107,7 +107,7 @@ def _records(rows: pd.DataFrame) -> list[dict[str, Any]]:
 
 def in_words(utilisation: float, basis: str, fulfilled: Any, number: Callable[[float], str]) -> str:
     """A utilisation under a variant, with what a bound says of it; ``number`` writes it."""
-    sign = {UNDECIDED: "≥ ", BOUND: "≤ " if fulfilled else "≥ "}.get(basis, "")
+    sign = {UNDECIDED: "≥ ", COUNTED: "≥ ", BOUND: "≤ " if fulfilled else "≥ "}.get(basis, "")
     return f"{sign}{number(utilisation)}"
 
 

@@ -8,8 +8,8 @@ import pandas as pd
 from fatigue.report.result import ShownResult
 from fatigue.report.sections.cells import Cell, Heading, PageTable, linked, num
 from fatigue.report.wording import listed, number, whole
-from fatigue.results.dictionary.sensitivity import BOUND, RECOUNT, VARIANTS
-from fatigue.results.sensitivity import Sensitivity, in_words, read_sensitivity
+from fatigue.results.beside.sensitivity import Sensitivity, in_words, read_sensitivity
+from fatigue.results.dictionary.sensitivity import BOUND, COUNTED, RECOUNT, VARIANTS
 
 MOST_FLIPPING = 20  # welds with their row; the others are in the table of the result
 
@@ -45,7 +45,7 @@ def sensitivity(result: ShownResult, links: Mapping[str, str]) -> dict[str, Any]
         "steady": listed([NAMES[name] for name in found.steady]),
         "own": listed([f"{NAMES[name]} ({why})" for name, why in found.own.items()]),
         "undecided": [_undecided(name, rows) for name, rows in found.undecided.items()],
-        "has_bounds": bool((found.rows.loc[found.rows["weld"].isin(welds), "basis"] == BOUND).any()),
+        "has_bounds": bool((found.rows.loc[found.rows["weld"].isin(welds), "basis"].isin([BOUND, COUNTED])).any()),
         "has_recounts": bool((found.rows["basis"] == RECOUNT).any()),
     }
 
