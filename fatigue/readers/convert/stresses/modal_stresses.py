@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.loads.names import UnitLoad
+from fatigue.readers.convert.loads.roles import static_cases_of
 from fatigue.readers.convert.options import ConvertOptions, Density
 from fatigue.readers.convert.stresses.blocks import blocks_of_modes
 from fatigue.readers.convert.stresses.evaluate import at_read_outs, available
@@ -89,7 +90,7 @@ def point_stresses(
     read_outs, problems = place_read_outs(plates, points, options.read_outs, file)
     refuse(DataError, problems[:_MOST_PROBLEMS])
     wanted = np.union1d(elements_needed(plates, read_outs), _some_with_forces(results))
-    sources = options.stresses or (options.forces, *options.unit_loads)
+    sources = options.stresses or _files_of_modes(options, results)
     stresses = [read_stresses(path, wanted) for path in sources]
     by_mode = blocks_of_modes(results, stresses, options.subcase)
     given = available(by_mode[0])
@@ -106,6 +107,14 @@ def point_stresses(
         files[copied] = _copy(options.stress_points)
     warnings += [*doubts(plates, read_outs, options.read_outs, file), *_from_centres(read_outs, metric, given, file)]
     return PointStresses(row, copied, files, tuple(warnings), (options.stress_points, *sources), len(read_outs))
+
+
+def _files_of_modes(options: ConvertOptions, results: FeResults) -> tuple[Path, ...]:
+    """Files of forces that the modes and loads in use are from; others need no stresses."""
+    used = {case.source for case in static_cases_of(results)}
+    if not results.is_static.all():
+        used.add(results.source)
+    return tuple(path for path in (options.forces, *options.unit_loads) if str(path) in used)
 
 
 def _some_with_forces(results: FeResults) -> NDArray[np.int64]:

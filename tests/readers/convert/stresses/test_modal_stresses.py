@@ -8,11 +8,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fatigue.assess import assess
+from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.loads.names import LoadName
 from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.foreign.nastran.results.op2_records import read_records
 from fatigue.readers.foreign.nastran.results.op2_stresses import read_op2_stresses
+from fatigue.results.tables import read_table
 from tests.mystran.strip import T, stress_along
 from tests.readers.op2_writer import Op2Writer
 from tests.test_cli import fatigue
@@ -119,6 +123,59 @@ def test_modes_and_unit_loads(tmp_path):
     assert (table["mode"].isna() == table.unit_load.notna()).all()
     own = table[(table.unit_load == "tension") & (table.point == "nominal")]
     assert own.sx_MPa.to_numpy() == pytest.approx([0.2, 0.2], rel=1e-5)
+
+
+def test_a_file_that_is_left_out_needs_no_stresses(tmp_path):
+    """Static subcases beside the modes are loads or nothing: only what is used has to have stresses."""
+    static = Op2Writer(4)
+    (tmp_path / "bare.op2").write_bytes(_without_stresses(STRIP / "strip_static.op2", static))
+    asked = options(tmp_path, results="modes", unit_loads=(tmp_path / "bare.op2",))
+    with pytest.raises(DataError, match=r"bare.op2: no stresses of these shells .*tables found: .*OGPFB1"):
+        convert(asked)
+    assert convert(replace(asked, static_subcases="leave_out")).modes == 2
+
+
+def _without_stresses(path, writer):
+    """Bytes of an OP2 file without its tables of stresses."""
+    op2 = read_records(path)
+    for table in op2.tables:
+        if not table.name.startswith("OES"):
+            writer.table(table.name, [op2.record(record).tobytes() for record in table.records])
+    return writer.close()
+
+
+CURVES = """
+[curves.nominal-71]
+slopes = [3.0]
+knees_cycles = []
+range_at_2e6_MPa = 71.0
+applies = "nominal"
+source = "made up"
+[curves.metal-71]
+slopes = [5.0]
+knees_cycles = []
+range_at_2e6_MPa = 71.0
+applies = "parent"
+source = "made up"
+"""
+
+
+def test_from_the_solver_to_the_check(tmp_path):
+    """Tension that swings by 3 of its load: 6 x 20 MPa at every point, in the parent metal on the plane across it."""
+    table = points_table()
+    table.loc[0, "curve"], table.loc[1, "curve"] = "nominal-71", "metal-71"
+    time = np.arange(400) * 0.005
+    waves = {"time_s": time, "q_1": 3 * np.cos(2 * np.pi * 2.5 * time), "q_2": 0 * time, "q_3": 0 * time}
+    pd.DataFrame(waves).to_csv(tmp_path / "q.csv", index=False)
+    done = convert(options(tmp_path, points=table, coordinates=(tmp_path / "q.csv",)))
+    case = done.folder / "case.toml"
+    case.write_text(case.read_text().replace('upsample = "auto" ', "upsample = 1 ") + CURVES)
+    result = assess(load_case(case), tmp_path / "result", report=False)
+    rows = read_table(result.folder, "checks").to_pandas()
+    worst = rows.sort_values("range_max_MPa").groupby("point").last()
+    assert worst.range_max_MPa.to_numpy() == pytest.approx([120.0] * 4, rel=1e-5)
+    assert worst.check.to_dict() == {"edge": "hot_spot", "nominal": "nominal", "toe": "hot_spot", "turned": "parent"}
+    assert worst.direction_deg["turned"] % 180 == 45  # e1 is at 45 degrees to the tension
 
 
 def _names(*loads):
