@@ -46,6 +46,7 @@ from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_o
 from fatigue.pipeline.run.workers import Group, by_orders, by_threads
 from fatigue.pipeline.solve.absent_loads import load_warnings
 from fatigue.pipeline.solve.body import Body, read_body
+from fatigue.pipeline.solve.curve_warnings import unverified_problems
 from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.checks import check_table_rows
@@ -116,6 +117,7 @@ def assess(
     proves_worst: bool = True,
     histogram: HistogramPoints = "worst",
     strict: bool = False,
+    require_verified: bool = False,
     force: bool = False,
     report: bool = True,
     no_lock: bool = False,
@@ -137,6 +139,7 @@ def assess(
     histogram : of which counted points ``histogram.parquet`` has the ranges: ``worst``, those that are the worst of
         their weld or use up a tenth of the damage limit; ``all``; ``none``, and there is no such table
     strict : take unknown columns in the tables for errors
+    require_verified : refuse a case that rests on an S-N curve of the status ``unverified``
     force : replace the result of another case, and files of these names that fatigue did not write
     report : write the report and the ParaView file as well
     no_lock : for a file system without locks: trust that no other run writes to the folder, and that a lock file left
@@ -156,7 +159,9 @@ def assess(
     own = input_paths(case)
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
-    (body, plan, record_warnings), inputs = with_inputs(case, partial(read_case, case, threads, strict=strict))
+    (body, plan, record_warnings), inputs = with_inputs(
+        case, partial(read_case, case, threads, strict=strict, require_verified=require_verified)
+    )
     options = ScreeningOptions(share, proves_worst, histogram)
     key = key_of(inputs.register, options)
 
@@ -243,9 +248,13 @@ def _screened_shear(case: Case, share: float | None) -> Iterator[Problem]:
         yield Problem("argument", where, f"{what}, and points below {share:g} of the limit were not to be", SCREEN)
 
 
-def read_case(case: Case, threads: int | None, *, strict: bool) -> tuple[Body, Plan, tuple[Problem, ...]]:
+def read_case(
+    case: Case, threads: int | None, *, strict: bool, require_verified: bool = False
+) -> tuple[Body, Plan, tuple[Problem, ...]]:
     """Body and mission of a case, read and checked, and the warnings about its records."""
     body = read_body(case, strict=strict)
+    if require_verified:
+        refuse(CaseError, unverified_problems(case, body.welds, body.curves))
     return body, *mission_plan(body, threads)
 
 
@@ -363,7 +372,7 @@ def write_tables(
         if paths:
             paths.flush()
         if wants_checks:
-            tables["checks"].write(check_table_rows(apart, body.curves))
+            tables["checks"].write(check_table_rows(apart, body.curves, body.compared.lines))
         tables["welds"].write(excluded_rows(body.excluded))
 
 

@@ -51,7 +51,8 @@ class CheckedCase:
     with every point counted, ``estimate`` what they consist of. ``estimated_memory_MB`` is the largest memory that it
     takes, ``gravity`` is what the mean of q of each event holds of the dead load, where the body has a gravity load;
     ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
-    ``sequences`` say which orders of events are counted.
+    ``sequences`` say which orders of events are counted; ``stress_points`` is the number of points beside welds and in
+    parent metal, which the estimates leave out.
     ``warnings`` are summed up as in an assessment.
     """
 
@@ -76,6 +77,7 @@ class CheckedCase:
     gravity: tuple[HeldGravity, ...]
     sequences: tuple[str, ...]
     warnings: tuple[Problem, ...]
+    stress_points: int = 0
 
     @property
     def has_left_out(self) -> bool:
@@ -111,6 +113,7 @@ class CheckedCase:
                 *([f"  not assessed     {self.excluded} excluded, {candidates}"] * self.has_left_out),
                 f"  modes            {self.modes}",
                 *([f"  unit loads       {self.unit_loads}"] * (self.unit_loads > 0)),
+                *([f"  stress points    {self.stress_points}, not in the estimates"] * (self.stress_points > 0)),
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 *(f"    {line}" for line in listed(self.counts)),
                 *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
@@ -191,6 +194,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         gravity=gravity,
         sequences=tuple(sequence_texts(plan)),
         warnings=warnings.listed(),
+        stress_points=0 if body.points is None else len(body.points),
     )
 
 

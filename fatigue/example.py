@@ -1,4 +1,4 @@
-"""The shipped car body, copied to where the user wants it."""
+"""The shipped car body, and tables to fill in, copied to where the user wants them."""
 
 import shutil
 from pathlib import Path
@@ -15,8 +15,26 @@ def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
     ------
     DataError : the folder holds files of the same names and ``force`` is not given, or it cannot be written
     """
-    folder, shipped = given_path(folder, "folder"), _shipped()
-    taken = [path.name for path in sorted(shipped.iterdir()) if (folder / path.name).exists()]
+    folder = given_path(folder, "folder")
+    _copy(_shipped("carbody"), folder, force=force)
+    return sorted(folder.glob("case*.toml"))
+
+
+def write_templates(folder: Path | str, *, force: bool = False) -> list[Path]:
+    """Copy the tables to fill in from a standard, which hold none of its values, into a folder; return them.
+
+    Raises
+    ------
+    DataError : as ``write_example``
+    """
+    folder = given_path(folder, "folder")
+    return [folder / name for name in _copy(_shipped("templates"), folder, force=force)]
+
+
+def _copy(shipped: Path, folder: Path, *, force: bool) -> list[str]:
+    """Copy the files of one folder into another, all or none; returns their names."""
+    names = sorted(path.name for path in shipped.iterdir())
+    taken = [name for name in names if (folder / name).exists()]
     if taken and not force:
         raise DataError(
             Problem(
@@ -27,16 +45,16 @@ def write_example(folder: Path | str, *, force: bool = False) -> list[Path]:
             )
         )
     with staged(folder, ".example-") as stage:
-        for file in sorted(shipped.iterdir()):
-            with refused_writing(folder / file.name):
-                shutil.copy2(file, stage / file.name)
+        for name in names:
+            with refused_writing(folder / name):
+                shutil.copy2(shipped / name, stage / name)
         for file in sorted(stage.iterdir()):
             file.replace(folder / file.name)
-    return sorted(folder.glob("case*.toml"))
+    return names
 
 
-def _shipped() -> Path:
-    """Find the example: inside the installed package, or beside it in a checkout."""
+def _shipped(name: str) -> Path:
+    """Find what is shipped: inside the installed package, or beside it in a checkout."""
     package = Path(__file__).parent
-    installed = package / "data" / "carbody"
-    return installed if installed.is_dir() else package.parent / "data" / "carbody"
+    installed = package / "data" / name
+    return installed if installed.is_dir() else package.parent / "data" / name

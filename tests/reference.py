@@ -52,6 +52,7 @@ CASE_TABLES = {  # of case.toml, and the models that describe them
     "[[mission.sequence]]": "Sequence",
     "[multiaxial]": "Multiaxial",
     "[checks]": "Checks",
+    "[checks.stress_category]": "StressCategory",
     "[[checks.interaction]]": "Interaction",
     "[[checks.endurance]]": "EnduranceCheck",
 }

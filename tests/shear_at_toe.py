@@ -1,9 +1,7 @@
-"""The worked example of shear at one toe point: a straight weld under uniform line loads, three coordinates, two events.
+"""The worked example of shear at a toe: a straight weld under uniform line loads, three coordinates, two events.
 
 Its structural stress per unit coordinate is the same at every node, so that nodal forces follow by hand.
 """
-
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -39,11 +37,9 @@ def shear_at_toe(multiaxial: str = "alpha = 1.0", **curve: object) -> SmallCase:
             "outward_z": 0.0,
         }
     )
-    modes = sorted(STRESSES)
+    modes, kinds = sorted(STRESSES), ["normal", "normal", "interface"]
     return SmallCase(
-        modes=pd.DataFrame(
-            {"mode": modes, "frequency_hz": [5.0, 12.0, 60.0], "kind": ["normal", "normal", "interface"]}
-        ),
+        modes=pd.DataFrame({"mode": modes, "frequency_hz": [5.0, 12.0, 60.0], "kind": kinds}),
         welds=pd.DataFrame({"weld": ["T"], "surface": ["top"]}),
         weld_nodes=nodes,
         nodal_forces=pd.concat([_forces(mode, *STRESSES[mode]) for mode in modes], ignore_index=True),
@@ -64,11 +60,6 @@ def scaled(case: SmallCase, factor: float) -> SmallCase:
         q = [column for column in table if column != "time_s"]
         case.histories[name] = table.assign(**{column: factor * table[column] for column in q})
     return case
-
-
-def write(case: SmallCase, folder: Path) -> Path:
-    """Write the case; return the path of its file."""
-    return case.write(folder)
 
 
 def _forces(

@@ -15,16 +15,22 @@ range_at_2e6_MPa = {reference}
 applies = "{applies}"
 quantity = "{quantity}"
 source = "of the test"
+{more}
 """
 
 
 def curve_text(
-    name: str, reference: float, applies: str = "hot_spot", slopes=(3.0,), knees=(), quantity: str = "normal"
+    name: str,
+    reference: float,
+    applies: str = "hot_spot",
+    slopes: tuple[float, ...] = (3.0,),
+    knees: tuple[float, ...] = (),
+    quantity: str = "normal",
+    more: str = "",
 ) -> str:
     """Text of a curve of the user for a case file."""
-    return CURVE.format(
-        name=name, reference=reference, applies=applies, quantity=quantity, slopes=list(slopes), knees=list(knees)
-    )
+    numbers = {"slopes": list(slopes), "knees": list(knees), "reference": reference}
+    return CURVE.format(name=name, applies=applies, quantity=quantity, more=more, **numbers)
 
 
 def point(name: str, kind: str = "hot_spot_a", weld: str = "", **changes: object) -> dict[str, object]:
@@ -66,21 +72,20 @@ def write_points(
     return path
 
 
-def micro_example(numbers: dict[str, object]) -> SmallCase:
-    """Modes, events and mission of the micro example; its welds are those of the small case."""
+def micro_example() -> SmallCase:
+    """Two modes and a static third one under a track and under loading and unloading; welds of the small case."""
     case = small_case()
-    events = numbers["inputs"]["events"]
     case.modes = pd.DataFrame({"mode": [1, 2, 3], "frequency_hz": [5.0, 12.0, 60.0], "kind": "normal"})
     case.nodal_forces = case.nodal_forces.assign(mode=case.nodal_forces["mode"].replace({7: 3}))
+    track = [(0, 0, 1), (1, 1, 1), (-1, 1, 1), (2, -1, 1), (0.5, 2, 1), (-2, 0, 1)]
+    of_events = {"track": track, "load_unload": [(0, 0, 1), (3, -2, 1)]}
     case.histories = {
-        name: pd.DataFrame(event["q"], columns=["q_1", "q_2", "q_3"], dtype=float).assign(
-            time_s=lambda table: 0.1 * np.arange(len(table))
-        )
-        for name, event in events.items()
+        name: pd.DataFrame(q, columns=["q_1", "q_2", "q_3"], dtype=float).assign(time_s=0.1 * np.arange(len(q)))
+        for name, q in of_events.items()
     }
     case.events = [
-        {"name": "track", "history": "track", "share": 1.0, "length_km": events["track"]["length_km"]},
-        {"name": "load_unload", "history": "load_unload", "per_1000_km": events["load_unload"]["per_1000_km"]},
+        {"name": "track", "history": "track", "share": 1.0, "length_km": 0.01},
+        {"name": "load_unload", "history": "load_unload", "per_1000_km": 4.0},
     ]
-    case.mission = {"target_km": numbers["inputs"]["target_km"], "km_per_year": 2e5, "damage_limit": 1.0}
+    case.mission = {"target_km": 1500.0, "km_per_year": 2e5, "damage_limit": 1.0}
     return case

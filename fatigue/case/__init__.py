@@ -6,11 +6,18 @@ the order of events. ``load`` reads and checks a case file, ``problems`` says wh
 file, ``plausibility`` what is allowed and hardly meant.
 """
 
-from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Method, Multiaxial
+from fatigue.case.checks import (
+    Checks,
+    EnduranceCheck,
+    Interaction,
+    Method,
+    Multiaxial,
+    StressCategory,
+    stress_categories,
+)
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
-from fatigue.case.quality import StressCategory, stress_categories
 from fatigue.case.tables import (
     LARGEST_UPSAMPLE,
     Body,

@@ -1,6 +1,7 @@
 """What is wrong with the checks of a case: keys of an interaction or an endurance check that do not fit together."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from fatigue.case.problems import absent, clash
 from fatigue.errors import Problem
@@ -8,6 +9,12 @@ from fatigue.errors import Problem
 LINE_KEYS = ("perp", "par", "shear")  # of [[checks.endurance]]: the component of each line
 NEEDED = {"en1993": (), "iiw": ("cv", "damage_limit"), "en1999": ("damage_limit",)}  # keys of each rule
 LARGEST_KAPPA = 2.0  # beyond it u_perp^2 + u_par^2 - kappa u_perp u_par is negative for some stresses
+MADE_BY = {  # what makes a check: a table of the case and a key in it
+    **dict.fromkeys(("throat_perp", "throat_par", "throat_root"), ("body", "weld_throats")),
+    **dict.fromkeys(("hot_spot", "nominal", "parent"), ("body", "stress_points")),
+    "interaction": ("checks", "interaction"),
+    "endurance": ("checks", "endurance"),
+}
 
 
 def interaction_problems(
@@ -80,6 +87,18 @@ def unused_files(
     if endurance_lines is not None and not lines:
         what = f"endurance_lines = {endurance_lines!r} is given, and no [[checks.endurance]] names a line"
         yield clash("endurance_lines", what, "Name a line for perp, par or shear, or remove it")
+
+
+def counts_problems(raw: dict[str, Any]) -> Iterator[Problem]:
+    """Refusal of every check in ``[checks] counts`` that the case does not ask for: it would decide nothing."""
+    checks = raw.get("checks")
+    counts = checks.get("counts") if isinstance(checks, dict) else None
+    for check in counts if isinstance(counts, list) else ():
+        table, key = MADE_BY.get(check, ("", "")) if isinstance(check, str) else ("", "")
+        given = raw.get(table)
+        if table and not (isinstance(given, dict) and given.get(key)):
+            what = f"{check!r} is to decide, but {table}.{key} is not given"
+            yield clash("checks.counts", what, f"Give {table}.{key}, or remove {check!r}")
 
 
 def _twice(key: str, names: Sequence[str]) -> Iterator[Problem]:

@@ -13,9 +13,9 @@ from fatigue.case.check_problems import (
     unused_files,
 )
 from fatigue.case.problems import absent, clash, path_problems
-from fatigue.case.quality import StressCategory
 from fatigue.case.table import NotNegative, Positive, Table, Text
 from fatigue.errors import Problem
+from fatigue.life.quality import StressCategories, shipped_categories
 
 CHECK_FILES = ("static_cases", "endurance_lines", "strength_factors")
 Method = Literal["report", "range", "length", "mlp", "asme", "off"]
@@ -95,6 +95,19 @@ class EnduranceCheck(Table):
         return {key: name for key in LINE_KEYS if (name := getattr(self, key)) is not None}
 
 
+class StressCategory(Table):
+    """From which stress utilisation on a weld is of a higher stress category."""
+
+    medium_from: Positive = Field(description="the utilisation [-] from which the category is 'medium', above 0")
+    high_from: Positive = Field(description="the utilisation [-] from which the category is 'high', above medium_from")
+    source: Text = Field(description="where the limits come from, edition and clause")
+
+    def _contradictions(self) -> Iterator[Problem]:
+        if self.high_from <= self.medium_from:
+            what = f"{self.high_from:g} is not above medium_from = {self.medium_from:g}"
+            yield clash("high_from", what, "Give the limits in ascending order")
+
+
 class Checks(Table):
     """What is checked beside the normal stress at the toe."""
 
@@ -122,3 +135,10 @@ class Checks(Table):
         yield from unused_files(self.static_cases, self.endurance_lines, len(self.endurance), lines)
         if len(set(self.counts)) < len(self.counts):
             yield clash("counts", f"{list(self.counts)} names a check twice", "Name it once")
+
+
+def stress_categories(asked: StressCategory | None) -> StressCategories:
+    """Categories that a case asks for, else those that are shipped."""
+    if asked is None:
+        return shipped_categories()
+    return StressCategories(shipped_categories().names, (asked.medium_from, asked.high_from), asked.source, "user")

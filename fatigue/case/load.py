@@ -9,8 +9,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from fatigue.case.check_problems import counts_problems
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
-from fatigue.case.counts import counts_problems
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems

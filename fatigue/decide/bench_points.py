@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from fatigue.decide.bench_files import WantedPoint
 from fatigue.errors import DataError, Problem
 from fatigue.life.curves import DamageLaw
+from fatigue.life.recorded_curve import recorded_size
 from fatigue.life.rule import CycleRule
 from fatigue.results import read_rows, read_welds, rows_of_welds
-from fatigue.results.recorded_curves import recorded_size
 from fatigue.results.tables import readable, table_path
 
 Floats = NDArray[np.float64]

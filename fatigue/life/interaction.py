@@ -26,15 +26,13 @@ def combined_factor(u_normal: Floats, k_normal: float, u_shear: Floats, k_shear:
     array([1.25])
     """
     larger = np.maximum(u_normal, u_shear)
-    with np.errstate(divide="ignore"):
-        high = 1.0 / larger
-    low = high * 2.0 ** (-1.0 / min(k_normal, k_shear))
-    some = (larger > 0.0) & np.isfinite(larger)
-    low, high, u_n, u_t = low[some], high[some], u_normal[some], u_shear[some]
+    with np.errstate(divide="ignore", over="ignore"):
+        alone = 1.0 / larger  # where the other one is 0
+    both = (np.minimum(u_normal, u_shear) > 0.0) & (alone > 0.0) & np.isfinite(alone)
+    low, high = alone[both] * 2.0 ** (-1.0 / min(k_normal, k_shear)), alone[both]
     for _ in range(HALVINGS):
         f = 0.5 * (low + high)
-        meets = (f * u_n) ** k_normal + (f * u_t) ** k_shear <= 1.0
+        meets = (f * u_normal[both]) ** k_normal + (f * u_shear[both]) ** k_shear <= 1.0
         low, high = np.where(meets, f, low), np.where(meets, high, f)
-    factor = np.where(larger > 0.0, 0.0, np.inf)
-    factor[some] = np.where((u_n == 0.0) | (u_t == 0.0), 1.0 / larger[some], low)
-    return factor
+    alone[both] = low
+    return np.asarray(alone)

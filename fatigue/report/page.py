@@ -24,6 +24,7 @@ from fatigue.report.sections.beside.checks import beside
 from fatigue.report.sections.beside.sensitivity import sensitivity
 from fatigue.report.sections.beside.shear import shear
 from fatigue.report.sections.checks import recomputed
+from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
@@ -96,7 +97,8 @@ def report_page(
     for problem in inputs.outdated:
         log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
-    figs = Figures()
+    unverified = of_toes(result)
+    figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
     context = {
         "title": record["title"],
         "record": record,
@@ -106,9 +108,10 @@ def report_page(
         "head": _head(result),
         "assumptions": method.assumptions(record),
         "warnings": _warnings([*record["warnings"], *spectra_warnings(spectra)]),
-        "worst_welds": tables.weld_table(result.assessed, links),
+        **curve_sections(result),
+        "worst_welds": marked(tables.weld_table(result.assessed, links), unverified),
         **sensitivity(result, links),
-        "worst_ten": tables.point_table(result.worst_points, links, 10, "worst-ten"),
+        "worst_ten": marked(tables.point_table(result.worst_points, links, 10, "worst-ten"), unverified),
         # figures are numbered in the order of these lines, the order of the page
         "weld_lives": body_sections.lives(result, figs),
         **body_sections.where(result, body, links, figs),
@@ -124,8 +127,10 @@ def report_page(
         **body_sections.domains(result, figs),
         "undetailed": len(result.assessed) - len(result.detailed),
         "undrawn": len(result.assessed) - len(result.drawn),
-        "worst_points": tables.point_table(result.worst_points, links, WORST_POINTS, "worst-points", "Find a point"),
-        "register": tables.register_table(_listed(result), links),
+        "worst_points": marked(
+            tables.point_table(result.worst_points, links, WORST_POINTS, "worst-points", "Find a point"), unverified
+        ),
+        "register": marked(tables.register_table(_listed(result), links), unverified),
         "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
         "gravity": tables.gravity_table(record.get("gravity", [])),

@@ -9,8 +9,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw, Extension, SNCurve, Survival, ThicknessRule, damage_law
+from fatigue.life.recorded_curve import recorded_curve
 from fatigue.life.rule import cycle_damage, ratio_factor, size_factor
-from fatigue.results.recorded_curves import recorded_curve
 
 EXTENSIONS: dict[Extension, str] = {"none": "no knee", "haibach": "Haibach", "cutoff": "cut-off"}
 

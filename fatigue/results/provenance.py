@@ -156,3 +156,8 @@ def _relative(path: Path, root: Path) -> str:
         if path_there.is_relative_to(root_there):
             return path_there.relative_to(root_there).as_posix()
     return path.as_posix()  # an input elsewhere on the disk keeps its full path
+
+
+def curves_of_status(record: Mapping[str, Any], status: str) -> list[str]:
+    """Names of the curves of a result whose numbers rest on that: see ``curve_status`` of ``welds.parquet``."""
+    return [name for name, curve in record["curves"].items() if curve.get("status") == status]

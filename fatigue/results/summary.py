@@ -13,7 +13,7 @@ from fatigue.results.belonging import refuse_mixed
 from fatigue.results.beside.checks import BesideToe, read_beside_toe
 from fatigue.results.beside.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.dictionary.sensitivity import VARIANTS
-from fatigue.results.provenance import read_provenance
+from fatigue.results.provenance import curves_of_status, read_provenance
 from fatigue.results.rows import read_rows, worst_toes
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
 from fatigue.shown import few, shortened, visible
@@ -29,6 +29,8 @@ _POINT_COLUMNS = (
     "bending_ratio", "at_end", "at_corner", "summed_corner",
 )  # fmt: skip
 
+
+_WELD_COLUMNS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event")
 
 _ACROSS = {
     "damage_per_km_transitions": "Cycles across the events of the sequences are",
@@ -46,6 +48,7 @@ class Summary:
     welds: pd.DataFrame
     not_assessed: pd.DataFrame
     points: pd.DataFrame
+    unverified_curves: tuple[str, ...] = ()
     sensitivity: Sensitivity | None = None
     beside_toe: BesideToe | None = None
 
@@ -61,6 +64,7 @@ class Summary:
             "assumptions": self.assumptions,
             "target_km": self.target_km,
             "fulfilled": self.fulfilled,
+            "unverified_curves": list(self.unverified_curves),
             "welds": self.welds.to_dict("records"),
             "not_assessed": self.not_assessed.to_dict("records"),
             "points": self.points.to_dict("records"),
@@ -80,10 +84,11 @@ class Summary:
             [
                 f"{visible(self.title)}: {verdict} of {_km(self.target_km)}",
                 self.assumptions,
+                *self._unverified(),
                 "",
                 _text_table(
                     welds,
-                    ["weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event"],
+                    [*_WELD_COLUMNS, *(["curve_status"] if self.unverified_curves else [])],
                 ),
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
                 *self._at_summed_corners(),
@@ -110,6 +115,15 @@ class Summary:
                 *self._outside_band(),
             ]
         )
+
+    def _unverified(self) -> list[str]:
+        """Say which curves nobody has compared with their source, and which of the welds rest on them."""
+        if not self.unverified_curves:
+            return []
+        welds = self.welds.loc[self.welds["curve"].isin(self.unverified_curves), "weld"].tolist()
+        named = f": {few(welds)}" if welds else ""
+        curves = ", ".join(self.unverified_curves)
+        return [f"Unverified: {curves}; {len(welds)} of {len(self.welds)} welds have their lives from them{named}"]
 
     def _at_summed_corners(self) -> list[str]:
         """Say which welds are judged by a corner where the stress has no bound."""
@@ -204,6 +218,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         welds=welds,
         not_assessed=left_out,
         points=read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas(),
+        unverified_curves=tuple(curves_of_status(record, "unverified")),
         sensitivity=sensitivity,
         beside_toe=beside_toe,
     )
@@ -220,9 +235,12 @@ def assumptions(record: dict[str, Any]) -> str:
     screened = "" if screening["share_of_limit"] == 0.0 else f"; points proven below {screening['share_of_limit']:g} "
     loops = len(record["mission"].get("sequences", []))
     sequences = f"; cycles across the events of {loops} sequence{'s' * (loops != 1)}" * (loops > 0)
+    common = record["mission"]["damage_limit"]
+    limits = {name: curve["used"].get("damage_limit", common) for name, curve in record["curves"].items()}
+    others = "".join(f", {limit:g} on {name}" for name, limit in limits.items() if limit != common)
     return (
         f"Curve {curves}; thickness {rules['thickness_rule']}; {extension}; mean stress {rules['mean_stress']}; "
-        f"damage limit {record['mission']['damage_limit']:g}{screened and screened + 'of it have bounds only'}"
+        f"damage limit {common:g}{others}{screened and screened + 'of it have bounds only'}"
         f"{sequences}"
     )
 

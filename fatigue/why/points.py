@@ -73,11 +73,9 @@ def points_of(model: Model, station: NDArray[np.int64], face: NDArray[np.int64],
     size, exponent, limit = np.empty(len(station)), np.empty(len(station)), np.empty(len(station))
     for i, at in enumerate(station):
         rated, t = rated_of_weld[stations.weld[at]], stations.thickness[at : at + 1]
-        length = model.welds[stations.weld[at]].attachment
-        attachment = np.inf if length is None else length
         rule[i], limit[i] = rated.rule, rated.damage_limit(model.case.mission.damage_limit)
-        size[i] = rated.size(t, attachment)[0]
-        exponent[i] = rated.size_exponent(float(t[0]), attachment)
+        size[i] = rated.size(t)[0]
+        exponent[i] = rated.size_exponent(float(t[0]))
     return Points(
         weld=names[stations.weld[station]],
         part=stations.part[station],

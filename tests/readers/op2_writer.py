@@ -25,6 +25,11 @@ class Dialect:
 PLAIN = Dialect()
 MSC_2014 = Dialect(label_version=6, table_version=6)
 OPTISTRUCT = Dialect(chunk=10, jump=2)
+STRESS_TYPES = {
+    ("QUAD4", 0): 33, ("TRIA3", 0): 74, ("QUADR", 0): 228, ("TRIAR", 0): 227, ("QUAD4", 4): 144, ("QUAD8", 4): 64,
+    ("QUADR", 4): 82, ("TRIA6", 3): 75, ("TRIAR", 3): 70,
+}  # fmt: skip
+"""Element type of stress tables by name of the shell and number of corners with stresses."""
 
 
 class Op2Writer:
@@ -102,12 +107,28 @@ class Op2Writer:
             self.marker(value)
 
     def identification(
-        self, approach, code, mode, words, subcase=1, device=1, eigenvalue=0.0, label="", own=(0.0, 0.0), thermal=0
+        self,
+        approach,
+        code,
+        mode,
+        words,
+        subcase=1,
+        device=1,
+        eigenvalue=0.0,
+        label="",
+        own=(0.0, 0.0),
+        thermal=0,
+        element=0,
+        form=1,
+        stress=0,
     ):
-        """The 146 words that precede a data record; ``label`` fills title, subtitle and label, 128 characters each."""
-        head = self.ints(10 * approach + device, code, 0, subcase, mode) + self.reals(eigenvalue)
+        """The 146 words that precede a data record; ``label`` fills title, subtitle and label, 128 characters each.
+
+        ``element``, ``form`` and ``stress`` are the type of element, 1 for real numbers, and the code of stresses.
+        """
+        head = self.ints(10 * approach + device, code, element, subcase, mode) + self.reals(eigenvalue)
         own_words = self.reals(own[0]) + self.ints(0) + self.reals(own[1])
-        head += self.ints(0, 0, 1, words, 0, 0, -1) + own_words + self.ints(*[0] * 6, thermal, *[0] * 27)
+        head += self.ints(0, 0, form, words, stress, 0, -1) + own_words + self.ints(*[0] * 6, thermal, *[0] * 27)
         fields = [label[k : k + 128].ljust(128) for k in (0, 128, 256)]
         return head + b"".join(self.text(field, 32) for field in fields)
 
@@ -121,6 +142,33 @@ class Op2Writer:
     def shape(self, rows, device=1):
         """Rows (node, six values) of a mode shape."""
         return b"".join(self.ints(10 * node + device, 1) + self.reals(*values) for node, values in rows)
+
+    def stresses(self, block, device=1):
+        """Rows of a ``StressBlock``: with corners each point has its grid, and the centre the number of corners."""
+        data = b""
+        for k, element in enumerate(block.element.tolist()):
+            data += self.ints(10 * element + device) + (self.text("CEN/", 1) if block.has_corners else b"")
+            for p, node in enumerate(block.node[k].tolist()):
+                if block.has_corners:
+                    data += self.ints(node or block.node.shape[1] - 1)
+                for fibre, stress in zip(block.fibre[k, p].tolist(), block.stress[k, p].tolist(), strict=True):
+                    data += self.reals(fibre, *stress, 45.0, *[max(map(abs, stress))] * 3)
+        return data
+
+    def stress_table(self, blocks, name="OES1X1", **head):
+        """Add a table of stress blocks; ``head`` overrides what their identification says."""
+        records = []
+        for block in blocks:
+            corners = block.node.shape[1] - 1
+            element = STRESS_TYPES[block.kind, corners]
+            own = {"subcase": block.subcase, "eigenvalue": block.eigenvalue, "element": element, "stress": 1} | head
+            words = 17 if not corners else 2 + 17 * (1 + corners)
+            approach = own.pop("approach", 2 if block.mode else 1)
+            records += [
+                self.identification(approach, own.pop("code", 5), block.mode, own.pop("words", words), **own),
+                self.stresses(block),
+            ]
+        self.table(name, records)
 
     def close(self):
         """All bytes with the end mark."""

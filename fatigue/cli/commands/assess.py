@@ -76,6 +76,11 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     "--force", is_flag=True, help="Replace the result of another case, and files in DIR that fatigue did not write."
 )
 @click.option("--no-report", is_flag=True, help="Tables only; `fatigue report DIR` writes report and picture later.")
+@click.option(
+    "--require-verified",
+    is_flag=True,
+    help="Refuse a case that rests on an S-N curve of the status unverified, with exit code 3.",
+)
 @no_lock
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
 @strict
@@ -93,6 +98,7 @@ def assess(
     scheduler: str | None,
     force: bool,
     no_report: bool,
+    require_verified: bool,
     no_lock: bool,
     exit_zero: bool,
     strict: bool,
@@ -134,6 +140,7 @@ def assess(
             proves_worst=not likely_worst,
             histogram=histogram,
             strict=strict,
+            require_verified=require_verified,
             force=force,
             report=not no_report,
             no_lock=no_lock,

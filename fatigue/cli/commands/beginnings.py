@@ -15,18 +15,19 @@ from fatigue.stages import stage
 
 @cli.command()
 @click.argument("folder", metavar="DIR", type=FOLDER)
+@click.option("--templates", is_flag=True, help="Instead, tables to fill in from a standard: EN 17149-3, DVS 1608.")
 @click.option("--force", is_flag=True, help="Overwrite files of the same names.")
-def example(folder: Path, force: bool) -> None:
+def example(folder: Path, templates: bool, force: bool) -> None:
     """Write the shipped car body, a case in two variants, to DIR.
 
     \b
     Example:
       fatigue example demo && fatigue assess demo/case.toml -o result
     """
-    from fatigue.example import write_example
+    from fatigue.example import write_example, write_templates
 
-    for case_file in write_example(folder, force=force):
-        say(case_file)
+    for file in (write_templates if templates else write_example)(folder, force=force):
+        say(file)
 
 
 @cli.command()

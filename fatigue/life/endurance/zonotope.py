@@ -47,7 +47,7 @@ def diameter(loads: Floats) -> tuple[Floats, Signs]:
 
     >>> length, signs = diameter(np.array([[[33.0, 0.0], [2.4, 20.0]]]))
     >>> float(length[0].round(4)), signs.tolist()
-    (81.3407, [[1, 1]])
+    (81.3181, [[1, 1]])
     """
     n = len(loads)
     fold = np.where((loads[..., 1] < 0.0) | ((loads[..., 1] == 0.0) & (loads[..., 0] < 0.0)), -1, 1)

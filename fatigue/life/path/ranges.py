@@ -43,7 +43,7 @@ def between_ends(values: Floats, cycles: PathCycles) -> Floats:
 
     Behind the last sample of a recurring block follows its first one.
     """
-    return _at(values, cycles.end) - _at(values, cycles.start)
+    return at_instants(values, cycles.end) - at_instants(values, cycles.start)
 
 
 def end_ranges(
@@ -85,7 +85,7 @@ def path_damage(cycles: PathCycles, x: Floats, law: DamageLaw, alpha: float | No
     return PathDamage(miner(x), miner(cycles.factor * x), mlp)
 
 
-def _at(values: Floats, t: Floats) -> Floats:
+def at_instants(values: Floats, t: Floats) -> Floats:
     """Values (..., h) of histories at sample indices with a fraction."""
     samples = values.shape[-1]
     before = np.floor(t).astype(np.intp)

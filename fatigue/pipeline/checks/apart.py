@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.endurance import point_endurance
 from fatigue.pipeline.checks.points import point_checks
 from fatigue.pipeline.checks.rows import CheckRows, joined
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -21,4 +22,4 @@ def checks_apart(
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    return joined([point_checks(body, stress, loads, plan, threads)])
+    return joined([point_checks(body, stress, loads, plan, threads), point_endurance(body, stress)])

@@ -46,7 +46,7 @@ def counted_each(
     NumericalError : stress or damage exceeds double precision
     """
     found = []
-    at_once = 1 if rule.uses_bending_ratio else 2
+    at_once = 1 if rule.depends_on_bending else 2
     for first in range(0, len(stresses), at_once):
         some = stresses[first : first + at_once]
         nothing = np.zeros_like(some[0])

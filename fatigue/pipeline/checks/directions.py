@@ -77,7 +77,7 @@ def direction_damage(
 ) -> Floats:
     """Damage per km (d,) of the stress in every direction, (d, c) per unit coordinate."""
     d = len(stress)
-    if rule.uses_bending_ratio:  # a pair of directions is no membrane and bending
+    if rule.depends_on_bending:  # a pair of directions is no membrane and bending
         signals = Signals(stress, np.zeros_like(stress), np.full(d, size), rule)
         return counted_damage(signals, loads, plan, names)[:, 0]
     one, other = stress[0::2], np.zeros_like(stress[0::2])

@@ -1,14 +1,12 @@
 """Endurance between static load cases, at weld toes and at stress points."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import EnduranceCheck
-from fatigue.life.curves import Quantity
 from fatigue.life.endurance.haigh import (
     COMPONENTS,
     EnduranceLine,
@@ -19,88 +17,58 @@ from fatigue.life.endurance.haigh import (
 )
 from fatigue.life.endurance.pairs import WorstPairs, plane_range, signed_utilisations, worst_pairs
 from fatigue.life.endurance.zonotope import Signs, corner_signs, corners, diameter, extremes
+from fatigue.pipeline.checks.case_stress import CaseStress, stress_at_points, stress_at_welds
 from fatigue.pipeline.checks.rows import NOT_ASSESSED, CheckRows, check_rows, joined
-from fatigue.pipeline.solve.compared_cases import endurance_range, looks_at_welds, quantity_of
-from fatigue.pipeline.solve.modal_stress import faces
+from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.compared_cases import endurance_range, looks_at_welds
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
 from fatigue.readers.neutral.endurance.static_cases import CaseGroup
+from fatigue.readers.neutral.points.modal_stresses import PointStress
 
 Floats = NDArray[np.float64]
 
-SURFACES = np.array(["top", "bottom"])
 IN_PLANE = np.array([1.0, np.sqrt(3.0)])  # of normal stress and shear in their plane
 AT_ONCE = 2**20  # stresses of corners in memory
 OUTSIDE = "outside table: R is above that of the last row"
 WITHOUT_PAR = "without the stress along the weld, which line forces do not have"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CaseStress:
-    """Stress of the static load cases of a group at n points.
-
-    Attributes
-    ----------
-    group : the cases
-    static : (n, 3) stress of the static cases together, components as in ``COMPONENTS`` [MPa]
-    loads : (n, s, 3) stress of the states, or of the alternating loads
-    thickness : (n,) [mm], for curves
-    place : what names the points: arrays (n,) of columns of ``check_rows``
-    """
-
-    group: CaseGroup
-    static: Floats
-    loads: Floats
-    thickness: Floats
-    place: Mapping[str, Any]
-
-    def __len__(self) -> int:
-        """Count the points."""
-        return len(self.static)
-
-
 def weld_endurance(model: Model) -> CheckRows:
     """Rows of the endurance checks at the weld toes of some welds: across the weld, and shear."""
-    stations, compared, rows = model.stations, model.body.compared, []
-    for check in model.case.checks.endurance:
-        looked_at = set(check.welds or stations.names) if looks_at_welds(check) else set()
-        asked = np.array([name in looked_at for name in stations.names])
-        at, face = np.nonzero(stations.toe & asked[stations.weld][:, None])
-        normal = faces(stations.treated.membrane[at], stations.treated.bending[at])[np.arange(at.size), face]
-        shear = faces(stations.treated.in_plane_shear[at], stations.treated.twist_shear[at])[np.arange(at.size), face]
-        modal = np.stack([normal, np.zeros_like(normal), shear], axis=-1)
-        place = {
-            "weld": np.array(stations.names, dtype=np.str_)[stations.weld[at]],
-            "part": stations.part[at],
-            "order": stations.order[at],
-            "surface": SURFACES[face],
-        }
-        group = compared.groups[check.cases]
-        stress = CaseStress(group, group.static_of(modal), group.loads_of(modal), stations.thickness[at], place)
-        curve = None if check.curve is None else model.body.curves[check.curve]
-        quantity = quantity_of(model.case, check.curve or "")
-        rows.append(endurance_rows(check, compared.lines_of(check), curve, quantity, stress, note=WITHOUT_PAR))
-    return joined(rows)
+    checks = [check for check in model.case.checks.endurance if looks_at_welds(check)]
+    return joined([_rows_of(model.body, check, stress_at_welds(model, check), WITHOUT_PAR) for check in checks])
+
+
+def point_endurance(body: Body, stress: PointStress | None) -> CheckRows:
+    """Rows of the endurance checks at points; ``stress`` is that of the stress points, None without them."""
+    checks = [check for check in body.case.checks.endurance if check.points]
+    return joined([_rows_of(body, check, stress_at_points(body, stress, check)) for check in checks])
+
+
+def _rows_of(body: Body, check: EnduranceCheck, stress: CaseStress, note: str = "") -> CheckRows:
+    """Rows of one check of a body."""
+    curve = None if check.curve is None else body.curves[check.curve]
+    return endurance_rows(check, body.compared.lines_of(check), curve, stress, note)
 
 
 def endurance_rows(
     check: EnduranceCheck,
     lines: Sequence[EnduranceLine],
     curve: RatedCurve | None,
-    quantity: Quantity,
     stress: CaseStress,
     note: str = "",
 ) -> CheckRows:
     """Rows of one endurance check at n points: of each line and of the curve, then of the combination of the lines.
 
-    ``quantity`` is the stress that the curve is for, ``note`` what a reader of the combination has to know.
+    ``note`` is what a reader of the combination has to know.
     """
     if not len(stress):
         return joined([])
     common = dict(stress.place) | {"check": "endurance", "plane_range_MPa": _plane_range(stress)}
     rows = [_line_rows(line, stress, common) for line in lines]
     if curve is not None:
-        rows.append(_curve_rows(curve, quantity, stress, common))
+        rows.append(_curve_rows(curve, stress, common))
     if check.limit is not None:
         rows.append(_combined_rows(check.limit, check.kappa, lines, stress, common, note))
     return joined(rows)
@@ -129,11 +97,15 @@ def _line_rows(line: EnduranceLine, stress: CaseStress, common: Mapping[str, Any
     )
 
 
-def _curve_rows(rated: RatedCurve, quantity: Quantity, stress: CaseStress, common: Mapping[str, Any]) -> CheckRows:
-    """Design range of the worst cycle over the cut-off of a curve, or over its last knee."""
-    component = COMPONENTS.index("perp" if quantity == "normal" else "shear")
+def _curve_rows(rated: RatedCurve, stress: CaseStress, common: Mapping[str, Any]) -> CheckRows:
+    """Design range of the worst cycle over the cut-off of a curve, or over its last knee.
+
+    Where the curve allows for the stress ratio the widest cycle is still the worst one: no cycle inside it is worse.
+    """
+    component = COMPONENTS.index("perp" if rated.curve.quantity == "normal" else "shear")
     minimum, maximum, names = _worst_cycle(stress, component)
-    u = rated.size(stress.thickness) * (maximum - minimum) / endurance_range(rated)
+    of_ratio = rated.rule.mean_stress_factor(minimum, maximum)
+    u = rated.size(stress.thickness) * (maximum - minimum) / of_ratio / endurance_range(rated)
     of = "cut-off" if rated.rule.law.cutoff > 0.0 else "last knee"
     return check_rows(
         len(stress),

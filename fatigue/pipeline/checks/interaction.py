@@ -14,8 +14,10 @@ from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
 from fatigue.pipeline.checks.signals import Signals, counted_mission
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.stations import modal_stress
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -77,15 +79,16 @@ def _normal(
 ) -> Counted:
     """Normal stress under the limit of the rule: as it was assessed, where that was counted and has this limit.
 
-    On one slope the factor follows from the damage sum for any limit. Where bounds stand for counting, and on other
-    curves under another limit, it is counted again.
+    On one slope the factor follows from the damage sum for any limit. It is counted again where bounds stand for
+    counting, where the assessment has shear in its damage, and on other curves under another limit.
     """
     law, limit = rated.rule.law, own.damage_limit
-    screened = bool(result.tier[stations].any())
     scales = law.is_straight and rated.rule.yield_of_damage is None
-    if screened or not (scales or plan.damage_limit == limit):
-        stress, size = model.stations.treated, rated.size(model.stations.thickness[stations])
-        signals = Signals(stress.membrane[stations], stress.bending[stations], size, rated.rule)
+    has_shear = model.case.multiaxial.method in DECIDING
+    as_assessed = not result.tier[stations].any() and not has_shear
+    if not as_assessed or not (scales or rated.damage_limit(plan.damage_limit) == limit):
+        stress = modal_stress(model.stations, stations, rated)
+        signals = Signals(stress.membrane, stress.bending, stress.size, stress.rule)
         return _counted(signals, loads, own, "normal stress at the toe")
     mission, k = result.mission, float(law.slopes.min())
     damage = mission.damage_per_km[stations]
@@ -95,8 +98,8 @@ def _normal(
 
 def _shear(model: Model, stations: Rows, rated: RatedCurve, loads: Sequence[EventLoad], own: Plan) -> Counted:
     """Shear stress at the surface, in the plane and by twist, on its own curve."""
-    stress, size = model.stations.treated, rated.size(model.stations.thickness[stations])
-    signals = Signals(stress.in_plane_shear[stations], stress.twist_shear[stations], size, rated.rule)
+    stress = modal_stress(model.stations, stations, rated)
+    signals = Signals(stress.in_plane_shear, stress.twist_shear, stress.size, stress.rule)
     return _counted(signals, loads, own, "shear stress at the toe")
 
 

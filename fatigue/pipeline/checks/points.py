@@ -100,6 +100,7 @@ def _checked(
     with no_overflow("mission", names):
         signals = _on_planes(batch, stress)
     size, planes = batch.rated.size(points.thickness[batch.points]), len(batch.planes)
+    plan = batch.rated.plan(plan)
     worst = np.zeros((len(batch.points), 2), dtype=np.intp)
     if planes > 1:
         worst = critical_planes(signals, size, batch.rated.rule, loads, plan, names)

@@ -5,7 +5,8 @@ have half the range of a force that changes its sign, and none under a force tha
 
     s(psi) = sigma_perp cos psi + tau_perp sin psi
 
-is counted in directions psi, and the one with the largest damage of the whole mission decides.
+is counted in directions psi, and the one with the largest damage of the whole mission decides; or, where the table asks
+for it, both stresses are counted as a path in their plane.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.counted import counted_columns, counted_each
 from fatigue.pipeline.checks.directions import half_circle, worst_directions
+from fatigue.pipeline.checks.paths import counted_paths
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
 from fatigue.pipeline.checks.signals import Signals, counted_mission
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -30,6 +32,7 @@ from fatigue.weld.throat import Side, ThroatStress, line_force, throat_stress, w
 
 Columns = Mapping[str, Any]
 
+AT_SUMMED_CORNER = "forces of both legs of a corner in one sum, so no bound"
 STEP_DEG = 5.0  # between directions: the range in the worst one is at most 0.1 % low
 
 
@@ -83,15 +86,22 @@ def throat_stresses(throat: WeldThroat, stations: Stations, rows: slice) -> dict
 
 
 def _across(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: Plan) -> Iterator[CheckRows]:
-    """Normal and shear stress across the weld, in the direction of the largest damage."""
+    """Normal and shear stress across the weld, in the direction of the largest damage or as a path."""
     rated = model.body.curves[fillets.throat.curve]
-    size, names = fillets.size(rated), fillets.names
+    size, names, plan = fillets.size(rated), fillets.names, rated.plan(plan)
+    if fillets.throat.combination == "path":
+        for side, stress in fillets.stress.items():
+            of_path = counted_paths(_parts(stress), size, rated.rule, loads, plan, names)
+            yield _rows(
+                "throat_perp", fillets, side, rated, model, of_path | {"component": "path of sigma_perp, tau_perp"}
+            )
+        return
     psi = half_circle(STEP_DEG)
     sums = np.stack([np.cos(np.radians(psi)), np.sin(np.radians(psi))], axis=1)
     worst: list[NDArray[np.intp]] = []
     stresses: list[NDArray[np.float64]] = []
     for stress in fillets.stress.values():
-        parts = np.stack([stress.sigma_perp, stress.tau_perp], axis=1)
+        parts = _parts(stress)
         worst.append(worst_directions(parts, sums, size, rated.rule, loads, plan, names))
         stresses.append(np.einsum("np,npc->nc", sums[worst[-1]], parts))
     found = counted_each(stresses, size, rated.rule, loads, plan, names)
@@ -100,11 +110,16 @@ def _across(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: P
         yield _rows("throat_perp", fillets, side, rated, model, columns | more)
 
 
+def _parts(stress: ThroatStress) -> NDArray[np.float64]:
+    """The two stresses across the weld, (n, 2, c)."""
+    return np.stack([stress.sigma_perp, stress.tau_perp], axis=1)
+
+
 def _along(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: Plan) -> Iterator[CheckRows]:
     """Shear stress along the weld."""
     rated = model.body.curves[fillets.throat.curve_shear]
     stresses = [stress.tau_par for stress in fillets.stress.values()]
-    found = counted_each(stresses, fillets.size(rated), rated.rule, loads, plan, fillets.names)
+    found = counted_each(stresses, fillets.size(rated), rated.rule, loads, rated.plan(plan), fillets.names)
     for side, columns in zip(fillets.stress, found, strict=True):
         yield _rows("throat_par", fillets, side, rated, model, columns | {"component": "tau_par"})
 
@@ -115,6 +130,7 @@ def _at_root(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: 
         yield from _bent_and_not_assessed(fillets)
         return
     rated = model.body.curves[fillets.throat.curve_root]
+    plan = rated.plan(plan)
     for side, stress in fillets.stress.items():
         signals = Signals(stress.sigma_perp, stress.bending, fillets.size(rated), rated.rule)
         mission = counted_mission(signals, loads, plan, fillets.names)
@@ -148,6 +164,7 @@ def _rows(check: str, fillets: _Fillets, side: Side, rated: RatedCurve, model: M
     """Rows of a check of the weld on one side, at every station."""
     stations, rows = model.stations, fillets.rows
     surface = {"surface": "throat"} | dict(columns)
+    note = _note(check, fillets.throat, rated)
     return check_rows(
         rows.stop - rows.start,
         check=check,
@@ -156,7 +173,7 @@ def _rows(check: str, fillets: _Fillets, side: Side, rated: RatedCurve, model: M
         order=stations.order[rows],
         side=side,
         curve=rated.curve.name,
-        note=_note(check, fillets.throat, rated),
+        note=np.where(stations.summed_corner[rows], f"{note}; {AT_SUMMED_CORNER}", note),
         **surface,
     )
 

@@ -26,7 +26,9 @@ def toe_multiaxial_rows(method: str, model: Model, result: GroupResult, plan: Pl
     of_path = (method in MODELS) & ~by_normal
     event = np.where(of_path, found["event"][at], mission.governing[at])
     names = np.array([*plan.names, ""])
+    limit = model.damage_limits(plan.damage_limit)[station]
     curve = np.array([rated.curve.name for rated in model.curve_of_weld])
+    limit = np.array([rated.damage_limit(plan.damage_limit) for rated in model.curve_of_weld])[stations.weld[station]]
     with np.errstate(divide="ignore"):
         of_stress = 1.0 / load_factor
     return check_rows(
@@ -40,8 +42,8 @@ def toe_multiaxial_rows(method: str, model: Model, result: GroupResult, plan: Pl
         curve=curve[stations.weld[station]],
         range_max_MPa=found["range_MPa"][at] if method in MODELS else mission.max_range[at],
         damage_per_km=mission.damage_per_km[at],
-        damage_sum=utilisation * plan.damage_limit,
-        damage_limit=plan.damage_limit,
+        damage_sum=utilisation * limit,
+        damage_limit=limit,
         utilisation_stress=of_stress,
         fulfilled=utilisation <= 1.0,
         governing_event=names[event],

@@ -13,6 +13,7 @@ from fatigue.life.records.history import LONG_NUMBERS, LONGEST_TRANSFORM
 from fatigue.pipeline.count.result import OF_EVENT
 from fatigue.pipeline.forecast.shear import path_memory, shear_seconds
 from fatigue.pipeline.forecast.size import SCREENED, JobSize
+from fatigue.pipeline.forecast.throats import throat_seconds
 from fatigue.pipeline.mission.event_load import held_copies
 from fatigue.pipeline.mission.events import HELD_BYTES
 from fatigue.pipeline.solve.weld_groups import BLOCK
@@ -185,7 +186,8 @@ def _seconds(size: JobSize) -> float:
     binned = 2.0 * size.histograms * sum(size.counted) * (exact + each * size.modes)
     shown = SECOND_ON_PAGE * min(size.welds, MOST_DETAILED) if size.report else 0.0
     shear = shear_seconds(size.shear, size.welds, size.stations, size.modes, size.counted, screened=size.is_screened)
-    return FIRST + counted + prepared + listed + binned + shear + shown
+    throats = throat_seconds(size.throats, sum(size.counted))
+    return FIRST + counted + prepared + listed + binned + shear + throats + shown
 
 
 def size_text(size: float) -> str:

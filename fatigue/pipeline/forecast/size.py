@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import HistogramPoints
+from fatigue.pipeline.forecast.throats import counted_throats
 from fatigue.pipeline.mission.events import DOUBLE_PRECISION_SAMPLES
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import SHARE
@@ -33,6 +34,7 @@ class JobSize:
     histogram : of which points histograms are kept
     vertex : whether reversals are read at their vertices, which takes double precision
     shear : how shear is counted at the toes, as in the case
+    throats : of fillet welds that are counted, at all stations
     """
 
     modes: int
@@ -47,6 +49,7 @@ class JobSize:
     histogram: HistogramPoints = "worst"
     vertex: bool = False
     shear: str = "off"
+    throats: int = 0
 
     @property
     def counted(self) -> tuple[int, ...]:
@@ -109,4 +112,5 @@ def job_size(
         histogram=histogram,
         vertex=body.case.counting.reversals == "vertex",
         shear=method,
+        throats=counted_throats(body),
     )

@@ -15,6 +15,7 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import histogram_points, worst_points
 from fatigue.pipeline.forecast.needs import PER_STRESS_SAMPLE
 from fatigue.pipeline.forecast.shear import shear_seconds
+from fatigue.pipeline.forecast.throats import counted_throats, throat_seconds
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
     DOUBLE_PRECISION_SAMPLES,
@@ -135,6 +136,7 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     n = load.counted.q.shape[1]
     of_groups = stations / len(model.stations)
     shear_s = shear_seconds(method, len(body.welds), stations, len(body.coordinates), sampled, screened=screens)
+    checks_s = shear_s + throat_seconds(counted_throats(body), upsampled)
     events = len(plan.passes)
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
@@ -147,8 +149,8 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     return JobTime(
         start=START + read_s,
         events=prepare_s * upsampled / n,
-        counting=(SETTLED_LATE if screens else 1.0) * of_groups * default.of(events, upsampled) + binning_s + shear_s,
-        counting_exact=of_groups * exact.of(events, upsampled) + binning_s + shear_s,
+        counting=(SETTLED_LATE if screens else 1.0) * of_groups * default.of(events, upsampled) + binning_s + checks_s,
+        counting_exact=of_groups * exact.of(events, upsampled) + binning_s + checks_s,
         tables=CELL * cells + CYCLE * cycles,
         report=PAGE + DETAIL * min(MOST_DETAILED, len(body.welds)) + STATION_ON_PAGE * stations,
         screened=screens,

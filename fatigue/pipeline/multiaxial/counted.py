@@ -9,15 +9,17 @@ from numpy.typing import NDArray
 
 from fatigue.errors import Problem
 from fatigue.life.path.count import COUNT, PathCycles, count_path
+from fatigue.life.path.ranges import EndRanges, at_instants, combined_range, end_ranges, path_damage
 from fatigue.life.records.history import stress_history
-from fatigue.life.rule import CycleRule, bending_ratio, cycle_damage
+from fatigue.life.rule import CycleRule, cycle_damage
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.pipeline.multiaxial.found import Found, nothing_found
+from fatigue.pipeline.multiaxial.found import MODELS, Found, nothing_found
 
 Floats = NDArray[np.float64]
 
 SAMPLES_AT_ONCE = 250_000  # of each of the four stresses: 8 MB
 LONGEST_PATH = 2_000_000  # samples of a record whose paths are counted: some 250 bytes for each
+EQUAL = 1e-9  # ranges that differ by less
 LONG_PATH = 200_000  # samples, from which on one thread counts at a time
 
 
@@ -36,16 +38,10 @@ class Point:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PathParts:
-    """Half cycles of one point in one event, with what is between their ends, arrays (h,).
-
-    Ranges of normal stress and shear [MPa], their bending ratios, and the combined equivalent range x.
-    """
+    """Half cycles of one point in one event, what is between their ends, and the combined equivalent range x (h,)."""
 
     cycles: PathCycles
-    normal: Floats
-    shear: Floats
-    ratio: Floats
-    shear_ratio: Floats
+    between: EndRanges
     x: Floats
 
 
@@ -84,25 +80,19 @@ def path_parts(point: Point, histories: Floats, load: EventLoad, beta: float) ->
     side = 1.0 - 2.0 * point.face
     membrane, bending, in_plane, twist = histories
     cycles = count_path(membrane + side * bending, in_plane + side * twist, beta, load.residue)
-    start, end = (_at(histories, t) for t in (cycles.start, cycles.end))
-    dm, db, dp, dt = np.abs(end - start)
-    normal, shear = (np.abs((end - start)[i] + side * (end - start)[i + 1]) for i in (0, 2))
-    ratio, shear_ratio = bending_ratio(dm, db), bending_ratio(dp, dt)
-    rule = point.rule
-    x = np.hypot(normal / rule.ratio_factor(ratio), np.sqrt(beta) * shear / rule.ratio_factor(shear_ratio))
-    x *= point.size
-    if rule.yield_of_damage is not None:
-        offset = (point.stress[0] + side * point.stress[1]) @ load.offset * load.stress_factor
-        s = np.stack([one[0] + side * one[1] for one in (start, end)]) + offset
-        x = x / rule.mean_stress_factor(s.min(axis=0), s.max(axis=0))
-    return PathParts(cycles, normal, shear, ratio, shear_ratio, x)
+    between = end_ranges(cycles, membrane, bending, in_plane, twist, side)
+    x = combined_range(between, point.size, beta, point.rule)
+    if point.rule.yield_of_damage is not None or point.rule.stress_ratio != "none":
+        x = x / _mean_stress_factor(point, membrane + side * bending, cycles, load)
+    return PathParts(cycles, between, x)
 
 
-def _at(histories: Floats, t: Floats) -> Floats:
-    """Histories (4, t) at instants (h,), index and fraction, linear between the samples; the last one leads on."""
-    before = np.floor(t).astype(np.intp)
-    behind = (before + 1) % histories.shape[1]
-    return np.asarray(histories[:, before] + (t - before) * (histories[:, behind] - histories[:, before]))
+def _mean_stress_factor(point: Point, normal: Floats, cycles: PathCycles, load: EventLoad) -> Floats:
+    """``f_M`` or f(R) of half cycles by the normal stress (t,) at their ends, constants included."""
+    side = 1.0 - 2.0 * point.face
+    offset = load.stress_factor * float((point.stress[0] + side * point.stress[1]) @ load.offset)
+    ends = np.stack([at_instants(normal, t) for t in (cycles.start, cycles.end)]) + offset
+    return point.rule.mean_stress_factor(ends.min(axis=0), ends.max(axis=0))
 
 
 def path_sums(
@@ -118,24 +108,22 @@ def path_sums(
     ``passes`` (e,) are those up to the target, over the limit.
     """
     found, top, largest = nothing_found((len(points),)), np.zeros(len(points)), np.zeros(len(points))
-    for name in ("range", "length", "mlp"):
-        found[name] = 0.0 if name != "mlp" or alpha is not None else np.nan
-    found["range_MPa"] = 0.0
+    for name in (*MODELS, "range_MPa"):
+        found[name] = 0.0
+    found["mlp"] = np.nan if alpha is None else 0.0
     for number, (load, weight) in enumerate(zip(loads, passes, strict=True)):
         for i, parts in enumerate(paths_of(points, load, beta, one_at_a_time)):
             law, cycles = points[i].rule.law, parts.cycles
             if not cycles.range.size:
                 continue
-            damage = cycle_damage(parts.x, law)
-            by_range = weight * COUNT * damage.sum()
-            found["range"][i] += by_range
-            found["length"][i] += weight * COUNT * cycle_damage(cycles.factor * parts.x, law).sum()
-            if alpha is not None:
-                found["mlp"][i] += weight * COUNT * cycle_damage((1.0 + alpha * cycles.moment) * parts.x, law).sum()
-            widest = cycles.range >= (1.0 - 1e-9) * cycles.range.max()
-            top[i] += weight * (1.0 if load.residue == "repeat" else COUNT) * damage[widest].max()
-            if by_range > largest[i]:
-                largest[i], found["event"][i] = by_range, number
+            damage = path_damage(cycles, parts.x, law, alpha)
+            for model in MODELS:
+                found[model][i] += weight * getattr(damage, model)
+            widest = cycles.range >= (1.0 - EQUAL) * cycles.range.max()
+            of_pair = float(cycle_damage(parts.x[widest], law).max())
+            top[i] += weight * (1.0 if load.residue == "repeat" else COUNT) * of_pair
+            if weight * damage.range > largest[i]:
+                largest[i], found["event"][i] = weight * damage.range, number
             _keep_largest(found[i : i + 1], cycles, widest)
     return found, top
 
@@ -143,8 +131,8 @@ def path_sums(
 def _keep_largest(found: Found, cycles: PathCycles, widest: NDArray[np.bool_]) -> None:
     """Keep what is said of the half cycle with the largest range: of equal ones the largest factor and moment."""
     largest, factor, moment = cycles.range.max(), cycles.factor[widest].max(), cycles.moment[widest].max()
-    if largest > found["range_MPa"][0] * (1.0 + 1e-9):
+    if largest > found["range_MPa"][0] * (1.0 + EQUAL):
         found["range_MPa"], found["path_factor"], found["path_moment"] = largest, factor, moment
-    elif largest >= found["range_MPa"][0] * (1.0 - 1e-9):
+    elif largest >= found["range_MPa"][0] * (1.0 - EQUAL):
         found["path_factor"] = max(found["path_factor"][0], factor)
         found["path_moment"] = max(found["path_moment"][0], moment)

@@ -71,10 +71,10 @@ def group_multiaxial(model: Model, result: GroupResult, loads: Sequence[EventLoa
     curve_of = np.array([rated.curve.name for rated in model.curve_of_weld])[stations.weld]
     for name, rated in {rated.curve.name: rated for rated in model.curve_of_weld}.items():
         rows = np.flatnonzero(curve_of == name)
-        toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, plan)
-        names = weld_names(stations, rows)
+        own, names = rated.plan(plan), weld_names(stations, rows)
+        toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, own)
         with no_overflow("mission", names):
-            found[rows] = _of_curve(toes, _wanted(rows, worst, result, shear), loads, plan, shear, names)
+            found[rows] = of_curve(toes, _wanted(rows, worst, result, shear), loads, own, shear, names)
     return found
 
 
@@ -89,7 +89,7 @@ def _wanted(
     return wanted[rows]
 
 
-def _of_curve(
+def of_curve(
     toes: Toes, wanted: NDArray[np.bool_], loads: Sequence[EventLoad], plan: Plan, shear: Shear, names: str
 ) -> Found:
     """What shear adds at stations that share a curve, (n, 2); ``names`` are their welds in words."""
@@ -128,7 +128,8 @@ def _settle(
     left = toes.toe & (found["status"] != FAILS_NORMAL) & ~_is_settled(found)
     traces = left | (toes.toe & (wanted | shear.counts_all))
     at = _places(traces)
-    found["bound"][at] = np.minimum(found["bound"][at], second_tier(toes, at, loads, passes, shear.beta))
+    if at[0].size:
+        found["bound"][at] = np.minimum(found["bound"][at], second_tier(toes, at, loads, passes, shear.beta))
     rows = np.flatnonzero(left.any(axis=1) & ~toes.counted)
     if rows.size:
         found["normal"][rows], found["asme"][rows] = asme_counted(toes, rows, loads, plan, names)

@@ -16,20 +16,17 @@ def decided_by(method: str, model: Model, result: GroupResult, plan: Plan) -> Gr
     On a straight curve without mean stress all ranges, lengths and moments scale with the load, so the load factor
     follows from the larger sum; else there is none (NaN).
     """
-    mission, of_method = result.mission, result.multiaxial[method]
-    utilisation = np.fmax(mission.utilisation, of_method)
+    mission, toe = result.mission, model.stations.toe
+    utilisation = np.fmax(mission.utilisation, result.multiaxial[method])
     governs = utilisation > mission.utilisation
-    damage = np.where(governs, utilisation * plan.damage_limit / plan.target_km, mission.damage_per_km)
-    load_factor = mission.load_factor.copy()
-    toe = model.stations.toe
+    damage, life, load_factor = mission.damage_per_km.copy(), mission.life_km.copy(), mission.load_factor.copy()
     for weld, rated in enumerate(model.curve_of_weld):
-        law, rows = rated.rule.law, model.stations.weld == weld
-        straight = law.is_straight and rated.rule.yield_of_damage is None
-        factor = straight_load_factor(utilisation[rows], float(law.slopes[0])) if straight else np.nan
+        rows, limit = model.stations.weld == weld, rated.damage_limit(plan.damage_limit)
+        by_method = utilisation[rows] * limit / plan.target_km
+        damage[rows] = np.where(governs[rows], by_method, damage[rows])
+        life[rows] = np.where(governs[rows], life_km(by_method, limit), life[rows])
+        law = rated.rule.law
+        scales = law.is_straight and rated.rule.yield_of_damage is None
+        factor = straight_load_factor(utilisation[rows], float(law.slopes[0])) if scales else np.nan
         load_factor[rows] = np.where(toe[rows], factor, load_factor[rows])
-    return result.with_mission(
-        damage_per_km=damage,
-        life_km=np.where(governs, life_km(damage, plan.damage_limit), mission.life_km),
-        utilisation=utilisation,
-        load_factor=load_factor,
-    )
+    return result.with_mission(damage_per_km=damage, life_km=life, utilisation=utilisation, load_factor=load_factor)

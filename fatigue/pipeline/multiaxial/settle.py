@@ -5,16 +5,17 @@ that this leaves are traced, chunk by chunk, and bounded once more.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.bounds.path_bound import largest_combined_range, path_bound
 from fatigue.life.bounds.path_extent import PathExtent, path_limits
 from fatigue.life.bounds.screening import may_need_mean_stress
+from fatigue.life.rule import CycleRule
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.multiaxial.histories import ranges, traced
-from fatigue.pipeline.multiaxial.t1 import path_damage_bound
 from fatigue.pipeline.multiaxial.toes import Toes, weights_of
 
 Floats = NDArray[np.float64]
@@ -47,35 +48,37 @@ def first_tier(
         normal, shear = (stress.membrane, stress.bending), (stress.in_plane_shear, stress.twist_shear)
         limits = path_limits(normal, shear, beta, extent)
         shear_range[number], least[number] = f * limits.shear_range, f * limits.least_shear_range
-        total += passes[number] * event_bound(toes, number, f * limits.length, shear_range[number], beta)
+        both, mean = (toes.normal_range[number], shear_range[number]), toes.normal_mean[number]
+        total += passes[number] * _event_bound(f * limits.length, both, mean, stress.size[:, None], stress.rule, beta)
     return Bounded(total, shear_range, least)
-
-
-def event_bound(toes: Toes, number: int, length: Floats, shear_range: Floats, beta: float) -> Floats:
-    """Bound of the damage of one pass by path range, (n, 2); infinite where f_M may make a cycle worse."""
-    stress, normal_range = toes.stress, toes.normal_range[number]
-    damage = path_damage_bound(length, normal_range, shear_range, stress.size[:, None], stress.rule, beta)
-    yield_MPa = stress.rule.yield_of_damage
-    if yield_MPa is None:
-        return damage
-    return np.where(may_need_mean_stress(toes.normal_mean[number], normal_range, yield_MPa), np.inf, damage)
 
 
 def second_tier(
     toes: Toes, at: tuple[NDArray[np.intp], NDArray[np.intp]], loads: Sequence[EventLoad], passes: Floats, beta: float
 ) -> Floats:
     """Bound of the sum by path range at some faces (k,), from the exact length of their paths and range of shear."""
-    station, face = at
-    stress, rule = toes.stress, toes.stress.rule
-    total = toes.transitions[at].copy()
+    total, size = toes.transitions[at].copy(), toes.stress.size[at[0]]
     for number, load in enumerate(loads):
-        path = traced(weights_of(stress, station, face, load), load.counted.q, load.residue, beta)
-        damage = path_damage_bound(path.length, path.normal_range, path.shear_range, stress.size[station], rule, beta)
-        if rule.yield_of_damage is not None:
-            mean = toes.normal_mean[number][at]
-            damage = np.where(may_need_mean_stress(mean, path.normal_range, rule.yield_of_damage), np.inf, damage)
-        total += passes[number] * damage
+        path = traced(weights_of(toes.stress, *at, load), load.counted.q, load.residue, beta)
+        both, mean = (path.normal_range, path.shear_range), toes.normal_mean[number][at]
+        total += passes[number] * _event_bound(path.length, both, mean, size, toes.stress.rule, beta)
     return total
+
+
+def _event_bound(
+    length: Floats, both: tuple[Floats, Floats], mean: Floats, size: Floats, rule: CycleRule, beta: float
+) -> Floats:
+    """Bound of the damage of one pass by path range; infinite where f_M may make a cycle worse.
+
+    ``both`` are the ranges of normal stress and shear, ``mean`` is that of the normal stress [MPa].
+    """
+    if rule.law.slopes.min() < 1.0:  # d(x) / x falls
+        return np.full_like(length, np.inf)
+    plain = replace(rule, mean_stress=False)
+    damage = path_bound(length, largest_combined_range(*both, size, beta, plain), size, plain)
+    if rule.yield_of_damage is None:
+        return damage
+    return np.where(may_need_mean_stress(mean, both[0], rule.yield_of_damage), np.inf, damage)
 
 
 def shear_required(toes: Toes, bounded: Bounded, loads: Sequence[EventLoad]) -> NDArray[np.int8]:

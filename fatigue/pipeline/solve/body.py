@@ -8,9 +8,9 @@ from typing import Any
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
+from fatigue.pipeline.solve.check_curves import path_problems, point_curves, throat_curves
 from fatigue.pipeline.solve.compared_cases import Compared, endurance_curves, read_compared, refuse_wrong_checks
-from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings
-from fatigue.pipeline.solve.point_curves import point_curves
+from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings, unverified_warnings
 from fatigue.pipeline.solve.rated_curves import (
     RatedCurve,
     asked_curves,
@@ -81,7 +81,7 @@ class Body:
 
     def curve_of(self, weld: Weld) -> RatedCurve:
         """Curve of a weld: its own, else the curve of the case."""
-        return self.curves[weld.curve or self.case.curve.name]
+        return self.curves[weld.curve or self.case.curve.name].at(weld)
 
 
 def read_body(case: Case, *, strict: bool) -> Body:
@@ -114,13 +114,13 @@ def read_body(case: Case, *, strict: bool) -> Body:
         table = case.resolve(case.checks.strength_factors)
         factors, of_factors = read_strength_factors(table, known_curves, strict=strict)
         warnings += of_factors
-    of_checks = [*point_curves(points), *endurance_curves(case)]
-    curves = rated_curves(case, known_curves, [*asked_curves(case, plan.welds, throats.values()), *of_checks], factors)
-    refuse(DataError, attachment_problems(case, plan.welds, curves))
-    warnings += cutoff_warnings(case, curves)
+    of_checks = [*throat_curves(case, throats), *point_curves(points), *endurance_curves(case, known_curves)]
+    curves = rated_curves(case, known_curves, [*asked_curves(case, plan.welds), *of_checks], factors)
+    refuse(DataError, (*attachment_problems(case, plan.welds, curves), *path_problems(case, throats, curves)))
+    warnings += unverified_warnings(case, plan.welds, curves) + cutoff_warnings(case, curves)
     loads = tuple(load.name for load in case.body.unit_load)
     compared, of_compared = read_compared(case, Coordinates(modes, loads), known_curves, strict=strict)
-    refuse_wrong_checks(case, plan.welds, (), compared, curves)
+    refuse_wrong_checks(case, plan.welds, points, compared, curves)
     mesh: Mesh | None = None
     of_mesh: list[Problem] = []
     if files.nodes:

@@ -8,14 +8,16 @@ import numpy as np
 
 from fatigue.case import Case, EnduranceCheck, Interaction
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.curves import Quantity
+from fatigue.life.curves import SNCurve
 from fatigue.life.endurance.haigh import EnduranceLine
 from fatigue.pipeline.solve.rated_curves import AskedCurve, RatedCurve
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.endurance.endurance_lines import read_endurance_lines
 from fatigue.readers.neutral.endurance.static_cases import CaseGroup, read_static_cases
+from fatigue.readers.neutral.points.stress_points import StressPoints
 from fatigue.shown import few
+from fatigue.weld.beside.hot_spot import EDGE
 
 MOST_CORNERS = 12  # alternating loads of which all 4^k / 2 pairs of corners are gone through, in a second a point
 
@@ -53,29 +55,25 @@ def read_compared(
     return Compared(groups, lines), warnings
 
 
-def endurance_curves(case: Case) -> Iterator[AskedCurve]:
+def endurance_curves(case: Case, curves: Mapping[str, SNCurve]) -> Iterator[AskedCurve]:
     """Curves that the endurance checks of a case ask for, each for the stress that it is a curve of."""
     for number, check in enumerate(case.checks.endurance, 1):
         if check.curve is not None:
             where = f"{case.path.name}: checks.endurance[{number}].curve"
-            yield AskedCurve(check.curve, where, quantity=quantity_of(case, check.curve))
-
-
-def quantity_of(case: Case, curve: str) -> Quantity:
-    """The stress that a curve is for; those of the catalogue are for normal stress."""
-    return case.curves[curve].quantity if curve in case.curves else "normal"
+            quantity = curves[check.curve].quantity if check.curve in curves else "normal"
+            yield AskedCurve(check.curve, where, use="endurance", quantity=quantity)
 
 
 def refuse_wrong_checks(
     case: Case,
     welds: Sequence[Weld],
-    points: Collection[str],
+    points: StressPoints | None,
     compared: Compared,
     curves: Mapping[str, RatedCurve],
 ) -> None:
     """Refuse interactions and endurance checks that name what there is not, or what does not go together.
 
-    ``welds`` are those to assess, ``points`` the names of stress points.
+    ``welds`` are those to assess, ``points`` the stress points of the body.
 
     Raises
     ------
@@ -92,7 +90,7 @@ def refuse_wrong_checks(
         where = f"{file}: checks.endurance[{number}]"
         problems += _of_names(check, welds, points, compared, where)
         problems += _of_lines(check, compared, where)
-        problems += _of_curve(check, curves, where)
+        problems += _of_curve(check, points, compared, curves, where)
         if check in case.checks.endurance[: number - 1]:
             problems.append(Problem("duplicate", where, "is there already, with the same keys", "Remove one of them"))
     refuse(CaseError, problems)
@@ -125,7 +123,7 @@ def _of_interaction(interaction: Interaction, welds: Sequence[Weld], where: str)
 
 
 def _of_names(
-    check: EnduranceCheck, welds: Sequence[Weld], points: Collection[str], compared: Compared, where: str
+    check: EnduranceCheck, welds: Sequence[Weld], points: StressPoints | None, compared: Compared, where: str
 ) -> Iterator[Problem]:
     """Refusals of groups, welds and points that there are not."""
     yield from _unknown(f"{where}.welds", check.welds, [weld.name for weld in welds], "welds to assess")
@@ -137,9 +135,16 @@ def _of_names(
         what = f"group '{group.name}' has stresses at points, and welds need amounts of coordinates"
         remedy = "Give points, or a group with columns q_<mode> and u_<name>"
         yield Problem("contradiction", f"{where}.cases", what, remedy)
-    known = group.points or tuple(points)
+    own = points.name if points else ()
+    known = group.points or own
     of = f"points of group '{group.name}'" if group.points else "stress points"
     yield from _unknown(f"{where}.points", check.points, known, of)
+    on_edges = [name for name in check.points if points and name in own and points.kind[own.index(name)] == EDGE]
+    beyond = [key for key in ("par", "shear") if key in check.lines]
+    if on_edges and beyond and not group.points:
+        what = f"{few([repr(name) for name in on_edges])} is on the edge of a plate, which has stress along it alone"
+        remedy = f"Check it by a line for perp in a table of its own, without {' and '.join(beyond)}"
+        yield Problem("contradiction", f"{where}.points", what, remedy)
 
 
 def _of_lines(check: EnduranceCheck, compared: Compared, where: str) -> Iterator[Problem]:
@@ -162,7 +167,13 @@ def _of_lines(check: EnduranceCheck, compared: Compared, where: str) -> Iterator
             yield Problem("many_corners", f"{where}.cases", what, remedy)
 
 
-def _of_curve(check: EnduranceCheck, curves: Mapping[str, RatedCurve], where: str) -> Iterator[Problem]:
+def _of_curve(
+    check: EnduranceCheck,
+    points: StressPoints | None,
+    compared: Compared,
+    curves: Mapping[str, RatedCurve],
+    where: str,
+) -> Iterator[Problem]:
     """Refusals of curves that have no endurance range, or none that a single pair of stresses tells."""
     rated = curves.get(check.curve or "")
     if rated is None:
@@ -173,6 +184,12 @@ def _of_curve(check: EnduranceCheck, curves: Mapping[str, RatedCurve], where: st
     elif np.isnan(endurance_range(rated)):
         what = f"curve '{check.curve}' has neither a cut-off nor a knee: every range damages"
         yield Problem("endurance_curve", f"{where}.curve", what, "Name a curve with one, or endurance lines")
+    elif rated.curve.thickness_reference is not None and check.cases in compared.groups:
+        given = set(compared.groups[check.cases].points) - set(points.name if points else ())
+        bare = [name for name in check.points if name in given]
+        if bare:
+            what = f"curve '{check.curve}' has a thickness rule, and {few([repr(name) for name in bare])} no thickness"
+            yield Problem("endurance_curve", f"{where}.curve", what, "Give the points in stress_points as well")
 
 
 def _unknown(where: str, names: Sequence[str], known: Sequence[str], of: str) -> Iterator[Problem]:

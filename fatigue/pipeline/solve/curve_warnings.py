@@ -1,6 +1,6 @@
 """What is doubtful about the curves of a case: told once for each kind, with the curves and welds it is about."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -8,8 +8,32 @@ from fatigue.case import Case
 from fatigue.errors import Problem
 from fatigue.life.allowances import bending_thickness
 from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.readers.neutral.body.welds import Weld
 from fatigue.shown import few
 from fatigue.weld.line import LineStack
+
+
+def unverified_problems(case: Case, welds: Sequence[Weld], curves: Mapping[str, RatedCurve]) -> Iterator[Problem]:
+    """Refusals of curves in use whose numbers nobody has compared with their source."""
+    of_toes = {weld.curve or case.curve.name for weld in welds}
+    for name, rated in curves.items():
+        if rated.is_unverified and (name in of_toes or name != case.curve.name):
+            what = f"curve '{name}' is unverified: nobody has compared its numbers with their source"
+            remedy = f"Compare them and set status and checked_by under [curves.{name}], or take another curve"
+            yield Problem("not_verified", case.path.name, what, remedy)
+
+
+def unverified_warnings(case: Case, welds: Sequence[Weld], curves: Mapping[str, RatedCurve]) -> list[Problem]:
+    """One warning that names the unverified curves in use, and how many welds have their lives from them."""
+    found = [name for name, rated in curves.items() if rated.is_unverified]
+    of_toes = [weld.name for weld in welds if (weld.curve or case.curve.name) in found]
+    found = [name for name in found if of_toes or name != case.curve.name]
+    if not found:
+        return []
+    what = f"{few([repr(name) for name in found])}: numbers that nobody has compared with their source; the lives of "
+    what += f"{len(of_toes)} of {len(welds)} welds rest on them"
+    remedy = "Compare them with your copy of the edition, then say so by status and checked_by under [curves]"
+    return [Problem("unverified_curve", f"{case.path.name}: curves", what, remedy, len(found))]
 
 
 def cutoff_warnings(case: Case, curves: Mapping[str, RatedCurve]) -> list[Problem]:

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 
 from fatigue.case import Case, CustomCurve
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.life.allowances import ALLOWANCE_KEYS, Allowances
+from fatigue.life.allowances import ALLOWANCE_KEYS
 from fatigue.life.curves import TABULATED, SNCurve, catalogue, user_curve
 
 TEXTS = ("source", "edition", "clause", "status", "checked_by", "checked_on")  # of a curve; all else are its numbers
@@ -127,18 +127,3 @@ def _problems(case: Case, name: str, given: CustomCurve) -> Iterator[Problem]:
         what = "'verified' is given for a curve of the catalogue of which a number is changed"
         remedy = "Give the curve another name with its own source, or leave status out: it is 'user'"
         yield Problem("contradiction", f"{where}.status", what, remedy)
-
-
-def allowances_in_words(of: Allowances) -> list[str]:
-    """What a curve allows for beside its thickness rule, in words; nothing for a curve without."""
-    words = []
-    if of.thickness_effective == "L_half":
-        words.append("thickness: half the attachment length where that is smaller")
-    if of.bending_factor != "none":
-        words.append(
-            f"bending: range / (({of.bending_reference:g} mm / t)^{of.bending_exponent:g} (1 + 0.18 R_b^1.4)), BS 7608"
-        )
-    if of.stress_ratio != "none":
-        level = "low" if of.stress_ratio == "iiw_low" else "medium"
-        words.append(f"stress ratio: range / f(R), IIW, {level} residual stress")
-    return words

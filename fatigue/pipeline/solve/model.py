@@ -58,6 +58,11 @@ class Model:
         """The curve of every weld."""
         return [self.body.curve_of(weld) for weld in self.welds]
 
+    def damage_limits(self, of_mission: float) -> NDArray[np.float64]:
+        """Allowed Miner sum of every station (n,), that of its curve where it has one."""
+        limits = np.array([rated.damage_limit(of_mission) for rated in self.curve_of_weld])
+        return limits[self.stations.weld]
+
 
 def read_model(case: Case | Path | str, *, strict: bool = False) -> Model:
     """All welds of a case, or of a case file, solved at once: for small bodies and notebooks.

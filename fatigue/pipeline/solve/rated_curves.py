@@ -1,6 +1,6 @@
 """The S-N curves a case asks for, at its survival level and with its extension, for the stress that asks for them."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -16,7 +16,6 @@ from fatigue.life.mission import Plan
 from fatigue.life.rule import CycleRule, size_exponent, size_factor
 from fatigue.pipeline.solve.known_curves import curves_of_case
 from fatigue.readers.neutral.body.strength_factors import StrengthFactor, on_limit, on_range
-from fatigue.readers.neutral.body.throats import WeldThroat
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.shown import few
 
@@ -30,8 +29,9 @@ FITS: dict[str, tuple[str, ...]] = {  # what a curve that serves a use may apply
     "throat": ("throat",),
     "root": ("throat", "structural", "dS"),
     "parent": ("parent",),
-    "endurance": ("structural", "hot_spot", "nominal", "throat", "parent"),
+    "endurance": ("structural", "hot_spot", "nominal", "throat", "parent", "dS"),
 }
+NO_BENDING = ("throat", "endurance")  # uses whose stresses are no membrane and bending stress of a plate
 USES = {
     "toe": "the structural stress at the toe",
     "hot_spot": "a hot-spot stress",
@@ -55,7 +55,8 @@ APPLIES = {
 class RatedCurve:
     """A curve as this assessment uses it: at a survival level, with the rules that turn cycles into damage.
 
-    ``factors`` are those of the table of strength factors.
+    ``factors`` are those of the table of strength factors; ``attachment`` is the length [mm] of what a weld attaches,
+    where the curve is ``at`` a weld and asks for it.
     """
 
     curve: SNCurve
@@ -63,6 +64,12 @@ class RatedCurve:
     rule: CycleRule
     thickness_rule: ThicknessRule
     factors: tuple[StrengthFactor, ...] = ()
+    attachment: float = np.inf
+
+    @property
+    def is_unverified(self) -> bool:
+        """Whether nobody has compared its numbers with their source."""
+        return self.curve.status == "unverified"
 
     @property
     def on_range(self) -> float:
@@ -70,21 +77,28 @@ class RatedCurve:
         of = self.curve.allowances
         return of.gamma_Ff * of.gamma_Mf * on_range(self.factors)
 
+    def at(self, weld: Weld) -> "RatedCurve":
+        """The curve at a weld, whose attachment has a length of its own."""
+        if self.curve.allowances.thickness_effective == "t" or weld.attachment is None:
+            return self
+        return replace(self, attachment=weld.attachment)
+
     def size(
-        self, thickness: NDArray[np.float64], attachment: NDArray[np.float64] | float = np.inf
+        self, thickness: NDArray[np.float64], attachment: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
         """Factor of plates of some thickness [mm] on the range: ``size_factor`` and all that is not a cycle's own.
 
-        ``attachment`` is the length [mm] of what is attached, for a curve that asks for it.
+        ``attachment`` are the lengths of their attachments [mm], by default that of the weld.
         """
-        of_plate = size_factor(thickness, self.curve, self.thickness_rule, attachment)
+        length = self.attachment if attachment is None else attachment
+        of_plate = size_factor(thickness, self.curve, self.thickness_rule, length)
         return of_plate * bending_thickness(thickness, self.curve.allowances) * self.on_range
 
-    def size_exponent(self, thickness: float, attachment: float = np.inf) -> float:
+    def size_exponent(self, thickness: float) -> float:
         """Exponent d ln(size) / d ln(t) of ``size`` at a thickness [mm]."""
         of = self.curve.allowances
         of_bending = of.bending_exponent if of.bending_factor != "none" else 0.0
-        return size_exponent(thickness, self.curve, self.thickness_rule, attachment) + of_bending
+        return size_exponent(thickness, self.curve, self.thickness_rule, self.attachment) + of_bending
 
     def damage_limit(self, of_mission: float) -> float:
         """Allowed damage sum on this curve: its own, else that of the mission, with the factors of the table."""
@@ -115,9 +129,9 @@ class AskedCurve:
         return self.use == "toe" and self.quantity == "normal"
 
 
-def asked_curves(case: Case, welds: Sequence[Weld], throats: Iterable[WeldThroat] = ()) -> list[AskedCurve]:
-    """Curves that the case and its welds ask for, normal stress and shear at the toe, and those of the throats."""
-    file, of_throats = case.body.welds, case.body.weld_throats
+def asked_curves(case: Case, welds: Sequence[Weld]) -> list[AskedCurve]:
+    """Curves that the case and its welds ask for, normal stress and shear at the toe."""
+    file = case.body.welds
     return [
         AskedCurve(case.curve.name, f"{case.path.name}: curve.name"),
         *(AskedCurve(w.curve, f"{file}: weld {w.name}: curve") for w in welds if w.curve),
@@ -126,15 +140,7 @@ def asked_curves(case: Case, welds: Sequence[Weld], throats: Iterable[WeldThroat
             for w in welds
             if w.curve_shear
         ),
-        *(curve for throat in throats for curve in _of_throat(throat, f"{of_throats}: weld {throat.weld}")),
     ]
-
-
-def _of_throat(throat: WeldThroat, where: str) -> Iterator[AskedCurve]:
-    yield AskedCurve(throat.curve, f"{where}: curve", use="throat")
-    yield AskedCurve(throat.curve_shear, f"{where}: curve_shear", use="throat", quantity="shear")
-    if throat.curve_root:
-        yield AskedCurve(throat.curve_root, f"{where}: curve_root", use="root")
 
 
 def rated_curves(
@@ -209,9 +215,11 @@ def _problems(case: Case, curves: Mapping[str, SNCurve], asked: Sequence[AskedCu
             what = f"curve '{name}' allows for the stress ratio by mean_stress = '{of.stress_ratio}', and so does "
             what += "mean_stress = 'asme' of [curve]"
             yield Problem("mean_stress", one.where, what, "Take one of them: they are two rules for the same effect")
-        elif not one.is_main and of.bending_factor != "none":
-            what = f"curve '{name}' has bending_factor = '{of.bending_factor}', and the bending ratio of a cycle is "
-            what += f"known of the normal stress at toes only, not of {USES[one.use]}"
+        elif of.bending_factor != "none" and one.use in NO_BENDING:
+            what = (
+                f"curve '{name}' has bending_factor = '{of.bending_factor}', and no bending ratio of a cycle is known "
+            )
+            what += f"of {USES[one.use]}"
             yield Problem("bending_factor", one.where, what, "Name a curve without bending_factor")
         elif one.use != "toe" and of.thickness_effective == "L_half":
             what = f"curve '{name}' has thickness_effective = 'L_half', and attachments have a length at toes only"

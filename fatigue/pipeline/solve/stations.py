@@ -106,19 +106,23 @@ def _joined(blocks: Sequence[StructuralStress]) -> StructuralStress:
     return StructuralStress(*(np.concatenate([getattr(block, name) for block in blocks]) for name in names))
 
 
+def size_of(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) -> NDArray[np.float64]:
+    """Factor of the plates of some stations on the range, each with what its weld attaches."""
+    lengths = np.array([rated.at(weld).attachment for weld in stations.welds])
+    return rated.size(stations.thickness[rows], lengths[stations.weld[rows]])
+
+
 def modal_stress(stations: Stations, rows: NDArray[np.intp], rated: RatedCurve) -> ModalStress:
     """Modal stress of some stations, ascending, with the rule of their curve and the size factor of their plates."""
     stress = stations.treated
     some = slice(None) if len(rows) == len(stations) else rows  # all of them without a copy
     raw_ends = stations.raw_ends.at(rows)
-    lengths = [np.inf if weld.attachment is None else weld.attachment for weld in stations.welds]
-    attachment = np.array(lengths)[stations.weld[some]]
     return ModalStress(
         membrane=stress.membrane[some],
         bending=stress.bending[some],
         in_plane_shear=stress.in_plane_shear[some],
         twist_shear=stress.twist_shear[some],
-        size=rated.size(stations.thickness[some], attachment),
+        size=size_of(stations, rows, rated),
         rule=rated.rule,
         raw_ends=raw_ends,
         raw_end_matters=np.ones(len(raw_ends.rows), dtype=np.bool_),

@@ -71,10 +71,10 @@ class HistogramWriter:
 
 
 def _by_curve(points: Sequence[KeptPoint]) -> list[list[int]]:
-    """Places of points that share a curve."""
-    curves: dict[str, list[int]] = {}
+    """Places of points that share a curve, and what it knows of their welds."""
+    curves: dict[tuple[str, float], list[int]] = {}
     for place, point in enumerate(points):
-        curves.setdefault(point.rated.curve.name, []).append(place)
+        curves.setdefault((point.rated.curve.name, point.rated.attachment), []).append(place)
     return list(curves.values())
 
 

@@ -1,8 +1,9 @@
 """The tables of a result in formats that people open: an Excel workbook, and CSV files."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -24,6 +25,7 @@ from fatigue.results import (
     row_groups,
 )
 from fatigue.results.belonging import MARK
+from fatigue.results.provenance import curves_of_status
 from fatigue.results.tables import table_path
 
 _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
@@ -86,7 +88,7 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
         "tmpdir": str(path.parent),
     }
     with _writing_xlsx(path), xlsxwriter.Workbook(str(path), options) as book:
-        book.set_properties({"title": record["title"], "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
+        book.set_properties({"title": _title(record), "created": pd.Timestamp(*_FIXED_DATE).to_pydatetime()})
         if "result" in record:
             book.set_custom_property(MARK, record["result"])
         formats = {name: book.add_format(look) for name, look in _FORMATS.items()}
@@ -96,6 +98,11 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
     if into is None:
         enlist(folder, path)
     return path
+
+
+def _title(record: Mapping[str, Any]) -> str:
+    """Title of a result, which says so where it rests on unverified curves."""
+    return f"{record['title']} (unverified curves)" if curves_of_status(record, "unverified") else str(record["title"])
 
 
 @contextmanager

@@ -27,17 +27,22 @@ class Shown:
 
 @dataclass(slots=True)
 class Figures:
-    """Numbers the figures of a page in the order in which they are added; their ids begin with ``prefix``."""
+    """Numbers the figures of a page in the order in which they are added; their ids begin with ``prefix``.
+
+    ``mark`` ends the caption of every figure, unless it shows what rests on no S-N curve.
+    """
 
     shown: list[Shown] = field(default_factory=list)
     prefix: str = ""
+    mark: str = ""
 
-    def under(self, prefix: str) -> "Figures":
-        """The same figures, numbered on; the ids of those to come begin with the prefix."""
-        return Figures(self.shown, prefix)
+    def under(self, prefix: str, mark: str = "") -> "Figures":
+        """The same figures, numbered on; the ids of those to come begin with the prefix, and end with the mark."""
+        return Figures(self.shown, prefix, mark)
 
-    def add(self, id_: str, fig: go.Figure, caption: str, *, wide: bool = False) -> Shown:
+    def add(self, id_: str, fig: go.Figure, caption: str, *, wide: bool = False, of_curve: bool = True) -> Shown:
         """Figure as the page shows it; the template that all share is in the page once and not in each."""
+        caption += self.mark if of_curve else ""
         content = json.loads(fig.to_json(remove_uids=True))
         content["layout"].pop("template")
         height = int(content["layout"].pop("height"))

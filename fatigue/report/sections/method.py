@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from fatigue.report.sections.curves import allowances_in_words, curve_words, damage_limits
 from fatigue.report.wording import number
 from fatigue.shown import few
 
@@ -65,7 +66,11 @@ def rules(record: Mapping[str, Any]) -> list[Rule]:
         *_level_rule(chosen),
         Rule("Upsampling before counting", _upsampling(chosen), "case file: counting.upsample"),
         Rule("Reversals", _reversals(chosen), "case file: counting.reversals"),
-        Rule("Damage", f"linear sum, limit {number(mission['damage_limit'])}", "Palmgren 1924, Miner 1945"),
+        *(
+            Rule("Design range", words, "case file: curves, checks.strength_factors")
+            for words in allowances_in_words(record)
+        ),
+        Rule("Damage", f"linear sum, limit {damage_limits(record)}", "Palmgren 1924, Miner 1945"),
         Rule(
             "Mission",
             f"target {number(mission['target_km'])} km, {number(mission['km_per_year'])} km per year",
@@ -107,8 +112,10 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
     """What the life on the first page assumes, in a few lines."""
     chosen, mission = record["rules"], record["mission"]
     curves = [
-        f"{name}, {_survival(chosen['survival'][name])} ({curve['source']})" for name, curve in record["curves"].items()
+        f"{curve_words(name, record)}, {_survival(chosen['survival'][name])} ({curve['source']})"
+        for name, curve in record["curves"].items()
     ]
+    allowances = allowances_in_words(record)
     return [
         ("S-N curve" if len(curves) == 1 else "S-N curves", "; ".join(curves)),
         ("Thickness in ΔS", _thickness(chosen["thickness_rule"])),
@@ -120,7 +127,8 @@ def assumptions(record: Mapping[str, Any]) -> list[tuple[str, str]]:
         *([("Cycles across events", _across_events(record))] if mission.get("sequences") else []),
         ("Weld ends", chosen["weld_ends"]),
         ("Points not counted", _screening(chosen["screening"])),
-        ("Damage limit", f"Miner sum {number(mission['damage_limit'])} at the target"),
+        *([("Design range", "; ".join(allowances))] if allowances else []),
+        ("Damage limit", f"Miner sum {damage_limits(record)} at the target"),
     ]
 
 

@@ -16,6 +16,7 @@ from fatigue.report.sections import weld_tables
 from fatigue.report.sections.beside.checks import weld_checks
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.cells import PageTable
+from fatigue.report.sections.curves import all_marked, curve_words, figure_mark, of_toes
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.load_spectra import LoadSpectra, equivalent_table, spectra_figures
@@ -29,12 +30,14 @@ SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED, EVENTS_LISTED = 6, 8, 4, 20
 class WeldPage:
     """One weld in detail; what only a diagnosis or load spectra know is empty without one.
 
-    ``bounded`` points of it have a lower bound of life in place of a counted one.
+    ``bounded`` points of it have a lower bound of life in place of a counted one; ``unverified``: its life rests on a
+    curve that nobody has verified.
     """
 
     id: str
     name: str
     row: Mapping[str, Any]
+    unverified: bool
     facts: list[tuple[str, str]]
     checks: PageTable | None
     along: Shown
@@ -68,7 +71,8 @@ def weld_page(
     why = None if why is None else why.of_weld(weld)
     spectra = None if spectra is None else spectra.of_weld(weld)
 
-    figs = figs.under(f"{id_}-")
+    unverified = [weld] if weld in of_toes(result) else []
+    figs = figs.under(f"{id_}-", figure_mark(unverified, 1))
     points = result.nodes[result.nodes["weld"] == weld]
     stress = detail.deviation if detail is not None and detail.deviation else None
     line = figures.along_weld(points, result.target_km, stress, wording.in_figure(event or ""))
@@ -88,20 +92,22 @@ def weld_page(
         shown += _why_figures(result, why, event, figs)
     if spectra is not None:
         shown += spectra_figures(spectra, result, figs)
+    of_variants = weld_tables.variant_table(
+        f"{id_}-variants",
+        variants(point, cycles, result.passes_per_km, used),
+        float(point["life_km"]),
+        float(result.record["mission"]["km_per_year"]),
+    )
     return WeldPage(
         id=id_,
         name=weld,
         row=row.to_dict(),
-        facts=[*weld_tables.facts(point, row), *shear_facts(point)],
+        unverified=bool(unverified),
+        facts=[*weld_tables.facts(point, row, curve_words(row["curve"], result.record)), *shear_facts(point)],
         checks=weld_checks(f"{id_}-checks", checks, weld),
         along=along,
         point=shown,
-        variants=weld_tables.variant_table(
-            f"{id_}-variants",
-            variants(point, cycles, result.passes_per_km, used),
-            float(point["life_km"]),
-            float(result.record["mission"]["km_per_year"]),
-        ),
+        variants=all_marked(of_variants, ("life",)) if unverified else of_variants,
         events=weld_tables.event_table(
             f"{id_}-events", result.damage[result.damage["weld"] == weld], result.passes_per_km, EVENTS_LISTED
         ),
@@ -163,7 +169,7 @@ def _record_figures(
     history = figures.stress_history(detail.envelope, detail.excerpts, names, colours[event])
     close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
     caption = f"Stress in event {wording.short(event)}{close_by}"
-    shown = [figs.add("history", history, caption, wide=True)]
+    shown = [figs.add("history", history, caption, wide=True, of_curve=False)]
     leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
     numbers = list(result.coordinates)
     parts = {numbers[k]: float(detail.variance_share[k]) for k in leading}
@@ -171,13 +177,13 @@ def _record_figures(
         title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
         bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
         what = "Modes and unit loads" if result.record.get("unit_loads") else "Modes"
-        shown.append(figs.add("modes", bars, f"{what} in the stress of the worst point"))
+        shown.append(figs.add("modes", bars, f"{what} in the stress of the worst point", of_curve=False))
     if detail.spectra:
         drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
         marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
         spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:MODES_MARKED]), event)
         caption = "Stress spectrum, the leading normal modes, and where the variance lies"
-        shown.append(figs.add("psd", spectrum, caption))
+        shown.append(figs.add("psd", spectrum, caption, of_curve=False))
     return shown
 
 

@@ -9,8 +9,11 @@ from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num
 from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
 
 
-def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
-    """Where the worst point is and what it endures; ``point`` is from the table of nodes, ``row`` from the register."""
+def facts(point: pd.Series, row: pd.Series, curve: str) -> list[tuple[str, str]]:
+    """Where the worst point is and what it endures; ``point`` is from the table of nodes, ``row`` from the register.
+
+    ``curve`` is its curve in words.
+    """
     corner = "corner whose nodal forces are one sum of both legs" if point["summed_corner"] else "corner"
     flags = [words for words, flag in (("weld end", point["at_end"]), (corner, point["at_corner"])) if flag]
     event = NOT_AVAILABLE if pd.isna(point["governing_event"]) else str(point["governing_event"])
@@ -20,7 +23,7 @@ def facts(point: pd.Series, row: pd.Series) -> list[tuple[str, str]]:
         ("Position x, y, z", ", ".join(number(point[c]) for c in ("x_mm", "y_mm", "z_mm")) + " mm"),
         ("Place", listed(flags) or "along the line"),
         ("Plate", f"{number(point['thickness_mm'])} mm"),
-        ("Curve", f"{row['curve']}, {row['survival']}"),
+        ("Curve", f"{curve}, {row['survival']}"),
         ("Life", f"{km(point['life_km'])} ({years(point['life_years'])})"),
         ("Utilisation, damage", number(point["utilisation"])),
         ("Utilisation, load", number(1.0 / point["load_factor"])),

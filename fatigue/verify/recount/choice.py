@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.layout import Layout
 
 MOST_SAMPLES = 100_000_000  # stress samples that are counted at the worst points: some ten minutes
+EQUAL = 1.0 - 1e-12
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,10 +30,12 @@ class Choice:
 
 
 def worst_points(body: Layout, toe: NDArray[np.bool_], utilisation: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Worst toe point of every weld, of equal ones the first; arrays are (p,)."""
+    """Worst toe point of every weld, of those that are equal but for rounding the first; arrays are (p,)."""
     severity = np.where(toe & ~np.isnan(utilisation), utilisation, -1.0)
     first = 2 * body.first
-    return np.array([a + severity[a:b].argmax() for a, b in pairwise(first)], dtype=np.int64)
+    return np.array(
+        [a + (severity[a:b] >= EQUAL * severity[a:b].max()).argmax() for a, b in pairwise(first)], dtype=np.int64
+    )
 
 
 def choose(

@@ -11,14 +11,18 @@ from fatigue.verify.recount.anew.across_events.loop import bound_per_km, loop_pa
 from fatigue.verify.recount.anew.mean_stress import MeanStress
 from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values, one_pass, point_of
-from fatigue.verify.recount.anew.record import read_record, spectrum_rules
+from fatigue.verify.recount.anew.record import RecountRecord, read_record, spectrum_rules
 from fatigue.verify.recount.anew.rounding import Bounds
+from fatigue.verify.recount.anew.shear.columns import ShearExtent, shear_extent
+from fatigue.verify.recount.anew.shear.passes import ShearPass, shear_pass
 from fatigue.verify.recount.inputs.case import RecountInputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
+from fatigue.verify.recount.layout import Key
 from fatigue.verify.recount.stored.compare import Row
 from fatigue.verify.recount.stored.histogram import histogram_rows
 from fatigue.verify.recount.stored.loop_cycles import loop_rows
 from fatigue.verify.recount.stored.rows import Station, cycle_row
+from fatigue.verify.recount.stored.shear import PATH_COLUMNS, StoredShear, half_cycle_row
 from fatigue.verify.recount.stored.tables import Stored
 
 HISTOGRAM_COLUMNS = ["kind", "bin", "count_per_pass", "power_sum_per_pass"]
@@ -30,7 +34,8 @@ class Passes:
     """One pass of every event and one run of every loop at a point, its cycles and classes of ranges compared.
 
     ``raw`` are the same without end treatment. ``bound`` is what cycles across events add at most per km in any order,
-    NaN where nobody asks for it.
+    NaN where nobody asks for it. ``extents`` and ``paths`` are those of normal stress and shear, the latter where they
+    are counted; ``half_cycles`` are compared.
     """
 
     treated: list[OnePass] = field(default_factory=list)
@@ -38,6 +43,9 @@ class Passes:
     cycles: list[Row] = field(default_factory=list)
     histograms: list[Row] = field(default_factory=list)
     bound: float = np.nan
+    extents: list[ShearExtent] = field(default_factory=list)
+    paths: list[ShearPass] = field(default_factory=list)
+    half_cycles: list[Row] = field(default_factory=list)
 
 
 def loop_names(inputs: RecountInputs) -> list[str]:
@@ -53,6 +61,8 @@ def count(
     stored: Stored,
     cycles_of: frozenset[int],
     histogram_of: frozenset[int],
+    shear: StoredShear | None,
+    paths_of: frozenset[int],
 ) -> tuple[dict[int, Passes], list[RecountEvent]]:
     """Passes of every event at every point, counted one record in memory at a time; cycles are compared at once.
 
@@ -67,14 +77,18 @@ def count(
         events.append(RecountEvent(record.name, record.length_km, record.passes_per_km))
         there = stored.cycles.of_event(number, [point for point in stations if point in cycles_of], CYCLE_COLUMNS)
         binned = _classes_of(stored, number, [point for point in stations if point in histogram_of])
+        half_cycles = _half_cycles_of(stored, number, [point for point in stations if point in paths_of], shear)
         keeps = number if number in in_a_row else None
         for point, station in stations.items():
             key, of = stored.body.key(point), counted[point]
-            one = one_pass(_treated(station, key[3]), record, rules, mean_stress, keeps)
+            one = one_pass(treated_point(station, key[3]), record, rules, mean_stress, keeps)
             if point in there:
                 of.cycles.append(cycle_row(key, events[-1], one, there[point]))
             if point in binned:
                 of.histograms += histogram_rows(key, events[-1], one, station.weld.curve.slopes[0], binned[point])
+            if shear is not None:
+                _add_shear(of, key, treated_point(station, key[3]), record, events[-1], one, shear, mean_stress,
+                           counts=point in paths_of, there=half_cycles.get(point))  # fmt: skip
             one = replace(one, rows={})
             of.treated.append(one)
             of.raw.append(
@@ -88,6 +102,38 @@ def count(
 def _classes_of(stored: Stored, event: int, points: Sequence[int]) -> dict[int, pd.DataFrame]:
     """Stored classes of ranges of one event at some points, by point."""
     return {} if stored.histogram is None else stored.histogram.of_event(event, points, HISTOGRAM_COLUMNS)
+
+
+def _half_cycles_of(
+    stored: Stored, event: int, points: Sequence[int], shear: StoredShear | None
+) -> dict[int, pd.DataFrame]:
+    """Stored half cycles of one event at some points that have to have some, by point."""
+    if shear is None or stored.path_cycles is None:
+        return {}
+    some = [point for point in points if point in shear.half_cycles]
+    return stored.path_cycles.of_event(event, some, PATH_COLUMNS)
+
+
+def _add_shear(
+    of: Passes,
+    key: Key,
+    point: RecountPoint,
+    record: RecountRecord,
+    event: RecountEvent,
+    one: OnePass,
+    shear: StoredShear,
+    mean_stress: MeanStress,
+    *,
+    counts: bool,
+    there: pd.DataFrame | None,
+) -> None:
+    """Add how far normal stress and shear go in an event; where it ``counts``, its path and the rows of this."""
+    of.extents.append(shear_extent(point, record, shear.rules.beta))
+    if counts:
+        path = shear_pass(point, record, shear.rules, mean_stress)
+        row = None if there is None else half_cycle_row(key, event, path, one, there)
+        of.half_cycles += [] if row is None else [row]
+        of.paths.append(replace(path, rows={}))
 
 
 def _count_loops(
@@ -115,7 +161,7 @@ def _count_loops(
         key, of = stored.body.key(point), counted[point]
         passes, raw = list(of.treated), list(of.raw)
         for (event, order), (found, binned) in zip(loops, there, strict=True):
-            one, net = loop_pass(_treated(station, key[3]), order, passes, mean_stress)
+            one, net = loop_pass(treated_point(station, key[3]), order, passes, mean_stress)
             if point in found:
                 of.cycles += loop_rows(key, event, one, net, found[point], list(number))
             if point in binned:
@@ -124,7 +170,7 @@ def _count_loops(
             of.treated.append(replace(one, rows={}))
             of.raw.append(loop_pass(_raw(station, key[3]), order, raw, mean_stress)[0] if _is_treated(station) else one)
         if stints:
-            of.bound = bound_per_km(_treated(station, key[3]), stints, passes, mean_stress)
+            of.bound = bound_per_km(treated_point(station, key[3]), stints, passes, mean_stress)
         of.treated[: len(passes)] = [replace(one, turns=None) for one in passes]
         of.raw[: len(raw)] = [replace(one, turns=None) for one in raw]
     return [event for event, _ in loops]
@@ -146,14 +192,24 @@ def _is_treated(station: Station) -> bool:
     return not np.array_equal(station.solved.raw[station.at], station.solved.treated[station.at])
 
 
-def _treated(station: Station, surface: str) -> RecountPoint:
+def treated_point(station: Station, surface: str) -> RecountPoint:
+    """One face of a station, its end treated."""
     thickness = float(station.solved.line.thickness[station.at])
-    return point_of(station.solved.treated[station.at], station.largest, surface, station.weld.curve, thickness)
+    return point_of(
+        station.solved.treated[station.at],
+        station.largest,
+        surface,
+        station.weld.curve,
+        thickness,
+        station.weld.attachment,
+    )
 
 
 def _raw(station: Station, surface: str) -> RecountPoint:
     thickness = float(station.solved.line.thickness[station.at])
-    return point_of(station.solved.raw[station.at], station.largest, surface, station.weld.curve, thickness)
+    return point_of(
+        station.solved.raw[station.at], station.largest, surface, station.weld.curve, thickness, station.weld.attachment
+    )
 
 
 def mean_stress_of(inputs: RecountInputs) -> MeanStress:

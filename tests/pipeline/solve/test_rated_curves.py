@@ -137,7 +137,7 @@ def asked(folder: Path, one: AskedCurve, curve: dict[str, object] | None = None,
         ),
         (
             AskedCurve("iiw-steel-90", "here", quantity="shear"),
-            "is for normal stress (quantity = 'normal'), and the struc",
+            "is for normal stress (quantity = 'normal'), and",
         ),
     ],
 )
@@ -162,6 +162,18 @@ def test_a_curve_of_another_stress_is_refused(tmp_path: Path, one: AskedCurve, m
 def test_a_curve_of_the_same_stress_is_rated(tmp_path: Path, one: AskedCurve) -> None:
     """Structural stress is a hot-spot stress, and the master curve may serve the root of a weld."""
     assert asked(tmp_path, one).curve.name == one.name
+
+
+BENDS = 'bending_factor = "bs7608"\nbending_reference_mm = 25.0\nbending_exponent = 0.25\n'
+
+
+def test_an_allowance_for_bending_needs_a_bending_ratio(tmp_path: Path) -> None:
+    """The stress in a throat has none; that at a hot spot has."""
+    bent = OWN.replace('"structural"', '"throat"') + BENDS
+    with pytest.raises(FatigueError, match="no bending ratio of a cycle is known of the stress in the throat"):
+        asked(tmp_path / "throat", AskedCurve("own", "here", "throat"), extra=bent)
+    at_hot_spot = asked(tmp_path / "spot", AskedCurve("own", "here", "hot_spot"), extra=OWN + BENDS)
+    assert at_hot_spot.rule.depends_on_bending
 
 
 def test_settings_of_the_toe_do_not_refuse_a_curve_of_another_check(tmp_path: Path) -> None:
@@ -248,8 +260,9 @@ def test_half_the_length_of_an_attachment_is_its_thickness(tmp_path: Path) -> No
     assert [weld.attachment for weld in body.welds] == [12.0, 40.0]
     size = body.curves["own"].size(np.array([8.0, 8.0]), np.array([12.0, 40.0]))
     np.testing.assert_allclose(size, [(6 / 5) ** 0.3, (8 / 5) ** 0.3], rtol=1e-15)
-    assert body.curves["own"].size_exponent(8.0, 12.0) == 0.0
-    assert body.curves["own"].size_exponent(8.0, 40.0) == 0.3
+    short, long = (body.curve_of(weld) for weld in body.welds)
+    np.testing.assert_allclose([short.size(np.array([8.0])), long.size(np.array([8.0]))], size[:, None], rtol=1e-15)
+    assert (short.size_exponent(8.0), long.size_exponent(8.0)) == (0.0, 0.3)
 
 
 def test_a_thin_plate_on_a_curve_with_an_allowance_for_bending_is_told(tmp_path: Path) -> None:
@@ -300,9 +313,9 @@ def test_factors_of_a_table_are_on_range_and_limit(tmp_path: Path) -> None:
         ({"value": None}, "factors.csv: column value, row 1: the value is missing or NaN"),
         ({"clause": None}, "factors.csv: column clause, row 1: the text is missing"),
         ({"edition": None}, "factors.csv: column edition, row 1: the text is missing"),
-        ({"role": "strenght"}, "factors.csv: column role, row 1:"),
+        ({"role": "weakness"}, "factors.csv: column role, row 1:"),
         ({"value": 0.0}, "factors.csv: column value, row 1: 0 is not above 0"),
-        ({"curve": "onw"}, "'onw'"),
+        ({"curve": "wno"}, "'wno'"),
     ],
 )
 def test_a_bad_table_of_factors_is_refused(tmp_path: Path, changed: dict[str, object], message: str) -> None:

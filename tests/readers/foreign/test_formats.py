@@ -6,12 +6,13 @@ import pytest
 
 from fatigue.files.extras import REQUIREMENTS
 from fatigue.files.known_formats import OWN
-from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, all_formats, formats_called
+from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, STRESSES, all_formats, formats_called
 
 PARAMETERS = {
     FORCES: ["path", "subcase", "interface", "loads"],
     MESH: ["path"],
     COORDINATES: ["path", "columns", "time_column"],
+    STRESSES: ["path", "wanted"],
 }
 
 
@@ -47,5 +48,6 @@ def test_what_messages_say_of_the_formats():
     """The usual one first, all of them in one list."""
     assert formats_called(FORCES) == "an .op2, an MSC .h5 or a punch file"
     assert formats_called(MESH) == "the deck (.bdf, .dat) or the MSC .h5"
+    assert formats_called(STRESSES) == "an .op2 or an MSC .h5"
     assert formats_called(COORDINATES) == "a text table, .parquet or .mcf"
     assert all_formats() == ".op2, MSC .h5, .pch, .bdf, .mcf, .parquet or a text table"

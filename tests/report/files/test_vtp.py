@@ -12,7 +12,7 @@ from fatigue.report.files.vtp import write_vtp
 from fatigue.results import NODES
 from tests.report.tiny_result import Recipe, write_result
 
-TYPES = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
+TYPES = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1", "Int8": np.int8}
 
 
 def arrays(path):

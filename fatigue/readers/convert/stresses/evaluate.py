@@ -43,8 +43,9 @@ def at_faces(block: StressBlock, model: FeModel) -> Floats:
         np.where(is_plain[:, None], half, np.maximum(low, high)),
         np.where(is_plain[:, None], -half, np.minimum(low, high)),
     )
-    slope = (block.stress[:, :, 1] - block.stress[:, :, 0]) / (high - low)[..., None]
-    return np.stack([block.stress[:, :, 0] + slope * (z - low)[..., None] for z in face], axis=2)
+    stress = block.stress.astype(np.float64)
+    slope = (stress[:, :, 1] - stress[:, :, 0]) / (high - low)[..., None]
+    return np.stack([stress[:, :, 0] + slope * (z - low)[..., None] for z in face], axis=2)
 
 
 def at_read_outs(terms: Terms, blocks: Sequence[StressBlock], model: FeModel, count: int) -> Floats:

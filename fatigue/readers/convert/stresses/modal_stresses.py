@@ -3,16 +3,17 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem, refuse
+from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.readers.convert.audit.row import AuditRow
 from fatigue.readers.convert.loads.names import UnitLoad
-from fatigue.readers.convert.options import ConvertOptions
+from fatigue.readers.convert.options import ConvertOptions, Density
 from fatigue.readers.convert.stresses.blocks import blocks_of_modes
 from fatigue.readers.convert.stresses.evaluate import at_read_outs, available
 from fatigue.readers.convert.stresses.points import read_stress_points
@@ -24,6 +25,7 @@ from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.fe.shell_stress import REQUEST, ShellStresses
 from fatigue.readers.foreign.read import read_stresses
+from fatigue.stages import stage
 
 STRESS_POINTS, MODAL_STRESSES = "stress_points", "modal_stresses.parquet"
 _MOST_PROVEN, _MOST_PROBLEMS = 500, 10
@@ -71,10 +73,15 @@ def point_stresses(
 
     Raises
     ------
+    CaseError : an unknown density of read-outs
     DataError : any refusal of the readers; read-outs outside plates; elements or modes without stresses
     """
     if options.stress_points is None:
         return None
+    if options.read_outs not in get_args(Density):
+        what = f"{options.read_outs!r} is none"
+        raise CaseError(Problem("read_outs", "read_outs", what, f"Give one of {', '.join(get_args(Density))}"))
+    stage("reading stresses at stress points")
     points, warnings = read_stress_points(options.stress_points)
     file = options.stress_points.name
     metric = in_mm(model, unit_length)

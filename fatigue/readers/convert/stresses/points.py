@@ -9,26 +9,14 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.convert.options import Density
+from fatigue.readers.neutral.points.stress_points import E1, KINDS, NORMAL, OPTIONAL, XYZ
 from fatigue.readers.neutral.tables import Table, open_table
+from fatigue.weld.beside.hot_spot import FACE, sets_of
 
 Vector = NDArray[np.float64]
 
-FACE, EDGE = "hot_spot_a", "hot_spot_b"
-OF_CHECKS = ("weld", "curve", "curve_shear", "planes")
+OF_CHECKS = ("curve", *OPTIONAL)
 """Columns of the table that only the checks of stress points read."""
-KINDS = (FACE, EDGE, "nominal", "parent", "haz")
-OF_THICKNESS: dict[Density, tuple[float, ...]] = {
-    "fine": (0.4, 1.0),
-    "quadratic": (0.4, 0.9, 1.4),
-    "coarse": (0.5, 1.5),
-}
-"""Read-outs of type a from the toe, in plate thicknesses (IIW recommendations, structural hot spot stress)."""
-OF_EDGE_MM: dict[Density, tuple[float, ...]] = {
-    "fine": (4.0, 8.0, 12.0),
-    "quadratic": (4.0, 8.0, 12.0),
-    "coarse": (5.0, 15.0),
-}
-"""Read-outs of type b from the toe along the edge of the plate [mm]."""
 _MOST_PROBLEMS = 10
 
 
@@ -36,7 +24,7 @@ _MOST_PROBLEMS = 10
 class StressPoint:
     """One stress point: its place [mm], the direction e1 from the toe into the plate, the top normal of the plate.
 
-    ``x`` is the part of e1 in the plane of the plate, ``y`` = normal x x, all of unit length.
+    ``x`` is the part of e1 in the plane of the plate; both directions have the length 1.
     """
 
     name: str
@@ -47,16 +35,13 @@ class StressPoint:
     normal: Vector
     row: int
 
-    @property
-    def y(self) -> Vector:
-        """Second axis in the plane of the plate."""
-        return np.cross(self.normal, self.x)
-
     def distances(self, density: Density) -> tuple[float, ...]:
         """Distances of the read-outs along x [mm]; one of 0 where nothing is extrapolated."""
-        if self.kind == FACE:
-            return tuple(d * self.thickness for d in OF_THICKNESS[density])
-        return OF_EDGE_MM[density] if self.kind == EDGE else (0.0,)
+        sets = {one.name.split()[1]: one for one in sets_of(self.kind)}
+        if not sets:
+            return (0.0,)
+        chosen = sets.get(density, sets["fine"])  # on edges no set is quadratic
+        return tuple(d * (self.thickness if self.kind == FACE else 1.0) for d in chosen.distances)
 
 
 def read_stress_points(path: Path) -> tuple[tuple[StressPoint, ...], list[Problem]]:
@@ -69,15 +54,12 @@ def read_stress_points(path: Path) -> tuple[tuple[StressPoint, ...], list[Proble
     DataError : anything missing or impossible, a point given twice, e1 along the normal
     """
     table = open_table(path, texts=("point", "kind", *OF_CHECKS))
-    axes = {name: [f"{name}_{a}" for a in "xyz"] for name in ("e1", "normal")}
-    place = ["x_mm", "y_mm", "z_mm"]
-    required = ("point", "kind", *place, "thickness_mm", *axes["e1"], *axes["normal"])
-    table.expect(required, OF_CHECKS, strict=False)
+    table.expect(("point", "kind", *XYZ, "thickness_mm", *E1, *NORMAL), OF_CHECKS, strict=False)
     names, code = table.groups("point")
     table.unique({"point": code}, {"point": names})
     kind = table.texts("kind")
     table.choices("kind", kind, KINDS)
-    xyz, e1, normal = (_vectors(table, columns) for columns in (place, axes["e1"], axes["normal"]))
+    xyz, e1, normal = (_vectors(table, columns) for columns in (XYZ, E1, NORMAL))
     thickness = table.numbers("thickness_mm", above=0.0)
     table.refuse()
     refuse(DataError, list(_flat(table, e1, normal))[:_MOST_PROBLEMS])
@@ -90,7 +72,7 @@ def read_stress_points(path: Path) -> tuple[tuple[StressPoint, ...], list[Proble
     return points, table.warnings
 
 
-def _vectors(table: Table, columns: list[str]) -> NDArray[np.float64]:
+def _vectors(table: Table, columns: tuple[str, ...]) -> NDArray[np.float64]:
     """Three columns as vectors, (r, 3)."""
     return np.stack([table.numbers(name).astype(np.float64) for name in columns], axis=1)
 

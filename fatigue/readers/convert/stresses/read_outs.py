@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from fatigue.errors import Problem
 from fatigue.readers.convert.options import Density
 from fatigue.readers.convert.stresses.edge import along_edge, foot
-from fatigue.readers.convert.stresses.points import EDGE, FACE, StressPoint
+from fatigue.readers.convert.stresses.points import StressPoint
 from fatigue.readers.convert.stresses.surface import INSIDE, Held, Plates, holding
+from fatigue.weld.beside.hot_spot import EDGE, FACE
 from fatigue.weld.mesh import NONE
 
 Floats = NDArray[np.float64]

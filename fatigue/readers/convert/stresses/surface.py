@@ -137,13 +137,15 @@ def _natural(xyz: Floats, normal: Floats, place: Floats) -> tuple[tuple[float, f
         second, third = np.linalg.solve(np.stack([flat[1] - flat[0], flat[2] - flat[0]], axis=1), -flat[0])
         areas = (1.0 - second - third, second, third)
         return (float(areas[0]), float(second)), max(0.0, -2.0 * float(min(areas)))
-    at = np.zeros(2)
-    for _ in range(20):
+    at, size = np.zeros(2), float(np.abs(flat - flat.mean(axis=0)).max())
+    for _ in range(30):
         shape, slope = shape_functions(*at)
         step = np.linalg.lstsq((slope @ flat).T, shape @ flat, rcond=None)[0]
         at = np.clip(at - step, -4.0, 4.0)
         if np.abs(step).max() < 1e-12:
             break
+    if np.abs(shape_functions(*at)[0] @ flat).max() > 1e-6 * size:  # far outside there may be no solution
+        return (0.0, 0.0), np.inf
     return (float(at[0]), float(at[1])), max(0.0, float(np.abs(at).max()) - 1.0)
 
 

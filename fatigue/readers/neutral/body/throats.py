@@ -15,12 +15,14 @@ from fatigue.weld.line import WeldLine
 from fatigue.weld.throat import Lever, Side, Throat, lap_throat, tee_throat
 
 Joint: TypeAlias = Literal["tee", "lap", "custom"]
+Combination: TypeAlias = Literal["direction", "path"]
 JOINTS = ("tee", "lap", "custom")
 SIDES: dict[str, tuple[Side, ...]] = {"both": ("top", "bottom"), "top": ("top",), "bottom": ("bottom",)}
 LEVERS = ("throats", "t")
+COMBINATIONS = ("direction", "path")
 REQUIRED = ("weld", "joint", "sides", "throat_mm", "line_offset_mm", "curve", "curve_shear", "ended_plate")
 SECTION = ("angle_deg", "root_y_mm", "root_z_mm")  # of a custom joint
-OPTIONAL = ("penetration_mm", *SECTION, "lever", "curve_root")
+OPTIONAL = ("penetration_mm", *SECTION, "lever", "combination", "curve_root")
 SMALLEST_THROAT = 1.0  # mm
 LARGEST_THROAT = 1.5  # of the thickness of the plate that ends
 DEEPEST = 0.5  # of the thickness, penetration
@@ -33,8 +35,8 @@ class WeldThroat:
 
     ``throat`` (penetration included), ``penetration``, ``line_offset``, ``root_y`` and ``root_z`` in mm, the last two
     and ``angle_deg`` as in ``fatigue.weld.throat``, of a custom joint only. ``curve`` is for the normal and shear
-    stress across the weld, ``curve_shear`` for the shear stress along it, ``curve_root`` for the structural stress of
-    the throat, None: not assessed.
+    stress across the weld, counted in their critical direction or as a path, ``curve_shear`` for the shear stress along
+    it, ``curve_root`` for the structural stress of the throat, None: not assessed.
     """
 
     weld: str
@@ -47,6 +49,7 @@ class WeldThroat:
     root_y: float
     root_z: float
     lever: Lever
+    combination: Combination
     curve: str
     curve_shear: str
     curve_root: str | None
@@ -67,7 +70,9 @@ def read_throats(path: Path, welds: Collection[str], *, strict: bool) -> tuple[d
     ------
     DataError : the mistakes of the table
     """
-    table = open_table(path, texts=("weld", "joint", "sides", "lever", "curve", "curve_shear", "curve_root"))
+    table = open_table(
+        path, texts=("weld", "joint", "sides", "lever", "combination", "curve", "curve_shear", "curve_root")
+    )
     table.expect(REQUIRED, OPTIONAL, strict=strict)
     names, code = table.groups("weld")
     table.known("weld", names, code, welds, "the welds")
@@ -77,6 +82,8 @@ def read_throats(path: Path, welds: Collection[str], *, strict: bool) -> tuple[d
     table.choices("sides", sides, tuple(SIDES))
     lever = table.texts("lever", default="throats")
     table.choices("lever", lever, LEVERS)
+    combination = table.texts("combination", default="direction")
+    table.choices("combination", combination, COMBINATIONS)
     throat = table.numbers("throat_mm", least=SMALLEST_THROAT)
     penetration = table.numbers("penetration_mm", default=0.0, least=0.0)
     offset = table.numbers("line_offset_mm")
@@ -99,6 +106,7 @@ def read_throats(path: Path, welds: Collection[str], *, strict: bool) -> tuple[d
             root_y=float(root_y[i]),
             root_z=float(root_z[i]),
             lever=cast(Lever, lever[i]),
+            combination=cast(Combination, combination[i]),
             curve=curve[i],
             curve_shear=curve_shear[i],
             curve_root=curve_root[i] or None,

@@ -84,7 +84,7 @@ def read_static_cases(
     kinds = table.texts("kind")
     table.choices("kind", kinds, KINDS)
     groups, group = table.groups("group")
-    points, point = table.groups("point", default="")
+    points, point = table.groups("point", default=None if at_points else "")
     keys, labels = {"group": group, "case": code}, {"group": groups, "case": names}
     if at_points:
         keys, labels = keys | {"point": point}, labels | {"point": points}

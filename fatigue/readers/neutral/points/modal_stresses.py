@@ -19,6 +19,7 @@ from fatigue.readers.neutral.tables import Table, open_table
 from fatigue.weld.beside.hot_spot import EDGE, FACE, ReadOuts, matching_set, sets_of
 
 COMPONENTS = ("sx_MPa", "sy_MPa", "txy_MPa")
+AT_ONCE = 1 << 18  # rows of which the weighted stress is summed together
 SAME_MM = 1e-3  # distances of one read-out may differ by rounding
 
 
@@ -61,15 +62,15 @@ def read_modal_stresses(
     chosen, weight = _weights(table, rows, points)
     scale = np.ones(len(coordinates))
     scale[: coordinates.modes.mode.size] = coordinates.modes.scale
-    slot = (rows.point_of_pair[rows.pair] * 2 + rows.face) * len(coordinates) + rows.coordinate
-    factor = (weight[rows.pair] * scale[rows.coordinate])[rows.used]
     tensor = np.zeros((len(points), 2, 3, len(coordinates)))
     on_edge = np.array([kind == EDGE for kind in points.kind])
     for number, name in enumerate(COMPONENTS):
-        values = _component(table, name, on_edge[rows.point_of_pair[rows.pair]] & (number > 0))
+        values = _component(table, name, on_edge[rows.point_of_pair] & (number > 0), rows)
         table.refuse()
-        summed = np.bincount(slot[rows.used], factor * values[rows.used], tensor[:, :, 0].size)
-        tensor[:, :, number] = summed.reshape(tensor[:, :, 0].shape)
+        for some in (slice(first, first + AT_ONCE) for first in range(0, table.rows, AT_ONCE)):
+            pair, face, coordinate = rows.pair[some], rows.face[some], rows.coordinate[some]
+            factor = rows.used[some] * weight[pair] * scale[coordinate]
+            np.add.at(tensor[:, :, number], (rows.point_of_pair[pair], face, coordinate), factor * values[some])
     stress = PointStress(
         tensor=tensor,
         given=rows.given,
@@ -79,12 +80,13 @@ def read_modal_stresses(
     return stress, table.warnings
 
 
-def _component(table: Table, name: str, unused: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """One component of the stress of every row; where it is ``unused`` it may be empty, and is 0."""
+def _component(table: Table, name: str, unused: NDArray[np.bool_], rows: Rows) -> NDArray[np.floating]:
+    """One component of the stress of every row; of pairs where it is ``unused`` it may be empty, and is 0."""
     values = table.numbers(name, default=np.nan)
-    missing = np.isnan(values) & ~unused
-    table.report(missing, "missing_value", name, "the value is missing or NaN", "Give a number")
-    return np.where(unused, 0.0, values).astype(np.float64)
+    if unused.any():
+        values = np.where(unused[rows.pair], values.dtype.type(0.0), values)
+    table.report(np.isnan(values), "missing_value", name, "the value is missing or NaN", "Give a number")
+    return values
 
 
 def _weights(table: Table, rows: Rows, points: StressPoints) -> tuple[Sequence[ReadOuts | None], NDArray[np.float64]]:

@@ -56,15 +56,18 @@ def looked_up(table: Table, points: StressPoints, coordinates: Coordinates, igno
     read_out = table.integers("read_out", default=None if "read_out" in table.position else 1)
     coordinate, used = _coordinates(table, coordinates, ignore_modes)
     table.refuse()
-    numbers, rank = np.unique(read_out, return_inverse=True)
-    pairs, pair = np.unique(point.astype(np.int64) * numbers.size + rank, return_inverse=True)
+    numbers = np.unique(read_out)
+    of_all = point * np.int64(numbers.size) + np.searchsorted(numbers, read_out)
+    there = np.bincount(of_all, minlength=len(points) * numbers.size) > 0
+    pairs, pair = np.flatnonzero(there), (np.cumsum(there, dtype=np.int32) - np.int32(1))[of_all]
+    del of_all, read_out
     given = np.zeros((len(points), 2), dtype=np.bool_)
     given[point, face] = True
     rows = Rows(
         names=points.name,
         surface=tuple(("edge", "") if kind == EDGE else FACES for kind in points.kind),
         used=used,
-        pair=pair.astype(np.int32),
+        pair=pair,
         face=face,
         coordinate=coordinate,
         point_of_pair=pairs // numbers.size,
@@ -82,9 +85,8 @@ def _points(table: Table, points: StressPoints) -> NDArray[np.int32]:
     there = set(names)
     absent = [name for name in points.name if name not in there]
     if absent and "point" not in table.spoilt:
-        what = (
-            f"{len(absent)} points have no stress: {few(absent)}" if len(absent) > 1 else f"{absent[0]} has no stress"
-        )
+        count = f"{len(absent)} points: " if len(absent) > 1 else ""
+        what = f"no stress is given at {count}{few(absent)}"
         remedy = f"Add its rows, or remove it from {points.file}"
         table.problems.append(Problem("missing_id", table.where("point"), what, remedy))
     number = {name: i for i, name in enumerate(points.name)}
@@ -154,8 +156,8 @@ def _of_modes(
 def _refuse_incomplete(table: Table, rows: Rows, coordinates: Coordinates) -> None:
     """Refuse a table with a (point, read-out, coordinate, surface) that is missing or there twice."""
     shape = (rows.point_of_pair.size, 2, len(coordinates))
-    key = (rows.pair.astype(np.int64) * 2 + rows.face) * shape[2] + rows.coordinate
-    counts = np.bincount(key[rows.used], minlength=shape[0] * shape[1] * shape[2]).reshape(shape)
+    key = (rows.pair * np.int64(2) + rows.face) * shape[2] + rows.coordinate
+    counts = np.bincount(key if rows.used.all() else key[rows.used], minlength=int(np.prod(shape))).reshape(shape)
     if counts.max(initial=0) > 1:
         again = np.flatnonzero(rows.used & (counts.ravel()[key] > 1))
         row = _first_repeat(key, again)
@@ -169,7 +171,8 @@ def _refuse_incomplete(table: Table, rows: Rows, coordinates: Coordinates) -> No
         pair, face, coordinate = missing[0]
         at = _slot(rows, coordinates, (pair * 2 + face) * shape[2] + coordinate)
         points = np.unique(rows.point_of_pair[missing[:, 0]]).size
-        what = f"no stress is given ({len(missing)} such rows are missing, at {points} point{'s' * (points > 1)})"
+        rows_missing = "1 such row is" if len(missing) == 1 else f"{len(missing)} such rows are"
+        what = f"no stress is given ({rows_missing} missing, at {points} point{'s' * (points > 1)})"
         remedy = "Write the stress of every point, read-out, mode, unit load and surface, zeros too"
         table.problems.append(Problem("missing_row", f"{table.path.name}: {at}", what, remedy))
     table.refuse()

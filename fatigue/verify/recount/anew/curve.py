@@ -1,6 +1,6 @@
 """The S-N curve of a weld once more, from the case text and from constants copied here a second time."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -32,6 +32,28 @@ class Given:
     thickness_exponent: float
 
 
+@dataclass(frozen=True, slots=True)
+class Allowed:
+    """What a curve allows for beside its thickness rule, by default nothing.
+
+    Attributes
+    ----------
+    on_range : partial factors and those of the table of strength factors, on every range
+    half_attachment : half the length of the attachment is the thickness where it is the smaller one
+    bending : reference thickness [mm] and exponent of the allowance for bending of BS 7608; None: there is none
+    ratio_at_0 : f(R) at R = 0 between its plateaus; None: high residual stress, where it is 1
+    own_limit : damage limit of the curve; None: that of the mission
+    on_limit : factor of the table on the damage limit
+    """
+
+    on_range: float = 1.0
+    half_attachment: bool = False
+    bending: tuple[float, float] | None = None
+    ratio_at_0: float | None = None
+    own_limit: float | None = None
+    on_limit: float = 1.0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountCurve:
     """A curve in log-log axes: slope of each segment and one point (ln cycles, ln range) on it, ranges at the knees.
@@ -48,6 +70,12 @@ class RecountCurve:
     thickness_reference: float | None
     thickness_exponent: float
     thickness_limits: tuple[float, float]
+    allowed: Allowed = Allowed()
+
+    def limit(self, mission: Mapping[str, Any]) -> float:
+        """Largest Miner sum allowed on this curve."""
+        own = self.allowed.own_limit
+        return float((mission.get("damage_limit", 1.0) if own is None else own) * self.allowed.on_limit)
 
     @property
     def is_straight(self) -> bool:
@@ -83,7 +111,22 @@ class RecountCurve:
 
     def bending_factor(self, r: Floats) -> Floats:
         """Divisor of the range for each bending ratio."""
+        if self.allowed.bending is not None:
+            return np.asarray(1.0 + 0.18 * r**1.4)  # BS 7608
         return ratio_factor(r) if self.on_equivalent else np.ones_like(r)
+
+    def stress_ratio_factor(self, a: Floats, b: Floats) -> Floats:
+        """f(R) of IIW, the divisor of the range of each cycle between two stresses, by their mean over amplitude.
+
+        R = (kappa - 1) / (kappa + 1), so that neither compression nor a maximum of 0 is a case of its own.
+        """
+        if self.allowed.ratio_at_0 is None:
+            return np.ones_like(a)
+        low, high = np.minimum(a, b), np.maximum(a, b)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            kappa = (low + high) / (high - low)
+            R = np.where(kappa > 0.0, 1.0 - 2.0 / (kappa + 1.0), -1.0)
+        return np.asarray(np.clip(self.allowed.ratio_at_0 - 0.4 * R, 1.0, self.allowed.ratio_at_0 + 0.4))
 
     def convex_damage(self, x: Floats) -> Floats:
         """Damage that is convex in the range and nowhere below that of the curve: its first slope for all ranges.
@@ -97,17 +140,25 @@ class RecountCurve:
         ]
         return straight[0] if steepens else np.max(straight, axis=0)
 
-    def size_factor(self, thickness: float) -> float:
-        """Factor of the plate thickness [mm] on the range."""
+    def size_factor(self, thickness: float, attachment: float = np.inf) -> float:
+        """Factor on every range: of the plate thickness [mm], an attachment of some length [mm] on it, and the rest."""
+        factor = self.allowed.on_range
+        if self.allowed.bending is not None:
+            reference, exponent = self.allowed.bending
+            factor *= (thickness / reference) ** exponent
         if self.on_equivalent:
-            return float(np.clip(thickness, *self.thickness_limits) ** (2.0 / 9.0))
+            return float(factor * np.clip(thickness, *self.thickness_limits) ** (2.0 / 9.0))
+        if self.allowed.half_attachment and attachment < 2.0 * thickness:
+            thickness = attachment / 2.0
         if self.thickness_reference is None or thickness <= self.thickness_reference:
-            return 1.0
-        return float((thickness / self.thickness_reference) ** self.thickness_exponent)
+            return float(factor)
+        return float(factor * (thickness / self.thickness_reference) ** self.thickness_exponent)
 
 
-def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> RecountCurve:
-    """Curve as the case asks for it.
+def curve_named(
+    name: str, case: Mapping[str, Any], record: Mapping[str, Any], factors: Sequence[Mapping[str, Any]] = ()
+) -> RecountCurve:
+    """Curve as the case asks for it, with the rows of its table of strength ``factors``.
 
     Master curves come from this module, curves of the case from its text; what else the catalogue holds is taken from
     the provenance, which lists slopes, knees and ranges.
@@ -124,7 +175,7 @@ def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -
     level = asked.get("survival", "mean-2sigma") if len(given.ranges) > 1 else next(iter(given.ranges))
     points, knees = _through(given.ranges[level], given.reference_cycles, given.slopes, given.knees_cycles)
     slopes, cutoff = given.slopes, knees[-1] if len(knees) == len(given.slopes) else 0.0
-    extension = asked.get("extension", "none")
+    extension = asked.get("extension", "none") if not given.knees_cycles else "none"
     if extension != "none":  # of a curve of one slope: the others are refused
         (k,), ((log_n, log_s),) = slopes, points
         log_knee = np.log(asked.get("knee_cycles", 1e7))
@@ -143,6 +194,33 @@ def curve_named(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -
         thickness_reference=given.thickness_reference,
         thickness_exponent=given.thickness_exponent,
         thickness_limits=(16.0, 150.0) if asked.get("thickness_rule", "actual") == "asme" else (0.0, np.inf),
+        allowed=_allowed(own or {}, [row for row in factors if row["curve"] == name]),
+    )
+
+
+def origin_of(name: str, case: Mapping[str, Any], record: Mapping[str, Any]) -> tuple[str, str]:
+    """Status and edition of a curve: of the case by its text, else as the provenance lists it."""
+    own = case.get("curves", {}).get(name)
+    if own is None:
+        listed = record["curves"][name]
+        return str(listed.get("status", "")), str(listed.get("edition", ""))
+    return own.get("status", "user"), own.get("edition", "")
+
+
+def _allowed(own: Mapping[str, Any], factors: Sequence[Mapping[str, Any]]) -> Allowed:
+    """Allowances of a curve of the case, and what the rows of its table make of ranges and limit."""
+    of_role = {
+        role: float(np.prod([row["value"] for row in factors if row["role"] == role]))
+        for role in ("stress", "strength", "limit")
+    }
+    bends = own.get("bending_factor", "none") == "bs7608"
+    return Allowed(
+        on_range=own.get("gamma_Ff", 1.0) * own.get("gamma_Mf", 1.0) * of_role["stress"] / of_role["strength"],
+        half_attachment=own.get("thickness_effective", "t") == "L_half",
+        bending=(own["bending_reference_mm"], own["bending_exponent"]) if bends else None,
+        ratio_at_0={"iiw_low": 1.2, "iiw_medium": 0.9}.get(own.get("mean_stress", "none")),
+        own_limit=own.get("damage_limit"),
+        on_limit=of_role["limit"],
     )
 
 

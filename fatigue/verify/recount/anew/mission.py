@@ -38,7 +38,7 @@ def point_values(
     ``raw_damage`` is the damage of one pass of each event without end treatment.
     """
     weights = np.array([event.passes_per_km for event in events])
-    limit, target = mission.get("damage_limit", 1.0), mission["target_km"]
+    limit, target = curve.limit(mission), mission["target_km"]
     per_pass = {key: np.array([p.quantities[key] for p in passes], dtype=float) for key in passes[0].quantities}
 
     share = weights * per_pass["damage_per_pass"]

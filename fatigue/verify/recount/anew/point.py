@@ -32,10 +32,10 @@ NEGLIGIBLE_OUTSIDE = 1e-4  # of the variance above the upper frequency: not coun
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountPoint:
-    """Stress per unit modal coordinate at one face, (m,) each [MPa], the curve there and the plate thickness [mm].
+    """Stress per unit modal coordinate at one face, (m,) each [MPa], the curve there and the plate.
 
     ``membrane`` and ``bending`` of this face, ``in_plane`` and ``twist`` shear likewise; ``largest`` stress anywhere
-    along the line.
+    along the line. ``thickness`` of the plate and length of the ``attachment`` on it are in mm.
     """
 
     membrane: Floats
@@ -45,6 +45,12 @@ class RecountPoint:
     largest: Floats
     curve: RecountCurve
     thickness: float
+    attachment: float = np.inf
+
+    @property
+    def size(self) -> float:
+        """Factor of plate, attachment and curve on every range."""
+        return self.curve.size_factor(self.thickness, self.attachment)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +74,9 @@ class OnePass:
     turns: Turns | None = None
 
 
-def point_of(components: Floats, largest: Floats, surface: str, curve: RecountCurve, thickness: float) -> RecountPoint:
+def point_of(
+    components: Floats, largest: Floats, surface: str, curve: RecountCurve, thickness: float, attachment: float = np.inf
+) -> RecountPoint:
     """One face of a station, whose five stress components are (m, 5); ``largest`` along its line, (m,)."""
     side = 1.0 if surface == "top" else -1.0
     return RecountPoint(
@@ -79,6 +87,7 @@ def point_of(components: Floats, largest: Floats, surface: str, curve: RecountCu
         largest,
         curve,
         thickness,
+        attachment,
     )
 
 
@@ -89,7 +98,7 @@ def one_pass(
 
     ``event`` is its number where its passes are counted in a row with others.
     """
-    curve, size = point.curve, point.curve.size_factor(point.thickness)
+    curve, size = point.curve, point.size
     modal_stress = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist])
     kept = _stress(modal_stress, record.kept)
     s = kept if record.counted is record.kept else _stress(modal_stress, record.counted)
@@ -109,7 +118,7 @@ def one_pass(
     rows["mean_MPa"] += level
     a, b = s[cycles.start] + level, s[cycles.end] + level
     f_M = mean_stress.factor(a, b)
-    x = S * size / curve.bending_factor(rows["bending_ratio"])
+    x = S * size / curve.bending_factor(rows["bending_ratio"]) / curve.stress_ratio_factor(a, b)
     dS = x / f_M if mean_stress.counts else x
     damage = float(n @ curve.damage(dS))
     largest = int(np.argmax(S)) if len(S) else None

@@ -132,7 +132,7 @@ def point_bounds(
     values : the columns of the point
     mission : ``target_km``, ``km_per_year`` and, where it is not 1, ``damage_limit``
     """
-    limit, target, k = mission.get("damage_limit", 1.0), mission["target_km"], curve.slopes[0]
+    limit, target, k = curve.limit(mission), mission["target_km"], curve.slopes[0]
     of = {name: np.array([bounds[name] for bounds in passes]) for name in passes[0]}
 
     def summed(name: str) -> float:

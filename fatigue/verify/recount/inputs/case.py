@@ -60,6 +60,16 @@ def open_inputs(record: Mapping[str, Any], result: Path, case_file: Path | None)
     return RecountInputs(case, folder, weld_entries(case, folder, welds))
 
 
+def strength_factors(inputs: RecountInputs) -> list[dict[str, Any]]:
+    """Rows of the table of factors on S-N curves; none where the case has no such table."""
+    file = inputs.case.get("checks", {}).get("strength_factors")
+    if file is None:
+        return []
+    frame = read_frame(inputs.folder / file)
+    names = zip(texts(frame, "curve"), texts(frame, "role"), column(frame, "value").tolist(), strict=True)
+    return [{"curve": curve, "role": role, "value": value} for curve, role, value in names]
+
+
 def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
     """Problem of every input that is no longer what it was."""
     for known in record["inputs"]:

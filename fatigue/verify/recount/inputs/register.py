@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 from unicodedata import normalize
@@ -12,7 +12,8 @@ import pandas as pd
 
 from fatigue.verify.recount.inputs.dialect import read_texts
 
-TEXTS = ("weld", "line", "status", "reason", "confirmed", "surface", "curve", "description")
+QUALITY = ("joint_type", "performance_class", "inspection_class")
+TEXTS = ("weld", "line", "status", "reason", "confirmed", "surface", "curve", "description", *QUALITY)
 YES = ("true", "1", "yes", "wahr", "ja", "vrai", "oui")
 
 
@@ -20,6 +21,8 @@ YES = ("true", "1", "yes", "wahr", "ja", "vrai", "oui")
 class WeldEntry:
     """One weld as it is to be assessed.
 
+    ``attachment`` [mm] is the length of what it attaches, NaN where nothing is said; ``curve_shear`` that of its shear,
+    ``quality`` what is given of its quality, by column.
     ``sources`` are its names in the tables, more than one where lines were joined; ``surface`` and ``curve`` are empty
     and ``end_length`` [mm] is NaN where nothing is said; ``thickness`` [mm] by source, where the user has confirmed it.
     """
@@ -31,6 +34,9 @@ class WeldEntry:
     curve: str
     end_length: float
     thickness: Mapping[str, float]
+    curve_shear: str = ""
+    attachment: float = np.nan
+    quality: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +96,9 @@ def _of_table(row: Mapping[str, Any]) -> WeldEntry:
         curve=text("curve"),
         end_length=float(end_length),
         thickness={},
+        curve_shear=text("curve_shear"),
+        attachment=float(row.get("attachment_mm", np.nan)),
+        quality={name: text(name) for name in QUALITY},
     )
 
 
@@ -107,13 +116,16 @@ def _registered(entry: WeldEntry, rows: Sequence[Mapping[str, str]], is_converte
         curve=row.get("curve", "") or ("" if is_converted else entry.curve),
         end_length=float(end_length) if end_length else np.nan if is_converted else entry.end_length,
         thickness={entry.name: float(row["thickness_mm"])} if confirmed and one else {},
+        curve_shear=entry.curve_shear,
+        attachment=entry.attachment,
+        quality={name: next(filter(None, (r.get(name, "") for r in rows)), entry.quality[name]) for name in QUALITY},
     )
 
 
 def _with(a: WeldEntry, b: WeldEntry) -> WeldEntry:
     """One weld of two lines of one name."""
     thickness = {**a.thickness, **b.thickness}
-    return WeldEntry(a.name, a.sources + b.sources, False, a.surface, a.curve, a.end_length, thickness)
+    return replace(a, sources=a.sources + b.sources, closed=False, thickness=thickness)
 
 
 def _rows(path: Path) -> list[dict[str, str]]:

@@ -14,7 +14,9 @@ from fatigue.verify.recount.inputs.dialect import read_texts
 
 FORCE_COLUMNS = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
 IDS = ("mode", "node", "order", "element")
-TEXTS = ("weld", "unit_load", "surface", "curve", "kind", "description", "closed", "edge_mid")
+TEXTS = ("weld", "unit_load", "surface", "curve", "kind", "description", "closed", "edge_mid", "curve_shear",
+         "curve_root", "joint", "sides", "lever", "point", "planes", "case", "group", "line", "component", "role",
+         "joint_type", "performance_class", "inspection_class")  # fmt: skip
 _ROWS_AT_ONCE = 1 << 16
 _BYTES_AT_ONCE = 1 << 20  # of each column, so that a file of one row group is not read as a whole
 

@@ -13,7 +13,8 @@ from fatigue.results import TABLES
 
 TOLERANCE = 1e-6  # two programs written apart agree to this
 LOAD_FACTOR_STEP = 2e-4  # below the largest factor that meets the target, where damage jumps or bends with the load
-UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa"}
+UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MPa", "multiaxial_bound",
+                "utilisation_asme"}  # fmt: skip
 OF_SPECTRUM = {"irregularity", "outside_share", "peaks_per_s", "samples_per_peak"}  # exact where bounds stand, too
 INVERSE = {"life_km", "life_years", "life_km_raw_end", "life_km_dirlik", "life_km_tb", "life_km_same_ratio",
            "load_factor"}  # fmt: skip

@@ -25,13 +25,20 @@ _NOT_COLUMNS = {"power_sum", "R_largest", "with_mean_stress", "with_shear", "she
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecountWeld:
-    """A weld of the case: its row in the weld table, its parts, its curve and the faces that carry a toe."""
+    """A weld of the case: its row in the weld table, its parts, its curve and the faces that carry a toe.
+
+    ``attachment`` is the length of what it attaches [mm], infinite where nothing is said; ``limit`` is the largest
+    Miner sum allowed, ``origin`` status and edition of the curve.
+    """
 
     given: Mapping[str, Any]
     parts: tuple[RecountLineStress, ...]
     curve_name: str
     curve: RecountCurve
     toes: tuple[str, ...]
+    attachment: float = np.inf
+    limit: float = 1.0
+    origin: tuple[str, str] = ("", "")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,6 +72,7 @@ def node_row(
     size = float(np.abs(line.xyz).max() + np.ptp(line.xyz, axis=0).max())
     geometry = {
         "node": int(line.node[at]),
+        "curve_status": station.weld.origin[0],
         "toe": key[3] in station.weld.toes,
         "arc_length_mm": float(solved.arc_length[at]),
         "x_mm": x,
@@ -158,10 +166,14 @@ def weld_row(
     recounted: Mapping[Key, Values],
     bounds: Mapping[Key, Bounds],
     found: Mapping[str, Any],
+    of_checks: Mapping[str, Any],
     *,
     all_counted: bool,
 ) -> Row:
-    """Row of a weld: the worst of its recounted toe points decides; proven to be it where all points were counted."""
+    """Row of a weld: the worst of its recounted toe points decides; proven to be it where all points were counted.
+
+    ``of_checks`` are further columns, and whether a check fails that counts.
+    """
     parts = [solved.line for solved in weld.parts]
     lives = {key: values for key, values in recounted.items() if key[3] in weld.toes}
     stored: Key = (parts[0].weld, found["worst_part"], found["worst_order"], found["worst_surface"])
@@ -183,7 +195,11 @@ def weld_row(
         "thickness_max_mm": float(thickness.max()),
         "surface": weld.given["surface"],
         "curve": weld.curve_name,
+        "curve_status": weld.origin[0],
+        "edition": weld.origin[1],
         "end_length_mm": np.nan if end_length is None else end_length,
+        "attachment_mm": np.nan if np.isinf(weld.attachment) else weld.attachment,
+        "damage_limit": weld.limit,
         **{name: worst[name] for name in ("life_km", "life_years", "utilisation", "fulfilled")},
         **({"worst_is_proven": True} if all_counted else {}),
         "worst_part": stored[1],
@@ -193,7 +209,9 @@ def weld_row(
         "worst_arc_length_mm": float(solved.arc_length[at]),
         "worst_summed_corner": bool(solved.summed_corner[at]),
         "governing_event": worst["governing_event"],
+        **of_checks,
     }
+    expected["fulfilled"] &= not expected.pop("a check fails")
     scale = {"worst_arc_length_mm": expected["length_mm"]}
     return Row(f"weld {stored[0]}", found, expected, scale, bounds=bounds[stored])
 

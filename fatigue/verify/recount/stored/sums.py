@@ -17,6 +17,7 @@ from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.spectral import NEARLY_ALL
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.stored.compare import TOLERANCE, ColumnCheck, merged
+from fatigue.verify.recount.stored.decisive import failed_by_checks
 from fatigue.verify.recount.stored.histogram import KINDS as HISTOGRAM_KINDS
 from fatigue.verify.recount.stored.rows import place
 from fatigue.verify.recount.stored.runs import StoredRuns
@@ -32,6 +33,9 @@ _NODES = ("damage_per_km", "life_km", "life_years", "utilisation", "fulfilled", 
           "life_km_same_ratio", "dirlik_ratio", "max_range_MPa", "governing_event", *OF_GOVERNING)  # fmt: skip
 _DAMAGE = (*(f"{name}_{per}" for name in PER_PASS for per in ("per_pass", "per_km")), "max_range_MPa", *OF_GOVERNING)
 _ROWS_AT_ONCE = 1 << 18  # of the table of points and events
+
+
+_SUMS = {"asme": "utilisation_asme", **{one: f"utilisation_path_{one}" for one in ("range", "length", "mlp")}}
 
 
 class Sum(NamedTuple):
@@ -72,7 +76,7 @@ def _sums(stored: Stored, case: Mapping[str, Any], events: Sequence[RecountEvent
     yield from _of_cycles(stored, len(events))
     if stored.histogram is not None:
         yield from _of_histograms(stored, stored.histogram, len(events))
-    yield from _of_welds(stored)
+    yield from _of_welds(stored, case)
     yield _smallest_load_factors(stored, toes_and_utilisation(stored)[0])
 
 
@@ -82,7 +86,8 @@ def _of_points(
     """Columns of points as the columns of their events make them, and numbers per km as numbers per pass do."""
     e = len(events)
     keys = (points[:, None] * e + np.arange(e)).ravel()
-    node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), _NODES))
+    sums = [name for method, name in _SUMS.items() if case.get("multiaxial", {}).get("method") == method]
+    node = _columns(read_rows(stored.folder, "nodes", stored.nodes.of(points), [*_NODES, *sums]))
     damage = {
         name: column.reshape(-1, e)
         for name, column in _columns(read_rows(stored.folder, "damage", stored.damage.of(keys), _DAMAGE)).items()
@@ -93,9 +98,11 @@ def _of_points(
         yield Sum("damage", f"{name}_per_km", damage[f"{name}_per_km"].ravel(), per_km.ravel(), keys)
 
     mission, weight = case["mission"], np.array([event.passes_per_km for event in events])
-    limit, target = mission.get("damage_limit", 1.0), mission["target_km"]
+    limit, target = limits(stored, mission)[points // 2], mission["target_km"]
     share = weight * damage["damage_per_pass"]
-    total, has_spectrum = share.sum(axis=1), ~np.isnan(damage["damage_dirlik_per_pass"])
+    method = case.get("multiaxial", {}).get("method", "report")
+    by_method = node[_SUMS[method]] * limit / target if method in _SUMS else np.full(len(points), np.nan)
+    total, has_spectrum = np.fmax(share.sum(axis=1), by_method), ~np.isnan(damage["damage_dirlik_per_pass"])
     spectral = {
         name: np.where(
             has_spectrum.any(axis=1),
@@ -127,6 +134,15 @@ def _of_points(
     yield Sum("nodes", "governing_event", share[named, at], share[named].max(axis=1, initial=0.0), points[named])
     for name in OF_GOVERNING:
         yield Sum("nodes", name, node[name][named], damage[name][named, at], points[named])
+
+
+def limits(stored: Stored, mission: Mapping[str, Any]) -> Floats:
+    """Largest Miner sum allowed at every station, by the curve of its weld."""
+    of_mission = mission.get("damage_limit", 1.0)
+    if "damage_limit" not in stored.welds:
+        return np.full(len(stored.body), of_mission, dtype=np.float64)
+    of_welds = stored.welds["damage_limit"].loc[list(stored.body.welds)].fillna(of_mission).to_numpy(float)
+    return np.asarray(of_welds[stored.body.weld])
 
 
 def _of_cycles(stored: Stored, events: int) -> Iterator[Sum]:
@@ -162,15 +178,20 @@ def _of_histograms(stored: Stored, histogram: StoredRuns, events: int) -> Iterat
             yield Sum("histogram", "count_per_pass", np.bincount(which, of_run), cycles, keys)
 
 
-def _of_welds(stored: Stored) -> Iterator[Sum]:
-    """Row of a weld as the row of its worst point makes it, which no counted point of a toe exceeds."""
+def _of_welds(stored: Stored, case: Mapping[str, Any]) -> Iterator[Sum]:
+    """Row of a weld as the row of its worst point makes it, which no counted point of a toe exceeds.
+
+    Its verdict is that of the point unless a check that counts has failed.
+    """
     welds = stored.welds.loc[list(stored.body.welds)]
     number = np.arange(len(welds))
     point = worst_of_welds(stored, number)
     there = point >= 0
     table = read_rows(stored.folder, "nodes", stored.nodes.of(point[there]), OF_WORST)
+    failed = welds.index.isin(failed_by_checks(stored.folder, case))[there]
     for name, values in _columns(table).items():
-        yield Sum("welds", name, welds[name].to_numpy()[there], values, number[there])
+        expected = values & ~failed if name == "fulfilled" else values
+        yield Sum("welds", name, welds[name].to_numpy()[there], expected, number[there])
     toe, utilisation = toes_and_utilisation(stored)
     toe &= is_counted(stored)
     worst = worst_points(stored.body, toe, utilisation)

@@ -26,8 +26,8 @@ HISTOGRAM_FROM = 0.1  # of the damage limit: a counted toe point has a histogram
 class Stored:
     """The tables of a result: where the rows of points, stations and cycles are, and the small table of welds.
 
-    ``welds`` are the rows of the welds that were assessed, ``left_out`` the others. ``histogram`` is None where the
-    result has no such table.
+    ``welds`` are the rows of the welds that were assessed, ``left_out`` the others. ``histogram`` and ``path_cycles``
+    are None where the result has no such table.
     """
 
     folder: Path
@@ -37,6 +37,7 @@ class Stored:
     stress: RowPlaces
     cycles: StoredRuns
     histogram: StoredRuns | None
+    path_cycles: StoredRuns | None
     welds: pd.DataFrame
     left_out: pd.DataFrame
 
@@ -45,7 +46,7 @@ class Stored:
         """Checks that every table has the rows it should have."""
         checks = [self.nodes.check, self.damage.check, self.stress.check]
         checks.append(compare_keys("welds", self.welds.index, list(self.body.welds)))
-        runs = [self.cycles] if self.histogram is None else [self.cycles, self.histogram]
+        runs = [run for run in (self.cycles, self.histogram, self.path_cycles) if run is not None]
         return [*checks, *(run.strangers for run in runs if not run.strangers.passed)]
 
 
@@ -74,6 +75,7 @@ def open_tables(
         ),
         cycles=find_runs(folder, "cycles", body, events),
         histogram=find_runs(folder, "histogram", body, events) if has_histogram(record) else None,
+        path_cycles=find_runs(folder, "path_cycles", body, events) if has_paths(record) else None,
         welds=welds[is_assessed],
         left_out=welds[~is_assessed],
     )
@@ -153,6 +155,11 @@ def fastest_peaks(folder: Path, inputs: RecountInputs, events: Sequence[str]) ->
 def has_histogram(record: Mapping[str, Any]) -> bool:
     """Whether a result has a table of classes of ranges; older ones have not."""
     return str(record["rules"].get("histogram", "none")) != "none"
+
+
+def has_paths(record: Mapping[str, Any]) -> bool:
+    """Whether a result has a table of half cycles of paths: where shear is looked at."""
+    return str(record["rules"].get("multiaxial", {}).get("method", "off")) != "off"
 
 
 def with_histogram(stored: Stored, record: Mapping[str, Any], toe: NDArray[np.bool_]) -> frozenset[int]:

@@ -25,6 +25,7 @@ THROATS = {
     "root_y_mm": [None, None, -1.0],
     "root_z_mm": [None, None, 3.0],
     "lever": ["t", None, None],
+    "combination": ["path", None, "direction"],
     "curve": ["c36", "c36", "c40"],
     "curve_shear": ["c80", "c80", "c80"],
     "curve_root": [None, "master-steel", None],
@@ -40,6 +41,7 @@ def test_throats(tmp_path, suffix):
     nan = pytest.approx(np.nan, nan_ok=True)
     web = throats["web"]
     assert (web.joint, web.sides, web.lever, web.curve_root) == ("tee", ("top", "bottom"), "t", None)
+    assert [one.combination for one in throats.values()] == ["path", "direction", "direction"]
     assert (web.throat, web.penetration, web.line_offset, web.angle_deg) == (4.0, 1.0, -5.0, nan)
     lap = throats["lap"]
     assert (lap.sides, lap.penetration, lap.lever, lap.curve_root) == (("bottom",), 0.0, "throats", "master-steel")
@@ -70,6 +72,7 @@ def test_sections_are_those_of_the_joint(tmp_path):
         (changed(THROATS, "joint", 1, "butt"), "column joint, row 1: 'butt' is not one of tee, lap, custom."),
         (changed(THROATS, "sides", 1, "left"), "column sides, row 1: 'left' is not one of both, top, bottom."),
         (changed(THROATS, "sides", 2, "both"), "column sides, row 2: both does not go with joint lap"),
+        (changed(THROATS, "combination", 1, "sum"), "column combination, row 1: 'sum' is not one of direction, path."),
         (changed(THROATS, "lever", 2, "t"), "column lever, row 2: the lever t does not go with a weld on one side"),
         (changed(THROATS, "throat_mm", 2, 0.5), "column throat_mm, row 2: 0.5 is below 1. Give at least 1."),
         (changed(THROATS, "throat_mm", 2, None), "column throat_mm, row 2: the value is missing or NaN."),
@@ -131,6 +134,7 @@ def one(**changes):
         "root_y": np.nan,
         "root_z": np.nan,
         "lever": "throats",
+        "combination": "direction",
         "curve": "c36",
         "curve_shear": "c80",
         "curve_root": None,

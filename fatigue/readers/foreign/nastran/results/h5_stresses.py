@@ -80,7 +80,7 @@ def _wanted_rows(path: Path, name: str, wanted: NDArray[np.int64]) -> NDArray[An
 
 def _block(where: str, domain: Any, kind: str, rows: NDArray[Any]) -> StressBlock:
     """Stresses of one mode and kind of element."""
-    shear = next(name for name in ("TXY", "XY", "T") if f"{name}1" in (rows.dtype.names or ()))
+    shear = next((name for name in ("XY", "T") if f"{name}1" in (rows.dtype.names or ())), "TXY")
     fibre = np.stack([rows["FD1"], rows["FD2"]], axis=-1)
     stress = np.stack([np.stack([rows[f"{c}{k}"] for c in ("X", "Y", shear)], axis=-1) for k in (1, 2)], axis=-2)
     node = np.zeros((len(rows), 1), np.int64)

@@ -25,7 +25,7 @@ def loop_pass(
     ``passes`` are those of all events by number, with their turning points.
     """
     turns = {event: one for event in order if (one := passes[event].turns) is not None}
-    net, curve, size = net_cycles(order, turns), point.curve, point.curve.size_factor(point.thickness)
+    net, curve, size = net_cycles(order, turns), point.curve, point.size
     n = net.count
     s = net.stress
     rows, f_M = cycles_between(net, net.start, net.end), mean_stress.factor(s[net.start], s[net.end])
@@ -92,7 +92,7 @@ def bound_per_km(
     Paired ranges are taken for pure membrane stress and on the first slope: the damage is convex in them then. Where
     the mean stress counts, each of them may reach up to the highest stress of all.
     """
-    curve, size = point.curve, point.curve.size_factor(point.thickness)
+    curve, size = point.curve, point.size
     residues, replaced = [], 0.0
     for event, per_km in stints.items():
         turns = passes[event].turns
@@ -113,4 +113,5 @@ def bound_per_km(
 
 def _equivalent(rows: Mapping[str, Floats], size: float, curve: RecountCurve) -> Floats:
     """Equivalent range of cycles without mean stress, (c,)."""
-    return np.asarray(rows["range_MPa"] * size / curve.bending_factor(rows["bending_ratio"]))
+    f_R = curve.stress_ratio_factor(*(rows["mean_MPa"] + sign * rows["range_MPa"] / 2.0 for sign in (-1.0, 1.0)))
+    return np.asarray(rows["range_MPa"] * size / curve.bending_factor(rows["bending_ratio"]) / f_R)

@@ -1,6 +1,6 @@
 """Curves as the provenance of a result records them, read back: what a result was computed with, without its case."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from fatigue.life.allowances import NOTHING, Allowances, bending_thickness
 from fatigue.life.curves import SNCurve, ThicknessRule
 from fatigue.life.rule import size_factor
-
-UNVERIFIED, USER = "unverified", "user"
 
 
 def recorded_curve(name: str, recorded: Mapping[str, Any]) -> SNCurve:
@@ -43,19 +41,3 @@ def recorded_size(
     curve = recorded_curve(name, recorded)
     of_plate = size_factor(thickness, curve, rule, attachment) * bending_thickness(thickness, curve.allowances)
     return of_plate * float(recorded["used"].get("factor_on_range", 1.0))
-
-
-def unverified_curves(record: Mapping[str, Any]) -> list[str]:
-    """Names of the curves of a result whose numbers nobody has compared with a source."""
-    return [name for name, curve in record["curves"].items() if curve.get("status") == UNVERIFIED]
-
-
-def entered_curves(record: Mapping[str, Any]) -> list[str]:
-    """Names of the curves of a result whose numbers the user has entered."""
-    return [name for name, curve in record["curves"].items() if curve.get("status") == USER]
-
-
-def rest_on(curves: Sequence[str], of_welds: Mapping[str, Sequence[str]]) -> list[str]:
-    """Those of some welds that rest on any of the curves, from the names of the curves of each."""
-    some = set(curves)
-    return [weld for weld, own in of_welds.items() if some.intersection(own)]

@@ -1,0 +1,170 @@
+"""Columns of shear at a toe point: the passes of all events weighted with the mission, and what they amount to."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fatigue.verify.recount.anew.curve import RecountCurve
+from fatigue.verify.recount.anew.mission import RecountEvent
+from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values
+from fatigue.verify.recount.anew.record import RecountRecord
+from fatigue.verify.recount.anew.shear.passes import ShearPass
+
+PATHS = ("range", "length", "mlp")
+NO_SHEAR: Values = {
+    "shear_required": None,
+    "multiaxial_status": "",
+    "multiaxial_verdict": "",
+    **dict.fromkeys(("multiaxial_bound", "utilisation_asme", *(f"utilisation_path_{one}" for one in PATHS)), np.nan),
+    **dict.fromkeys(("path_factor_largest", "path_moment_largest"), np.nan),
+}
+EQUAL = 1.0 - 1e-9  # ranges that only rounding tells apart
+CLOSE = 1e-6  # to a limit: rounding decides on which side
+
+
+@dataclass(frozen=True, slots=True)
+class ShearExtent:
+    """One pass at a point: range of the normal stress and of the shear [MPa], and the length of their path [MPa]."""
+
+    normal: float
+    shear: float
+    length: float
+
+
+def shear_extent(point: RecountPoint, record: RecountRecord, beta: float) -> ShearExtent:
+    """How far and how long the path of a point is in one pass, closed where the record recurs."""
+    s, tau = (
+        record.factor * parts @ record.counted
+        for parts in (point.membrane + point.bending, point.in_plane + point.twist)
+    )
+    steps = [np.diff(np.append(x, x[0]) if record.recurs else x) for x in (s, tau)]
+    return ShearExtent(float(np.ptp(s)), float(np.ptp(tau)), float(np.sqrt(steps[0] ** 2 + beta * steps[1] ** 2).sum()))
+
+
+def path_bound(extent: ShearExtent, curve: RecountCurve, size: float, beta: float) -> float:
+    """Damage of a pass that half cycles by range cannot exceed: all of its length in cycles of the largest range."""
+    c = size / float(curve.bending_factor(np.zeros(1))[0])
+    largest = c * float(np.hypot(extent.normal, np.sqrt(beta) * extent.shear))
+    damage = float(curve.damage(np.array([largest]))[0])
+    return float(0.5 * c * extent.length * damage / largest) if largest > 0.0 else 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtPoint:
+    """What is known of a toe point: all passes by normal stress, how far each goes, and its paths where counted.
+
+    Attributes
+    ----------
+    point : its stresses and curve
+    passes, extents : of every event
+    paths : of every event; None where they were not counted again
+    stored_bound : bound in the table, from which follows what is settled where the paths were not counted
+    has_sums : whether the table has sums of the paths
+    """
+
+    point: RecountPoint
+    passes: Sequence[OnePass]
+    extents: Sequence[ShearExtent]
+    paths: Sequence[ShearPass] | None
+    stored_bound: float
+    has_sums: bool
+
+
+def shear_values(
+    of: AtPoint, normal: Values, events: Sequence[RecountEvent], mission: Mapping[str, Any], beta: float
+) -> Values:
+    """Columns of shear of a toe point whose columns by the normal stress are ``normal``.
+
+    The bound is that of the exact path; the stored one may be larger where the paths were not counted.
+    """
+    of_target: float = mission["target_km"] / of.point.curve.limit(mission)
+    weights = of_target * np.array([event.passes_per_km for event in events])
+    across = of_target * float(np.nan_to_num(normal["damage_per_km_transitions"]))
+    curve = of.point.curve
+    size = of.point.size
+
+    def summed(of_events: Sequence[float]) -> float:
+        return float(weights @ np.array(of_events)) + across
+
+    asme = summed([one.quantities["with_shear"] for one in of.passes])
+    bound = summed([path_bound(extent, curve, size, beta) for extent in of.extents])
+    largest = max(one.quantities["max_range_MPa"] for one in of.passes)
+    values = NO_SHEAR | {
+        "shear_required": bool(max(extent.shear for extent in of.extents) > largest / 3.0),
+        "utilisation_asme": asme,
+        "multiaxial_bound": bound,
+    }
+    if of.paths is None:
+        values["multiaxial_status"] = _status(normal["utilisation"], of.stored_bound, asme, np.nan)
+    else:
+        sums = (
+            [one.by_range for one in of.paths],
+            [one.by_length for one in of.paths],
+            [one.by_moment for one in of.paths],
+        )
+        values |= {f"utilisation_path_{name}": summed(each) for name, each in zip(PATHS, sums, strict=True)}
+        widest = [one for one in of.paths if one.range >= EQUAL * max(other.range for other in of.paths)]
+        values["path_factor_largest"] = max(one.factor for one in widest)
+        values["path_moment_largest"] = max(one.moment for one in widest)
+        values["multiaxial_bound"] = max(bound, values["utilisation_path_range"])  # nothing below would be a bound
+        top = summed([one.top_pair for one in of.paths])
+        values["multiaxial_status"] = _status(normal["utilisation"], bound, asme, top)
+    values["multiaxial_verdict"] = _verdict(values)
+    return values
+
+
+def shear_bounds(of: AtPoint, normal: Values, normal_bounds: Mapping[str, float], values: Values) -> dict[str, float]:
+    """What rounding may do to the columns of shear: what is close to a limit, or nothing but rounding, says nothing."""
+    names = ("multiaxial_bound", "utilisation_asme", *(f"utilisation_path_{one}" for one in PATHS))
+    sums = [normal["utilisation"], of.stored_bound, *(values[name] for name in names)]
+    is_close = any(abs(value - 1.0) <= CLOSE for value in sums if np.isfinite(value))
+    is_open = of.paths is None and of.has_sums and values["multiaxial_status"] in ("fails", "counted")
+    unsure = np.inf if is_close or is_open else 0.0
+    of_shear = abs(max(extent.shear for extent in of.extents) * 3.0 / (normal["max_range_MPa"] or 1.0) - 1.0)
+    return {
+        **dict.fromkeys(names, normal_bounds["utilisation"]),
+        "shear_required": np.inf if of_shear <= CLOSE or normal_bounds["shear_ratio"] == np.inf else 0.0,
+        "multiaxial_status": unsure,
+        "multiaxial_verdict": unsure,
+    }
+
+
+def decided(
+    values: Values, by_method: float, mission: Mapping[str, Any], curve: RecountCurve, *, scales: bool
+) -> Values:
+    """Columns of a toe point whose sum by the method that the case names is ``by_method``: the larger sum decides.
+
+    ``scales``: damage follows the load with one power, so that the load factor is known.
+    """
+    used = max(values["utilisation"], float(np.nan_to_num(by_method)))
+    changed: Values = {}
+    if used > values["utilisation"]:
+        limit = curve.limit(mission)
+        damage = used * limit / mission["target_km"]
+        changed = {"damage_per_km": damage, "life_km": limit / damage}
+        changed["life_years"] = changed["life_km"] / mission["km_per_year"]
+    load_factor = np.nan
+    if scales:
+        load_factor = used ** (-1.0 / curve.slopes[0]) if used > 0.0 else np.inf
+    return values | changed | {"utilisation": used, "fulfilled": used <= 1.0, "load_factor": load_factor}
+
+
+def _status(normal: float, bound: float, asme: float, top: float) -> str:
+    if normal > 1.0:
+        return "settled_fails"
+    if bound <= 1.0 and asme <= 1.0:
+        return "settled_passes"
+    return "fails" if top > 1.0 else "counted"
+
+
+def _verdict(values: Values) -> str:
+    """Verdict by what was counted, else by what settled it."""
+    status, by_range = values["multiaxial_status"], values["utilisation_path_range"]
+    if status == "settled_fails" or np.isnan(by_range):
+        return status if status in ("settled_fails", "settled_passes") else ""
+    others = [values[f"utilisation_path_{name}"] for name in PATHS[1:]] + [values["utilisation_asme"]]
+    if by_range > 1.0:
+        return "fails"
+    return "model_dependent" if any(value > 1.0 for value in others) else "passes"

@@ -1,0 +1,107 @@
+"""Shear at some points: the columns it has, and what a method that the case names makes of the others."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.verify.recount.anew.mission import RecountEvent
+from fatigue.verify.recount.anew.point import Values
+from fatigue.verify.recount.anew.rounding import Bounds
+from fatigue.verify.recount.anew.shear.columns import NO_SHEAR, AtPoint, decided, shear_bounds, shear_values
+from fatigue.verify.recount.counted import Passes, mean_stress_of, treated_point
+from fatigue.verify.recount.inputs.case import RecountInputs
+from fatigue.verify.recount.layout import Layout
+from fatigue.verify.recount.stored.rows import Station
+from fatigue.verify.recount.stored.shear import DECIDING, StoredShear
+
+PATH_SAMPLES = 1_000_000  # of paths that are counted where points are drawn: a minute or two
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sheared:
+    """Columns of shear of a point, what rounding may do to them, and whether its bound is that of its exact path."""
+
+    values: Values
+    bounds: Bounds
+    exact_bound: bool
+    toe: bool
+
+
+def paths_to_count(
+    shear: StoredShear | None, points: NDArray[np.int64], samples: int, *, everything: bool
+) -> frozenset[int]:
+    """Points whose paths are counted: those with half cycles in the table, then others with sums of their paths."""
+    if shear is None:
+        return frozenset()
+    some = [point for point in points.tolist() if point in shear.half_cycles]
+    some += [point for point in points.tolist() if shear.counted[point] and point not in shear.half_cycles]
+    return frozenset(some if everything else some[: max(2, PATH_SAMPLES // samples)])
+
+
+def shear_of(
+    inputs: RecountInputs,
+    body: Layout,
+    stations: Mapping[int, Station],
+    passes: Mapping[int, Passes],
+    events: Sequence[RecountEvent],
+    values: Mapping[int, Values],
+    bounds: Mapping[int, Bounds],
+    shear: StoredShear | None,
+) -> dict[int, Sheared]:
+    """Columns of shear of some points, whose columns by normal stress are ``values``; nothing without shear."""
+    if shear is None:
+        return {}
+    found, f_M = {}, mean_stress_of(inputs).counts
+    for point, station in stations.items():
+        of, surface = passes[point], body.key(point)[3]
+        if surface not in station.weld.toes:
+            found[point] = Sheared(NO_SHEAR, {}, exact_bound=False, toe=False)
+            continue
+        at = AtPoint(
+            point=treated_point(station, surface),
+            passes=of.treated[: len(of.extents)],
+            extents=of.extents,
+            paths=of.paths or None,
+            stored_bound=float(shear.bound[point]),
+            has_sums=bool(shear.counted[point]),
+        )
+        own = shear_values(at, values[point], events[: len(of.extents)], inputs.case["mission"], shear.rules.beta)
+        if f_M:  # of the bound it is only known that nothing may exceed it
+            own["multiaxial_bound"] = float(np.nan_to_num(own["utilisation_path_range"]))
+        proven = min(station.weld.curve.slopes) >= 1.0 and not f_M
+        found[point] = Sheared(
+            own,
+            shear_bounds(at, values[point], bounds[point], own),
+            exact_bound=at.paths is not None and proven,
+            toe=True,
+        )
+    return found
+
+
+def decided_by_method(
+    inputs: RecountInputs,
+    stations: Mapping[int, Station],
+    values: Mapping[int, Values],
+    sheared: Mapping[int, Sheared],
+    shear: StoredShear | None,
+) -> dict[int, Values]:
+    """Columns of some points by the larger one of two sums, where the case names the method of the other one.
+
+    Where the paths of a point were not counted again the sum in the table is believed.
+    """
+    if shear is None or shear.rules.method not in DECIDING:
+        return dict(values)
+    method, f_M = shear.rules.method, mean_stress_of(inputs).counts
+    name = f"utilisation_{method}" if method == "asme" else f"utilisation_path_{method}"
+    found = {}
+    for point, of in values.items():
+        own, curve = sheared[point], stations[point].weld.curve
+        by_method = float(own.values[name])
+        if np.isnan(by_method):
+            by_method = float(shear.by_method[point])
+        scales = curve.is_straight and not f_M
+        is_toe = own.toe
+        found[point] = decided(of, by_method, inputs.case["mission"], curve, scales=scales) if is_toe else of
+    return found
