@@ -30,7 +30,18 @@ PICTURE = "weld_lines.vtp"
 PAGE = "report.html"
 PRINT = "report.pdf"
 WORKBOOK = "nodes.xlsx"
-CSV_TABLES = ("nodes", "damage", "cycles", "welds", "histogram", *LOAD_SPECTRA, *BENCHED)
+CSV_TABLES = (
+    "nodes",
+    "damage",
+    "cycles",
+    "welds",
+    "histogram",
+    "sensitivity",
+    "checks",
+    "path_cycles",
+    *LOAD_SPECTRA,
+    *BENCHED,
+)
 DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
 MARK = "fatigue-result"  # before the hash in documents that are text; the name of a property in the workbook

@@ -11,6 +11,7 @@ from fatigue.report.figures.load_spectra import class_matrices, crossings_by_lev
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
 from fatigue.report.figures.records import stress_history, stress_spectrum
 from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
+from fatigue.report.figures.shear import shear_path
 from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
 from fatigue.report.figures.why import bands_of_welds, damage_by_band, damage_on_track
 
@@ -35,6 +36,7 @@ __all__ = [
     "ratio_histogram",
     "scene",
     "shares",
+    "shear_path",
     "sn_with_spectrum",
     "spectrum_exceedance",
     "stress_history",

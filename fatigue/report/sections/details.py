@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.life.records.history import stress_history
+from fatigue.life.records.spool import Spool
 from fatigue.readers.neutral.body.modes import vibration_hz
 from fatigue.report import stress
 from fatigue.report.inputs import FoundInputs
@@ -30,7 +32,8 @@ class Detail:
     """Everything recovered for one weld; empty where the weld does no damage or the inputs are gone.
 
     ``deviation`` is the standard deviation of each stress component along the line [MPa], ``variance_share`` the
-    share of each mode in the variance of the worst point's stress, both in the governing event.
+    share of each mode in the variance of the worst point's stress, both in the governing event. ``path`` (2, t) is
+    the normal stress and the shear of the worst point there, from their means [MPa], where the model of shear decides.
     """
 
     spectra: list[StressSpectrum] = field(default_factory=list)
@@ -38,6 +41,7 @@ class Detail:
     excerpts: list[Excerpt] = field(default_factory=list)
     deviation: dict[str, NDArray[np.float64]] = field(default_factory=dict)
     variance_share: NDArray[np.float64] | None = None
+    path: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,12 +49,13 @@ class _DetailedWeld:
     """A weld while its details are gathered.
 
     ``worst`` (m,) is the stress of its worst point per unit modal coordinate, ``stations`` (n, m) are the components at
-    all its stations; ``largest`` are the instants of the most damaging cycle of its worst point in that event [s], None
-    where its cycles are not kept.
+    all its stations; ``shear`` (m,) is the shear there where the path of both is drawn; ``largest`` are the instants of
+    the most damaging cycle of its worst point in that event [s], None where its cycles are not kept.
     """
 
     worst: NDArray[np.float64]
     stations: Mapping[str, NDArray[np.float64]]
+    shear: NDArray[np.float64] | None
     governing_event: str | None
     largest: tuple[float, float] | None
 
@@ -100,25 +105,36 @@ def _add_records(detail: Detail, record: EventRecord, weld: _DetailedWeld) -> No
     detail.variance_share = stress.variance_shares(record, weld.worst)
     detail.envelope = stress.envelope(record, weld.worst)
     dominant = np.argsort(-np.abs(detail.variance_share), kind="stable")[: stress.DOMINANT_MODES]
+    if weld.shear is not None and not isinstance(record.history.q, Spool):
+        both = stress_history(record.stress_factor * np.stack([weld.worst, weld.shear]), record.history.q)
+        detail.path = both - both.mean(axis=1, keepdims=True)
     if weld.largest is not None:
         detail.excerpts = stress.excerpts(record, weld.worst, *weld.largest, dominant.tolist())
 
 
 def _welds(result: ShownResult) -> dict[str, _DetailedWeld]:
     governing = _leading_events(result)
+    twist = result.modal_stress(["twist_shear_MPa"]) if _shows_a_path(result) else {}
     welds = {}
     for name, (stations, modal_stress) in result.modal_stress(list(COMPONENTS.values())).items():
         components = dict(zip(COMPONENTS, modal_stress, strict=True))
         point = result.worst(name)
         at = int(((stations["part"] == point["part"]) & (stations["order"] == point["order"])).argmax())
         sign = 1.0 if point["surface"] == "top" else -1.0
+        by_model = name in twist and point["multiaxial_verdict"] == "model_dependent"
         welds[name] = _DetailedWeld(
             worst=components["membrane"][at] + sign * components["bending"][at],
             stations=components,
+            shear=components["in-plane shear"][at] + sign * twist[name][1][0][at] if by_model else None,
             governing_event=governing[name],
             largest=_largest(result.cycles(name, _OF_LARGEST), governing[name]),
         )
     return {name: welds[name] for name in result.detailed}
+
+
+def _shows_a_path(result: ShownResult) -> bool:
+    """Whether the worst point of any detailed weld passes by one model of shear and fails by another."""
+    return any(result.worst(weld).get("multiaxial_verdict") == "model_dependent" for weld in result.detailed)
 
 
 def _leading_events(result: ShownResult) -> dict[str, str | None]:

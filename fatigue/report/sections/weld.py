@@ -6,6 +6,7 @@ from typing import Any, cast
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
@@ -81,6 +82,12 @@ def weld_page(
         shown += _cycle_figures(result, weld, cycles, used, figs)
     if detail is not None:
         shown += _record_figures(result, detail, event, figs, modes_too=why is None)
+    if detail is not None and detail.path is not None:
+        beta = float(result.record["rules"]["multiaxial"]["beta"])
+        normal, of_shear = detail.path
+        path = figures.shear_path(normal, of_shear, beta, _largest_half_cycle(detail.path, beta))
+        caption = f"Path of normal stress and shear in event {wording.short(event or '')}: the model of shear decides"
+        shown.append(figs.add("path", path, caption))
     if why is not None and event is not None:
         shown += _why_figures(result, why, event, figs)
     if spectra is not None:
@@ -111,6 +118,15 @@ def weld_page(
         exponents={} if why is None else exponents(why),
         bounded=int((points["screened"] != "").sum()),
     )
+
+
+def _largest_half_cycle(path: NDArray[np.float64], beta: float) -> tuple[int, int]:
+    """Samples of the most distant pair of a path (2, t), to 1e-4 of their distance: by their extents in directions."""
+    angles = np.radians(np.arange(0.0, 180.0, 1.0))
+    along = np.stack([np.cos(angles), np.sqrt(beta) * np.sin(angles)], axis=1) @ path
+    widest = int(np.ptp(along, axis=1).argmax())
+    first, last = sorted((int(along[widest].argmin()), int(along[widest].argmax())))
+    return first, last
 
 
 def _cycle_figures(

@@ -53,9 +53,10 @@ class BesideToe:
             told = [self._sums(row, number) for row in self.by_model.to_dict("records")]
             lines.append(f"With shear the verdict depends on the model: {_some(told)}")
         if len(self.missed):
+            worst = self.missed.drop_duplicates(["weld", "point", "check"])
             told = [
                 f"{shortened(str(row['weld'] or row['point']))}: {row['check']} {number(row['utilisation_stress'])}"
-                for row in self.missed.to_dict("records")
+                for row in worst.to_dict("records")
             ]
             lines.append(f"Checks beside the toe that are not met (utilisation of the stress): {_some(told)}")
         if self.not_assessed:
