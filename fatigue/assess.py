@@ -7,29 +7,21 @@ it is put in place in one step, so that a folder never holds half a result.
 """
 
 import logging
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, TypeAlias, get_args
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
 from fatigue.pipeline.checks.apart import checks_apart
-from fatigue.pipeline.checks.group import has_checks
-from fatigue.pipeline.checks.rows import CheckRows, joined
-from fatigue.pipeline.checks.verdict import Decisive, verdicts
-from fatigue.pipeline.count.block import TIERS
-from fatigue.pipeline.count.joined.matters import Transitions
-from fatigue.pipeline.count.outside_band import OutsideBand, bands_of, outside_of, spectra_of
-from fatigue.pipeline.count.worst import HistogramPoints, WorstPoint, histogram_points, worst_points
+from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.forecast.needs import job_needs
 from fatigue.pipeline.forecast.size import JobSize, job_size
 from fatigue.pipeline.forecast.spare import shortage_warnings
@@ -37,41 +29,26 @@ from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.multiaxial.doubt import ShearTally
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
 from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_of, open_work
-from fatigue.pipeline.run.workers import Group, by_orders, by_threads
-from fatigue.pipeline.solve.absent_loads import load_warnings
+from fatigue.pipeline.run.workers import by_orders, by_threads
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.pipeline.solve.curve_warnings import unverified_problems
 from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
-from fatigue.pipeline.tables.checks import check_table_rows
-from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
-from fatigue.pipeline.tables.cycles import CycleWriter
-from fatigue.pipeline.tables.governing import worst_at_corners
-from fatigue.pipeline.tables.histogram import HistogramWriter
-from fatigue.pipeline.tables.path_cycles import PathWriter, kept_paths
 from fatigue.pipeline.tables.provenance import provenance_record
-from fatigue.pipeline.tables.register import excluded_rows, weld_rows
-from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
-from fatigue.pipeline.tables.sampling_warnings import sampling_warnings
-from fatigue.pipeline.tables.sensitivity import sensitivity_rows
-from fatigue.pipeline.tables.stress_warnings import StressExtent
-from fatigue.pipeline.tables.warnings import WarningSummary
+from fatigue.pipeline.tables.tally import Progress, Tally, body_warnings
+from fatigue.pipeline.tables.written import write_tables
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import (
-    ASSESSED,
     PAGE,
     PICTURE,
-    TableWriter,
     recorded,
-    result_tables,
     write_list,
     write_provenance,
 )
@@ -79,15 +56,11 @@ from fatigue.results.folder import refuse_foreign, remember_case, result_log, st
 from fatigue.results.lock import claimed, settle_folder
 from fatigue.results.publish import publish
 from fatigue.stages import stage
-from fatigue.weld.load_extent import LoadExtent
 
 log = logging.getLogger(__name__)
 
-ROWS_AT_ONCE = 512  # stations whose rows are made at a time, as many for each as there are events or modes
-
 SCREEN = "Leave out share (--screen), or give method = 'report'"
 
-Progress = Callable[[str, int, int], None]
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
 
 
@@ -282,141 +255,6 @@ def write_page_and_picture(folder: Path, case: Case, verification: Verification)
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]
-
-
-@dataclass(slots=True, eq=False)
-class Tally:
-    """What adds up while groups of welds stream by.
-
-    ``stations`` are counted by the tier that settled them. ``samples_per_peak`` is the smallest of each event.
-    ``warnings`` has the warnings about the welds in the order of their groups, ``extents`` how large their
-    forces are, ``stress`` how large their stress ranges, ``outside_band`` the points that the spectra miss,
-    ``transitions`` those at which the order of the events may matter, ``shear`` those where the model of shear does,
-    ``checks`` those that decide beside the toe.
-    """
-
-    total: int
-    progress: Progress
-    groups: int = 0
-    reused: int = 0
-    fulfilled: bool = True
-    stations: dict[str, int] = field(default_factory=dict)
-    warnings: WarningSummary = field(default_factory=WarningSummary)
-    outside_band: OutsideBand = field(default_factory=OutsideBand)
-    samples_per_peak: dict[str, float] = field(default_factory=dict)
-    extents: list[LoadExtent] = field(default_factory=list)
-    stress: StressExtent = field(default_factory=StressExtent)
-    transitions: Transitions = field(default_factory=Transitions)
-    checks: Decisive = field(default_factory=Decisive)
-    shear: ShearTally = field(default_factory=ShearTally)
-
-    def add(self, group: Group, work: Work, worst: Sequence[WorstPoint]) -> None:
-        """Count a group of welds that has been written, ``worst`` the points that decide about them."""
-        result = group.result
-        self.groups += 1
-        self.reused += group.reused
-        self.fulfilled &= all(result.mission.utilisation[point.station, point.face] <= 1.0 for point in worst)
-        for number, tier in enumerate(TIERS):
-            settled = int(np.count_nonzero(result.tier == number))
-            self.stations[tier or "counted"] = self.stations.get(tier or "counted", 0) + settled
-        self.checks.add(result.checks, work.groups.body.case.checks.counts)
-        self.warnings.add(group.model.warnings)
-        self.warnings.add(worst_at_corners(group.model, result.mission, worst))
-        self.extents += group.model.extents
-        self.stress.add(group.model, result)
-        self.transitions.add(group.model.stations, result)
-        self.shear.add(group.model.stations, result)
-        self.outside_band.add(group.model.stations, outside_of(result), spectra_of(result, work.plan))
-        for passed, samples_per_peak in zip(work.plan.passes, result.of_events("samples_per_peak"), strict=True):
-            fewest = float(np.nanmin(samples_per_peak, initial=np.inf))
-            self.samples_per_peak[passed.event] = min(fewest, self.samples_per_peak.get(passed.event, np.inf))
-        self.progress("assessing", min(sum(self.stations.values()), self.total), self.total)
-
-
-def write_tables(
-    folder: Path,
-    key: str,
-    assessed: Generator[Group],
-    work: Work,
-    apart: CheckRows,
-    done: Tally,
-    threads: int | None,
-) -> None:
-    """Write the tables of a result, group of welds by group as they come, and count in ``done`` what was written.
-
-    ``apart`` are the checks at stress points, which belong to no group.
-    """
-    body = work.groups.body
-    wants_histograms, wants_checks = work.histogram != "none", has_checks(body.case)
-    optional = {"histogram": wants_histograms, "checks": wants_checks, "path_cycles": work.shear is not None}
-    wanted = [*ASSESSED, "sensitivity", *(table for table, is_wanted in optional.items() if is_wanted)]
-    with result_tables(folder, key, wanted) as tables, closing(assessed):
-        cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
-        histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
-        paths = PathWriter(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
-        done.checks.add(apart, body.case.checks.counts)
-        for group in assessed:
-            worst = write_group(tables, group, work, apart)
-            cycles.add(points_kept_of(worst, group, work))
-            if histograms:
-                binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
-                histograms.add([kept_point(group.model, point) for point in binned])
-            if paths:
-                paths.add(kept_paths(group, everything=work.counts_all_paths))
-            done.add(group, work, worst)
-            del group  # not to be held until the next one is there
-            give_back()
-        cycles.flush()
-        if histograms:
-            histograms.flush()
-        if paths:
-            paths.flush()
-        if wants_checks:
-            tables["checks"].write(check_table_rows(apart, body.curves, body.compared.lines))
-        tables["welds"].write(excluded_rows(body.excluded))
-
-
-def write_group(
-    tables: Mapping[str, TableWriter], group: Group, work: Work, apart: CheckRows
-) -> tuple[WorstPoint, ...]:
-    """Write the rows of a group of welds to the tables, cycles left out, and return the worst point of each weld.
-
-    ``apart`` are checks at points that are written elsewhere; those that name a weld belong to its verdict.
-    """
-    model, result, plan = group.model, group.result, work.plan
-    stations, worst = model.stations, worst_points(model.stations, result)
-    statuses = [rated.curve.status for rated in model.curve_of_weld]
-    tables["nodes"].write(node_rows(stations, result, plan, statuses))
-    for first in range(0, len(stations), ROWS_AT_ONCE):
-        some = slice(first, first + ROWS_AT_ONCE)
-        tables["damage"].write(damage_rows(stations, result, plan, some))
-        tables["structural_stress"].write(stress_rows(stations, model.body.coordinates, some))
-    of_checks = None
-    if "checks" in tables:
-        tables["checks"].write(check_table_rows(result.checks, model.body.curves, model.body.compared.lines))
-        of_checks = verdicts(joined([result.checks, apart]), stations.names, model.case.checks.counts)
-    tables["welds"].write(weld_rows(model, plan, result, worst, of_checks))
-    tables["sensitivity"].write(sensitivity_rows(model, result, worst, work.sampling))
-    return worst
-
-
-def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:
-    """The worst points of a group whose cycles go into ``cycles.parquet``."""
-    used_up = group.result.mission.utilisation
-    return [kept_point(group.model, p) for p in worst if used_up[p.station, p.face] >= work.kept_from]
-
-
-def body_warnings(body: Body, work: Work, done: Tally) -> list[Problem]:
-    """Warnings that only all welds together give: about loads that are not there, stress, sampling and spectra."""
-    files = [event.history or body.case.path.name for event in body.case.mission.event]
-    of_stress = done.stress.warnings(work.loads, body.coordinates, files)
-    of_spectra = done.outside_band.warnings(bands_of(work.loads))
-    of_order = done.transitions.warnings(work.plan)
-    of_sampling = sampling_warnings(body, work.loads, done.samples_per_peak)
-    of_shear = done.shear.warnings(work.loads)
-    of_checks = done.checks.warnings(body.case.path.name)
-    of_order = [*of_order, *of_shear, *of_checks]
-    return [*load_warnings(body, done.extents), *of_stress, *of_sampling, *of_spectra, *of_order]
 
 
 def one_blas_thread() -> threadpool_limits:

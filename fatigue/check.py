@@ -34,7 +34,7 @@ from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import weld_groups
-from fatigue.pipeline.tables.warnings import WarningSummary
+from fatigue.pipeline.tables.warnings.summary import WarningSummary
 from fatigue.shown import few, visible
 from fatigue.stages import stage
 from fatigue.weld.load_extent import LoadExtent

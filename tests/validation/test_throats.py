@@ -10,8 +10,8 @@ from fatigue.life.curves import damage_law, user_curve
 from fatigue.life.mission import Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.checks.counted import counted_each
-from fatigue.pipeline.checks.directions import half_circle, worst_directions
+from fatigue.pipeline.checks.linear.counted import counted_each
+from fatigue.pipeline.checks.linear.directions import half_circle, worst_directions
 from fatigue.pipeline.mission.event_load import HowCounted, prepare_event
 from fatigue.weld.structural_stress import StructuralStress
 from fatigue.weld.throat import LineForce, lap_throat, line_force, tee_throat, throat_stress, weld_forces

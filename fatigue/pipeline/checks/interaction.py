@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from fatigue.case import Interaction
 from fatigue.life.interaction import combined_factor
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
-from fatigue.pipeline.checks.signals import Signals, counted_mission
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.multiaxial.method import DECIDING

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.checks.planes import critical_planes, face_pairs
+from fatigue.pipeline.checks.linear.planes import critical_planes, face_pairs
+from fatigue.pipeline.checks.linear.signals import counted_mission
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined, no_rows
-from fatigue.pipeline.checks.signals import counted_mission
 from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.overflow import no_overflow
 from fatigue.pipeline.mission.event_load import EventLoad

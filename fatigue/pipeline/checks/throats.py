@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.checks.counted import counted_columns, counted_each
-from fatigue.pipeline.checks.directions import half_circle, worst_directions
-from fatigue.pipeline.checks.paths import counted_paths
+from fatigue.pipeline.checks.linear.counted import counted_columns, counted_each
+from fatigue.pipeline.checks.linear.directions import half_circle, worst_directions
+from fatigue.pipeline.checks.linear.paths import counted_paths
+from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
-from fatigue.pipeline.checks.signals import Signals, counted_mission
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.rated_curves import RatedCurve

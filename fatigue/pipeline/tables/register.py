@@ -8,11 +8,11 @@ import numpy as np
 
 from fatigue.case import stress_categories
 from fatigue.life.mission import Plan
-from fatigue.pipeline.checks.quality import quality_rows
 from fatigue.pipeline.checks.verdict import Verdicts
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import EQUAL, WorstPoint
 from fatigue.pipeline.solve.model import Model
+from fatigue.pipeline.tables.quality import quality_rows
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.readers.neutral.body.welds import QUALITY
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of

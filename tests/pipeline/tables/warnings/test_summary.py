@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fatigue.errors import Problem
-from fatigue.pipeline.tables.warnings import MOST_IN_FULL, WarningSummary
+from fatigue.pipeline.tables.warnings.summary import MOST_IN_FULL, WarningSummary
 
 
 def listed(*warnings):

@@ -5,14 +5,14 @@ import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.pipeline.checks.test_directions import KNEE, ONE, PARTS, PLAIN, SUMS, event, plan_of
 
 from fatigue.assess import assess
 from fatigue.errors import DataError
 from fatigue.life.curves import damage_law, user_curve
 from fatigue.life.rule import cycle_damage
-from fatigue.pipeline.checks.counted import counted_each
-from fatigue.pipeline.checks.paths import counted_paths, largest_factor
-from tests.pipeline.checks.test_directions import KNEE, ONE, PARTS, PLAIN, SUMS, event, plan_of
+from fatigue.pipeline.checks.linear.counted import counted_each
+from fatigue.pipeline.checks.linear.paths import counted_paths, largest_factor
 from tests.small_case import sine_only, small_case
 from tests.throat_case import HEAD, row, with_throats
 

@@ -12,9 +12,9 @@ from fatigue.life.curves import catalogue, damage_law, user_curve
 from fatigue.life.mission import Loop, Pass, Plan
 from fatigue.life.records.history import ModalHistory
 from fatigue.life.rule import CycleRule, cycle_damage
-from fatigue.pipeline.checks import directions
-from fatigue.pipeline.checks.directions import direction_damage, half_circle, worst_directions
-from fatigue.pipeline.checks.signals import Signals, counted_damage, counted_mission
+from fatigue.pipeline.checks.linear import directions
+from fatigue.pipeline.checks.linear.directions import direction_damage, half_circle, worst_directions
+from fatigue.pipeline.checks.linear.signals import Signals, counted_damage, counted_mission
 from fatigue.pipeline.mission.event_load import HowCounted, prepare_event
 
 PSI = half_circle(5.0)

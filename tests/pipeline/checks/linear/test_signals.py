@@ -6,7 +6,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.life.curves import damage_law, user_curve
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.checks.signals import Signals, counted_mission
+from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.work import ScreeningOptions, open_work
 from fatigue.pipeline.solve.body import read_body

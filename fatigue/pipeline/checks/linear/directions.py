@@ -18,7 +18,7 @@ from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.life.records.spool import Spool
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.checks.signals import Signals, counted_damage
+from fatigue.pipeline.checks.linear.signals import Signals, counted_damage
 from fatigue.pipeline.mission.event_load import EventLoad, without_spectrum
 
 Floats = NDArray[np.float64]

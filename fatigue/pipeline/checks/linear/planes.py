@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.checks.directions import EQUAL
-from fatigue.pipeline.checks.signals import Signals, counted_damage
+from fatigue.pipeline.checks.linear.directions import EQUAL
+from fatigue.pipeline.checks.linear.signals import Signals, counted_damage
 from fatigue.pipeline.mission.event_load import EventLoad
 
 Floats = NDArray[np.float64]

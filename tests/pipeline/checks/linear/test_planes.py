@@ -9,9 +9,9 @@ from fatigue.life.curves import damage_law, user_curve
 from fatigue.life.mission import Plan
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.checks import points as points_module
-from fatigue.pipeline.checks.planes import critical_planes, face_pairs
+from fatigue.pipeline.checks.linear.planes import critical_planes, face_pairs
+from fatigue.pipeline.checks.linear.signals import counted_mission
 from fatigue.pipeline.checks.points import batches, point_rows
-from fatigue.pipeline.checks.signals import counted_mission
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.run.work import ScreeningOptions, open_work

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.checks.signals import Signals, counted_mission
+from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.quotient import quotient
