@@ -5,16 +5,17 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fatigue.case import stress_categories
 from fatigue.life.mission import Plan
+from fatigue.life.quality import StressCategories
 from fatigue.pipeline.checks.verdict import Verdicts
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import EQUAL, WorstPoint
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.tables.quality import quality_rows
 from fatigue.pipeline.tables.rows import FACES
-from fatigue.readers.neutral.body.welds import QUALITY
+from fatigue.readers.neutral.body.welds import QUALITY, Weld
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
 from fatigue.results import WELDS
 from fatigue.weld.line_geometry import lengths
@@ -97,6 +98,26 @@ def _of_checks(checks: Verdicts | None, welds: int) -> dict[str, Any]:
         "worst_check": [check or None for check in checks.worst],
         "worst_check_utilisation": checks.utilisation,
         "checks_not_assessed": checks.not_assessed,
+    }
+
+
+def quality_rows(
+    welds: Sequence[Weld], load_factor: ArrayLike, of_checks: ArrayLike | None, categories: StressCategories
+) -> dict[str, Any]:
+    """Columns of the quality data.
+
+    ``load_factor`` (w,) is that of the welds' toes, NaN where there is none; ``of_checks`` (w,) the largest stress
+    utilisation of their other checks, NaN where nothing else is checked, None: nowhere.
+    """
+    factor = np.asarray(load_factor, np.float64)
+    with np.errstate(divide="ignore"):
+        utilisation = 1.0 / factor  # of an infinite one: 0
+    if of_checks is not None:
+        utilisation = np.fmax(utilisation, np.asarray(of_checks, np.float64))
+    return {
+        **{name: [getattr(weld, name) or None for weld in welds] for name in QUALITY},
+        "stress_utilisation": utilisation,
+        "stress_category": categories.of(utilisation),
     }
 
 

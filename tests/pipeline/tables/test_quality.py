@@ -13,7 +13,7 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import CaseError
 from fatigue.life.quality import shipped_categories
-from fatigue.pipeline.tables.quality import quality_rows
+from fatigue.pipeline.tables.register import quality_rows
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.register.conversion import ConvertRecord
 from fatigue.readers.neutral.register.register_file import open_register, register_text
