@@ -68,12 +68,16 @@ def shear_of(
             has_sums=bool(shear.counted[point]),
         )
         own = shear_values(at, values[point], events[: len(of.extents)], inputs.case["mission"], shear.rules.beta)
+        rounding = shear_bounds(at, values[point], bounds[point], own)
         if f_M:  # of the bound it is only known that nothing may exceed it
             own["multiaxial_bound"] = float(np.nan_to_num(own["utilisation_path_range"]))
+        if at.paths is None and at.has_sums:  # not counted again, so nothing is known of them
+            unknown = ("utilisation_path_", "path_", "multiaxial_verdict")
+            own = {name: value for name, value in own.items() if not name.startswith(unknown)}
         proven = min(station.weld.curve.slopes) >= 1.0 and not f_M
         found[point] = Sheared(
             own,
-            shear_bounds(at, values[point], bounds[point], own),
+            rounding,
             exact_bound=at.paths is not None and proven,
             toe=True,
         )
@@ -98,7 +102,7 @@ def decided_by_method(
     found = {}
     for point, of in values.items():
         own, curve = sheared[point], stations[point].weld.curve
-        by_method = float(own.values[name])
+        by_method = float(own.values.get(name, np.nan))
         if np.isnan(by_method):
             by_method = float(shear.by_method[point])
         scales = curve.is_straight and not f_M
