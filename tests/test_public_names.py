@@ -92,7 +92,13 @@ def test_files_may_be_text(result, tmp_path):
     assert fatigue.recount(folder, sample=2, case_file=case).passed
     assert diagnose(folder, case_file=case).as_text()
     cases = write_example(str(tmp_path / "demo"))
-    assert [path.name for path in cases] == ["case.toml", "case_9hz.toml", "case_checks.toml", "case_loads.toml"]
+    assert [path.name for path in cases] == [
+        "case.toml",
+        "case_9hz.toml",
+        "case_checks.toml",
+        "case_endurance.toml",
+        "case_loads.toml",
+    ]
 
 
 def test_options_of_a_conversion_may_be_text():

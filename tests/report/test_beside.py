@@ -1,7 +1,9 @@
 """What page and command line say beside the verdict: other assumptions, shear at the toe, checks beside it."""
 
 import json
+import re
 import shutil
+from string import ascii_uppercase
 
 import pandas as pd
 import pytest
@@ -9,11 +11,13 @@ from click.testing import CliRunner
 
 from fatigue.assess import assess
 from fatigue.cli import cli
+from fatigue.report.files.export import write_xlsx
 from fatigue.report.page import report_page
 from fatigue.report.wording import number
-from fatigue.results import read_table
+from fatigue.results import TABLES, read_table
 from tests.checks_case import write_checks_case
 from tests.older_result import without_hashes
+from tests.report.files.test_export import sheet
 from tests.report.reading import Page
 from tests.small_case import small_case
 
@@ -152,3 +156,31 @@ def test_a_result_without_the_table_is_shown_all_the_same(plain, tmp_path):
     assert "other assumptions (" not in shown(folder)
     assert json.loads(shown(folder, "--json"))["sensitivity"] is None
     assert "Verdict under other assumptions" not in Page(report_page(folder)).words
+
+
+def test_sensitivity_and_checks_are_sheets_of_the_workbook(checked, tmp_path, monkeypatch):
+    """With head, unit and numbers of the table; one that is too long says where its rows are."""
+    pytest.importorskip("xlsxwriter")
+    book = write_xlsx(checked, tmp_path)
+    for number_, name in ((3, "sensitivity"), (4, "checks")):
+        _, cells = sheet(book, number_)
+        table = read_table(checked, name).to_pandas()
+        rows = {int(re.sub("[A-Z]", "", address)) for address in cells}
+        assert rows == set(range(1, len(table) + 2))
+        for letter, column in zip(ascii_uppercase, TABLES[name], strict=False):
+            assert cells[f"{letter}1"] == column.name + (f"\n[{column.unit}]" if column.unit != "-" else "")
+            if column.type == "float":
+                found = [cells.get(f"{letter}{i}", float("nan")) for i in range(2, len(table) + 2)]
+                finite = table[column.name].astype(float).replace(float("inf"), float("nan"))
+                assert [f for f in found if not isinstance(f, str)] == pytest.approx(
+                    [f for f, of in zip(finite, found, strict=True) if not isinstance(of, str)], nan_ok=True
+                )
+    meanings = sheet(book, 5)[1].values()
+    assert {"sensitivity", "checks", "utilisation_stress", "basis"} <= set(meanings)
+
+    checks = len(read_table(checked, "checks"))
+    monkeypatch.setattr("fatigue.report.files.export._MOST_ROWS", checks - 1)
+    assert len(read_table(checked, "nodes")) < checks
+    assert list(sheet(write_xlsx(checked, tmp_path), 4)[1].values()) == [
+        f"{checks} rows do not fit into a sheet: use checks.parquet or CSV"
+    ]

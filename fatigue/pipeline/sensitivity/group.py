@@ -82,7 +82,7 @@ def _changed(name: str, toes: Toes, under: Varied, job: Job) -> list[tuple[float
         if not job.counts_again:
             limit = notes.LARGE
         elif toes.case.multiaxial.method in DECIDING:
-            limit = notes.SHEAR_DECIDES
+            limit = notes.EXPECTED_SHEAR if under.note == notes.EXPECTED else notes.SHEAR_DECIDES
         else:
             again = _again(toes, under, job, sampled=name == job.sampling.variant)
     few = 0 if name == "upsample_auto" else FEW_STATIONS  # upsampling takes as long as counting

@@ -16,6 +16,7 @@ NOTES = (
     "by what its samples per peak let expect of a point, the others were not counted again",
     "shear, which decides, is not counted again",
     "paths of points that a bound has settled, or that fail by normal stress, were not counted",
+    "by what its samples per peak let expect of a point; shear, which decides, is not counted again",
 )
 (
     NOTHING,
@@ -33,4 +34,5 @@ NOTES = (
     EXPECTED,
     SHEAR_DECIDES,
     SHEAR_LEFT,
+    EXPECTED_SHEAR,
 ) = range(len(NOTES))

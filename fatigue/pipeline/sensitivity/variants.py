@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.multiaxial.found import STATUSES
+from fatigue.pipeline.multiaxial.found import MODELS, STATUSES
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.sensitivity import notes
 from fatigue.pipeline.sensitivity.closed import (
@@ -145,8 +145,9 @@ def _damage_limit(toes: Toes) -> Varied | int:
 def _sampled(toes: Toes, sampling: OtherSampling) -> Varied | int:
     """Records sampled otherwise.
 
-    Samples between others only add to the damage of a count by ranges: what is counted without them is at most what is
-    counted with them, but for the bending ratio, which every cycle has of its own reversals.
+    A sample between others widens cycles of a count by ranges, or adds one, and narrows none; so what is counted
+    without it is at most what is counted with it, where a wider cycle damages more. f(R) leaves it so, f_M does not.
+    The bending ratio, which every cycle has of its own reversals, may change its damage by ``ratios``.
     """
     if sampling.changes_nothing:
         return notes.NOT_UPSAMPLED
@@ -154,16 +155,43 @@ def _sampled(toes: Toes, sampling: OtherSampling) -> Varied | int:
     k = float(rule.law.slopes.max())
     of_bending, of_membrane = rule.ratio_factor(np.array([1.0, 0.0]))
     ratios = float(of_bending / of_membrane) ** k
+    widens = not rule.mean_stress and not (rule.law.cutoff > 0.0 and rule.depends_on_bending)
     unknown = np.full_like(toes.utilisation, np.nan)
     if sampling.variant == "upsample_auto":
         loss = (vertex_sampling_loss if is_vertex else sampling_loss)(toes.samples_per_peak, k)
         upper = toes.utilisation / np.maximum(1.0 - TIMES_EXPECTED * loss, 0.1)
-        return Varied(unknown, upper, rule, note=notes.EXPECTED, lower=toes.utilisation / ratios)
-    is_proven = not (is_vertex or rule.law.cutoff > 0.0 or rule.mean_stress or rule.stress_ratio != "none")
-    return Varied(unknown, toes.utilisation * ratios, rule, note=notes.NOTHING if is_proven else notes.EXPECTED)
+        lower = _of_ranges(toes) / ratios if widens else np.zeros_like(upper)
+        return Varied(unknown, upper, rule, note=notes.EXPECTED, lower=lower)
+    upper = _of_ranges(toes) * ratios
+    if toes.case.multiaxial.method in MODELS:
+        upper = np.fmax(upper, _path_of_fewer_samples(toes))
+    return Varied(unknown, upper, rule, note=notes.NOTHING if widens and not is_vertex else notes.EXPECTED)
+
+
+def _of_ranges(toes: Toes) -> Floats:
+    """Utilisation (n, 2) by what is counted by ranges: all of it, or the normal stress beside a path that decides."""
+    if toes.case.multiaxial.method not in MODELS:
+        return toes.utilisation
+    assert toes.shear is not None
+    return np.asarray(np.where(toes.toe, toes.shear["normal"], toes.utilisation))
+
+
+def _path_of_fewer_samples(toes: Toes) -> Floats:
+    """Utilisation (n, 2) that no path through some of the samples exceeds: its length and ranges are not larger.
+
+    The bound T1 by length and ranges is one of the sum by range without cycles across events; others have none.
+    """
+    assert toes.shear is not None
+    bound = toes.shear["bound"]
+    if toes.case.multiaxial.method != "range" or toes.plan.loops:
+        return np.full_like(bound, np.inf)
+    return np.asarray(np.where(np.isnan(bound), np.inf, bound))
 
 
 def _all_on_first_slope(toes: Toes) -> Floats:
+    """Utilisation (n, 2) of all cycles on the first slope; +inf where shear decides: no ranges of it are kept."""
+    if toes.case.multiaxial.method in DECIDING:
+        return np.full_like(toes.utilisation, np.inf)
     return first_slope_bound(toes.mission.equivalent_range, toes.stress.size, toes.rated.rule, toes.plan)
 
 

@@ -29,6 +29,7 @@ from fatigue.results.provenance import curves_of_status
 from fatigue.results.tables import table_path
 
 _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
+_SHEETS = ("nodes", "welds", "sensitivity", "checks")  # tables of the workbook, those of them that a result has
 _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
 
 
@@ -53,12 +54,12 @@ def refuse_without_xlsxwriter() -> None:
 
 
 def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
-    """Write ``nodes.xlsx``: all points, the welds, and what every column means.
+    """Write ``nodes.xlsx``: all points, welds, sensitivity and checks where they are, and what every column means.
 
     Headers are frozen and carry the unit, columns can be filtered, numbers are numbers, and texts that begin with an
     equals sign stay texts. An infinite life is written as "> 1e+12"; what is not available is empty. The hash of the
-    result is a property of the workbook. ``into`` is another folder to write to, where it is not listed as a document
-    of the result.
+    result is a property of the workbook. A sheet of welds, sensitivity or checks that would be too long says so in
+    place of its rows. ``into`` is another folder to write to, where it is not listed as a document of the result.
 
     Raises
     ------
@@ -92,9 +93,14 @@ def write_xlsx(folder: Path | str, into: Path | None = None) -> Path:
         if "result" in record:
             book.set_custom_property(MARK, record["result"])
         formats = {name: book.add_format(look) for name, look in _FORMATS.items()}
-        for name in ("nodes", "welds"):
-            _write_sheet(book.add_worksheet(name), row_groups(folder, name), TABLES[name], formats)
-        _write_meanings(book.add_worksheet("columns"), formats)
+        names = [name for name in _SHEETS if name in ASSESSED or table_path(folder, name).exists()]
+        for name in names:
+            sheet, rows = book.add_worksheet(name), row_count(folder, name)
+            if rows > _MOST_ROWS:
+                sheet.write_string(0, 0, f"{rows} rows do not fit into a sheet: use {name}.parquet or CSV")
+            else:
+                _write_sheet(sheet, row_groups(folder, name), TABLES[name], formats)
+        _write_meanings(book.add_worksheet("columns"), names, formats)
     if into is None:
         enlist(folder, path)
     return path
@@ -176,12 +182,12 @@ def _look(column: Column) -> str:
     return "large" if column.name in _LARGE else "small" if column.name == "damage_per_km" else "plain"
 
 
-def _write_meanings(sheet, formats) -> None:  # type: ignore[no-untyped-def]
-    for i, (name, width) in enumerate((("table", 10), ("column", 30), ("unit", 14), ("meaning", 100))):
+def _write_meanings(sheet, tables: Iterable[str], formats) -> None:  # type: ignore[no-untyped-def]
+    for i, (name, width) in enumerate((("table", 12), ("column", 30), ("unit", 14), ("meaning", 100))):
         sheet.write_string(0, i, name, formats["head"])
         sheet.set_column(i, i, width)
     row = 1
-    for table in ("nodes", "welds"):
+    for table in tables:
         for column in TABLES[table]:
             for i, words in enumerate((table, column.name, column.unit, column.meaning)):
                 sheet.write_string(row, i, words)

@@ -1,5 +1,7 @@
 """Every variant gives the utilisation of a case that is assessed with the changed key in earnest."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -8,6 +10,17 @@ from fatigue.assess import assess
 from fatigue.results import read_table
 from tests.small_case import THICKNESS, SmallCase, small_case
 
+OWN = """[curves.own]
+slopes = [3.0]
+range_at_2e6_MPa = 60.0
+log10_scatter = 0.2
+applies = "structural"
+source = "a class of its own"
+"""
+BENDING = {"own": 'bending_factor = "bs7608"\nbending_reference_mm = 25.0\nbending_exponent = 0.25\n'}
+RATIO = {"own": 'mean_stress = "iiw_low"\n'}
+RANGE, ASME = ({"plate": False, "method": method} for method in ("range", "asme"))
+HAIBACH = {"extension": "haibach", "knee_cycles": 3e5}
 PLATE = {"slopes": "[3.0, 5.0]", "range_at_2e6_MPa": 60.0, "applies": '"structural"', "source": '"a class of its own"'}
 
 
@@ -50,6 +63,9 @@ def changed(case: SmallCase, variant: str) -> SmallCase:
         case.counting["upsample"] = "auto"
     elif variant == "damage_limit_0.5":
         case.mission["damage_limit"] = 0.5
+    elif variant in ("shear_path_range", "shear_asme"):
+        method = {"shear_path_range": "range", "shear_asme": "asme"}[variant]
+        case.extra = re.sub('method = ".*"', f'method = "{method}"', case.extra)
     return case
 
 
@@ -75,6 +91,18 @@ def changed(case: SmallCase, variant: str) -> SmallCase:
         ),
         ({"plate": False, "worst": 1.02, "upsample": 2}, ["haibach_1e7", "upsample_1", "raw_end"]),
         ({"plate": False, "share": 0.5}, ["haibach_1e7", "survival_3sigma", "raw_end", "damage_limit_0.5"]),
+        (BENDING, ["survival_3sigma", "haibach_1e7", "raw_end", "upsample_auto", "damage_limit_0.5"]),
+        (BENDING | HAIBACH | {"upsample": 4}, ["survival_3sigma", "no_knee", "upsample_1"]),
+        (RATIO, ["haibach_1e7", "raw_end", "upsample_auto", "damage_limit_0.5"]),
+        (RATIO | HAIBACH | {"upsample": 4}, ["survival_3sigma", "no_knee", "upsample_1"]),
+        (RATIO | {"extension": "cutoff", "knee_cycles": 1e6, "upsample": 4}, ["survival_3sigma", "upsample_1"]),
+        (RANGE, ["survival_3sigma", "asme_thickness", "haibach_1e7", "shear_asme"]),
+        (RANGE | {"upsample": 4}, ["upsample_1", "raw_end", "damage_limit_0.5"]),
+        (RANGE | HAIBACH, ["survival_3sigma", "asme_thickness", "no_knee", "upsample_auto"]),
+        (RANGE | {"sequence": True}, ["survival_3sigma", "raw_end", "upsample_auto"]),
+        (ASME, ["shear_path_range", "survival_3sigma", "asme_thickness", "haibach_1e7"]),
+        (ASME | HAIBACH | {"upsample": 4}, ["survival_3sigma", "no_knee", "upsample_1", "damage_limit_0.5"]),
+        (RANGE | {"method": "mlp", "upsample": 4}, ["shear_path_range", "asme_thickness", "upsample_1"]),
         ({"sequence": True, "plate": False}, ["asme_thickness", "haibach_1e7", "raw_end", "upsample_auto"]),
     ],
 )
@@ -87,8 +115,13 @@ def test_variants_are_what_an_assessment_in_earnest_finds(setting, variants, tmp
     def case() -> SmallCase:
         made = varied_case()
         given = dict(setting)
+        if "own" in given:
+            made.extra, made.curve = f"{OWN}{given.pop('own')}", {"name": "own"}
+            given["plate"] = False
         if not given.pop("plate", True):
             made.welds["curve"] = ""
+        if "method" in given:
+            made.extra += f'[multiaxial]\nmethod = "{given.pop("method")}"\nalpha = 1.0\n'
         if given.pop("sequence", False):
             made.extra += '[[mission.sequence]]\norder = ["sine", "noise"]\nper_1000_km = 30.0\n'
         made.counting["upsample"] = given.pop("upsample", 1)
@@ -114,13 +147,19 @@ def test_variants_are_what_an_assessment_in_earnest_finds(setting, variants, tmp
         for weld, row in found.loc[variant].iterrows():
             expected = float(in_earnest.loc[weld, "utilisation"])
             where = f"{variant} of {weld}: {row.to_dict()}, {expected} in earnest, {welds.loc[weld, 'utilisation']}"
-            if row["basis"] == "bound":
+            if row["basis"] in ("undecided", "counted"):
+                assert "method" in setting, where
+                assert row["utilisation"] <= (1.0 + 1e-9) * expected, where
+                if row["basis"] == "undecided":
+                    assert pd.isna(row["fulfilled"]), where
+                    continue
+            elif row["basis"] == "bound":
                 slack = (row["utilisation"] - expected) * (1.0 if row["fulfilled"] else -1.0)
                 assert slack >= -1e-6 * expected, where
             else:
                 assert row["basis"] in ("exact", "recount", "as assessed"), where
                 assert row["utilisation"] == pytest.approx(expected, rel=1e-9), where
-                if row["basis"] != "as assessed":
+                if row["basis"] != "as assessed" and expected > 0.0:
                     at = in_earnest.loc[weld, ["worst_part", "worst_order", "worst_surface"]].tolist()
                     assert row[["part", "order", "surface"]].tolist() == at, where
             assert row["fulfilled"] == (expected <= 1.0), where

@@ -23,6 +23,8 @@ EQUAL = 1.0 - 1e-12  # of the largest sum: only rounding tells these apart
 RATIOS = ("path_factor", "path_moment", "bending_ratio", "shear_bending_ratio")
 PATH_COLUMNS = ["start_s", "end_s", "range_MPa", "path_factor", "path_moment", "normal_range_MPa", "shear_range_MPa",
                 "bending_ratio", "shear_bending_ratio", "equivalent_range_dS", "damage"]  # fmt: skip
+PATHS = ("range", "length", "mlp")  # methods that decide by the paths of all points
+WITH_HALF_CYCLES = ("fails", "counted")  # status of points that only the paths could settle
 DECIDING = ("range", "length", "mlp", "asme")  # methods that may decide about life and verdict
 
 
@@ -55,17 +57,22 @@ def stored_shear(stored: Stored, inputs: RecountInputs, record: Mapping[str, Any
     rules = ShearRules(method, asked.get("beta", 3.0), asked.get("alpha"))
     of_method = f"utilisation_{method}" if method == "asme" else f"utilisation_path_{method}"
     names = {"utilisation_path_range", "multiaxial_bound", of_method if method in DECIDING else "multiaxial_bound"}
-    table = read_table(stored.folder, "nodes", sorted(names))
+    table = read_table(stored.folder, "nodes", sorted({*names, "multiaxial_status"}))
     column = {name: stored.nodes.in_order(table[name].to_numpy()).astype(float) for name in names}
     by_range = column["utilisation_path_range"]
-    kept = frozenset(_with_half_cycles(stored, by_range))
+    status = stored.nodes.in_order(table["multiaxial_status"].to_numpy())
+    decides = np.isin(status, WITH_HALF_CYCLES) | (method in PATHS)
+    kept = frozenset(_with_half_cycles(stored, np.where(decides, by_range, np.nan)))
     found = frozenset() if stored.path_cycles is None else frozenset(stored.path_cycles.points().tolist())
     by_method = column[of_method] if method in DECIDING else np.full(len(by_range), np.nan)
     return StoredShear(rules, ~np.isnan(by_range), kept | found, column["multiaxial_bound"], by_method)
 
 
 def _with_half_cycles(stored: Stored, by_range: NDArray[np.float64]) -> list[int]:
-    """Points that have to have half cycles in the table: the worst one of each weld, from some sum on."""
+    """Points that have to have half cycles in the table: the worst one of each weld, from some sum on.
+
+    ``by_range`` (p,) is NaN where the sum of the paths matters to no verdict.
+    """
     points = []
     first = 2 * stored.body.first
     for begin, end in zip(first[:-1].tolist(), first[1:].tolist(), strict=True):
