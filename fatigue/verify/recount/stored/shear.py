@@ -24,6 +24,7 @@ RATIOS = ("path_factor", "path_moment", "bending_ratio", "shear_bending_ratio")
 PATH_COLUMNS = ["start_s", "end_s", "range_MPa", "path_factor", "path_moment", "normal_range_MPa", "shear_range_MPa",
                 "bending_ratio", "shear_bending_ratio", "equivalent_range_dS", "damage"]  # fmt: skip
 DECIDING = ("range", "length", "mlp", "asme")  # methods that may decide about life and verdict
+PATH_METHODS = DECIDING[:3]  # those that have the paths of all toe points counted
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,14 +59,20 @@ def stored_shear(stored: Stored, inputs: RecountInputs, record: Mapping[str, Any
     table = read_table(stored.folder, "nodes", sorted(names))
     column = {name: stored.nodes.in_order(table[name].to_numpy()).astype(float) for name in names}
     by_range = column["utilisation_path_range"]
-    kept = frozenset(_with_half_cycles(stored, by_range))
+    statuses = read_table(stored.folder, "nodes", ["multiaxial_status"])["multiaxial_status"].to_numpy()
+    status = stored.nodes.in_order(statuses)
+    is_open = np.isin(status.astype(str), ("fails", "counted")) | (method in PATH_METHODS)
+    kept = frozenset(_with_half_cycles(stored, np.where(is_open, by_range, np.nan)))
     found = frozenset() if stored.path_cycles is None else frozenset(stored.path_cycles.points().tolist())
     by_method = column[of_method] if method in DECIDING else np.full(len(by_range), np.nan)
     return StoredShear(rules, ~np.isnan(by_range), kept | found, column["multiaxial_bound"], by_method)
 
 
 def _with_half_cycles(stored: Stored, by_range: NDArray[np.float64]) -> list[int]:
-    """Points that have to have half cycles in the table: the worst one of each weld, from some sum on."""
+    """Points that have to have half cycles in the table: the worst one of each weld, from some sum on.
+
+    ``by_range`` (p,) is NaN where a bound or the normal stress alone has settled the point.
+    """
     points = []
     first = 2 * stored.body.first
     for begin, end in zip(first[:-1].tolist(), first[1:].tolist(), strict=True):
