@@ -53,6 +53,7 @@ from fatigue.verify.recount.stored.tables import (
     with_cycles,
     with_histogram,
 )
+from fatigue.verify.recount.varied import check_sensitivity
 
 TOES = {"top": ("top",), "bottom": ("bottom",), "both": FACES}
 FORCES_AT_ONCE = 400_000  # nodes times modes of the welds that are solved at a time: some 150 MB
@@ -189,6 +190,18 @@ def _recount(
             seed=seed,
             most=int(SHARE * most_samples) // samples,
         )
+    checks += check_sensitivity(
+        stored,
+        inputs,
+        coordinates,
+        record,
+        _station_finder(inputs, coordinates, record),
+        sampling,
+        sample=sample,
+        seed=seed,
+        most=int(SHARE * most_samples) // samples,
+        samples=samples,
+    )
     if choice.what:
         checks += check_sums(stored, inputs.case, mission)
     else:
