@@ -96,18 +96,22 @@ def hull_of(z: Floats, points: Indices, n: int, room: Room, hull: Indices) -> in
 
 
 @compiled()
-def merge_hulls(z: Floats, one: Indices, n: int, other: Indices, m: int, room: Room, hull: Indices) -> int:
-    """Write the hull of n and m ordered points, return the number of its vertices; ``hull`` may be one of the two."""
-    merged = room.merged
-    i = j = 0
-    for k in range(n + m):
+def merge_hulls(
+    z: Floats, one: Indices, i: int, n: int, other: Indices, j: int, m: int, room: Room, hull: Indices
+) -> int:
+    """Write the hull of the ordered points i to n of one list and j to m of the other, each end excluded.
+
+    Returned is the number of its vertices; ``hull`` may be one of the two lists.
+    """
+    merged, points = room.merged, n - i + m - j
+    for k in range(points):
         if j == m or (i < n and not before(z, other[j], one[i])):
             merged[k] = one[i]
             i += 1
         else:
             merged[k] = other[j]
             j += 1
-    return hull_of(z, merged, n + m, room, hull)
+    return hull_of(z, merged, points, room, hull)
 
 
 @compiled()
@@ -133,8 +137,7 @@ def hulls_of(z: Floats, n: int, room: Room) -> Hulls:
             else:
                 child = first[level - 1] + 2 * k
                 left, middle, right = offsets[child], offsets[child + 1], offsets[child + 2]
-                one, other = vertices[left:middle], vertices[middle:right]
-                found = merge_hulls(z, one, middle - left, other, right - middle, room, hull)
+                found = merge_hulls(z, vertices, left, middle, vertices, middle, right, room, hull)
             start = offsets[block]
             if start + found > vertices.size:
                 grown = np.empty(2 * vertices.size + found, np.int64)

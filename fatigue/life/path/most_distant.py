@@ -34,7 +34,9 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 TIE = 1e-9  # of the square of the largest distance
-FEW = 2 * BLOCK  # points up to which all pairs are looked at
+FEW = 16  # points up to which all pairs are looked at
+PAIRS = 32  # that may be looked at for each sample, before hulls are made
+SHORT = 256  # samples, below which hulls are not asked
 ARC = 16  # vertices of a hull in one box
 
 
@@ -55,29 +57,50 @@ class Search(NamedTuple):
     ring: Indices
     boxes: Floats
     is_far: NDArray[np.bool_]
-    distance: Floats
 
 
 @compiled()
-def search_in(z: Floats, n: int) -> Search:
-    """Prepare searches in a path of n samples in z (n + 2, dimensions), see ``most_distant``."""
-    points = n + 2 + BLOCK
+def search_in(z: Floats) -> Search:
+    """Prepare searches in a path z (n + 2, dimensions), see ``most_distant``; without hulls."""
+    points = len(z) + BLOCK
     room = Room(np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points, np.bool_))
-    hulls = hulls_of(z, n if z.shape[1] == 2 else 0, room)
+    none = Hulls(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64))
     hull, ring = np.empty(points, np.int64), np.empty(points, np.int64)
-    boxes = np.empty((points // ARC + 1, 4))
-    return Search(hulls, room, hull, ring, boxes, np.empty(points, np.bool_), np.empty(points))
+    return Search(none, room, hull, ring, np.empty((points // ARC + 1, 4)), np.empty(points, np.bool_))
 
 
 @compiled()
-def most_distant(z: Floats, search: Search, i: int, end: int) -> Pair:
+def with_hulls(z: Floats, search: Search) -> Search:
+    """The search with the hulls of all blocks; in space there are none."""
+    if z.shape[1] != 2 or search.hulls.vertices.size > 0:
+        return search
+    hulls = hulls_of(z, len(z) - 2, search.room)
+    return Search(hulls, search.room, search.hull, search.ring, search.boxes, search.is_far)
+
+
+@compiled()
+def most_distant(z: Floats, search: Search, i: int, end: int) -> tuple[Pair, Search]:
     """Most distant pair of the first point, the samples i to ``end`` (excluded) and the last point of a part.
 
-    The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples.
+    The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples. The
+    search that comes back has hulls if they were needed.
     """
-    if end - i <= FEW:
-        return by_all_pairs(z, i, end)
-    return by_hull(z, search, i, end) if z.shape[1] == 2 else by_distances(z, search, i, end)
+    if search.hulls.vertices.size == 0 or end - i < SHORT:
+        far = far_points(z, search.hull, i, end)
+        if z.shape[1] != 2 or far <= FEW or far * far <= PAIRS * (end - i):
+            return first_pair(z, search.hull, far), search
+    search = with_hulls(z, search)
+    return by_hull(z, search, i, end), search
+
+
+@compiled()
+def square_from(z: Floats, place: Floats, row: int) -> float:
+    """Square of the distance of a point from a place."""
+    square = 0.0
+    for axis in range(z.shape[1]):
+        d = z[row, axis] - place[axis]
+        square += d * d
+    return square
 
 
 @compiled()
@@ -91,27 +114,56 @@ def square_between(z: Floats, p: int, q: int) -> float:
 
 
 @compiled()
-def point_at(k: int, i: int, end: int, n: int) -> int:
-    """Row of the point k of a part: its first point, its samples i to ``end``, its last point."""
-    if k == 0:
-        return n
-    return n + 1 if k == end - i + 1 else i + k - 1
+def farthest(z: Floats, centre: Floats, i: int, end: int) -> tuple[int, float]:
+    """Row of the point of a part that is farthest from a place, and the square of its distance."""
+    n = len(z) - 2
+    far, largest = n, -1.0
+    for k in range(i, end + 2):
+        row = k if k < end else n + k - end
+        square = square_from(z, centre, row)
+        if square > largest:
+            far, largest = row, square
+    return far, largest
 
 
 @compiled()
-def by_all_pairs(z: Floats, i: int, end: int) -> Pair:
-    """Most distant pair by the definition."""
-    n, points = len(z) - 2, end - i + 2
+def far_points(z: Floats, far: Indices, i: int, end: int) -> int:
+    """Write the points of a part that may be in its most distant pair, in their order, and return how many there are.
+
+    Seen from the middle of two points that are far from one another, two points nearer in sum than these are not it.
+    """
+    n = len(z) - 2
+    nearest = -1.0
+    if end - i > FEW:
+        one, _ = farthest(z, z[n], i, end)
+        other, square = farthest(z, z[one], i, end)
+        centre = 0.5 * (z[one] + z[other])
+        _, widest = farthest(z, centre, i, end)
+        least = np.sqrt(square) * (1.0 - 2.0 * TIE) - np.sqrt(widest)
+        nearest = least * least if least > 0.0 else -1.0
+    else:
+        centre = z[n]
+    found = 0
+    for k in range(i - 1, end + 1):
+        row = k if i <= k < end else (n if k < i else n + 1)
+        if square_from(z, centre, row) >= nearest:
+            far[found] = row
+            found += 1
+    return found
+
+
+@compiled()
+def first_pair(z: Floats, points: Indices, count: int) -> Pair:
+    """Most distant pair of points in their order, by the definition."""
     largest = 0.0
-    for j in range(points):
-        for k in range(j + 1, points):
-            largest = max(largest, square_between(z, point_at(j, i, end, n), point_at(k, i, end, n)))
-    for j in range(points):
-        for k in range(j + 1, points):
-            p, q = point_at(j, i, end, n), point_at(k, i, end, n)
-            if square_between(z, p, q) >= (1.0 - TIE) * largest:
-                return Pair(p, q, largest)
-    return Pair(n, n + 1, largest)
+    for j in range(count):
+        for k in range(j + 1, count):
+            largest = max(largest, square_between(z, points[j], points[k]))
+    for j in range(count):
+        for k in range(j + 1, count):
+            if square_between(z, points[j], points[k]) >= (1.0 - TIE) * largest:
+                return Pair(points[j], points[k], largest)
+    return Pair(points[0], points[count - 1], largest)
 
 
 @compiled()
@@ -143,14 +195,14 @@ def hull_of_part(z: Floats, search: Search, i: int, end: int) -> int:
         if level >= 0:
             block = hulls.levels[level] + i // (BLOCK << level)
             first, after = hulls.offsets[block], hulls.offsets[block + 1]
-            h = merge_hulls(z, hull, h, hulls.vertices[first:after], after - first, search.room, hull)
+            h = merge_hulls(z, hull, 0, h, hulls.vertices, first, after, search.room, hull)
             i += BLOCK << level
         else:
             stop = min(end, (i // BLOCK + 1) * BLOCK)
             for k in range(i, stop):
                 samples[k - i] = k
             sort_points(z, samples, stop - i)
-            h = merge_hulls(z, hull, h, samples, stop - i, search.room, hull)
+            h = merge_hulls(z, hull, 0, h, samples, 0, stop - i, search.room, hull)
             i = stop
     return h
 
@@ -211,42 +263,3 @@ def lay_round(z: Floats, hull: Indices, h: int, ring: Indices) -> None:
         else:
             ring[back] = v
             back -= 1
-
-
-@compiled()
-def by_distances(z: Floats, search: Search, i: int, end: int) -> Pair:
-    """Most distant pair of a part in any number of dimensions."""
-    n, points, dimensions = len(z) - 2, end - i + 2, z.shape[1]
-    one = other = n
-    for _ in range(3):  # a point that is far from one that is far from the first
-        far = 0.0
-        for k in range(points):
-            square = square_between(z, one, point_at(k, i, end, n))
-            if square > far:
-                far, other = square, point_at(k, i, end, n)
-        one, other = other, one
-    largest = square_between(z, one, other)
-    distance, widest = search.distance, 0.0
-    for k in range(points):
-        p = point_at(k, i, end, n)
-        square = 0.0
-        for axis in range(dimensions):
-            d = z[p, axis] - 0.5 * (z[one, axis] + z[other, axis])
-            square += d * d
-        distance[k] = np.sqrt(square)
-        widest = max(widest, distance[k])
-    candidates, far = search.hull, 0
-    for k in range(points):
-        if (distance[k] + widest) * (1.0 + 2.0 * TIE) >= np.sqrt(largest):
-            candidates[far] = k
-            far += 1
-    for j in range(far):
-        for k in range(j + 1, far):
-            p, q = point_at(candidates[j], i, end, n), point_at(candidates[k], i, end, n)
-            largest = max(largest, square_between(z, p, q))
-    for j in range(far):
-        for k in range(j + 1, far):
-            p, q = point_at(candidates[j], i, end, n), point_at(candidates[k], i, end, n)
-            if square_between(z, p, q) >= (1.0 - TIE) * largest:
-                return Pair(p, q, largest)
-    return Pair(n, n + 1, largest)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.path.hulls import first_reaching
-from fatigue.life.path.most_distant import Pair, Search, most_distant, search_in, square_between
+from fatigue.life.path.most_distant import Pair, Search, most_distant, search_in, square_between, with_hulls
 
 Floats = NDArray[np.float64]
 
@@ -19,6 +19,7 @@ SMALL = 1e-9  # of the largest distance of the record; shorter half cycles are d
 AT_END = 1e-12  # an excursion that ends this close behind a sample, over its segment, ends at the sample
 DOUBT = 1e-11  # samples that miss the distance by this much of its square are looked at
 NOWHERE = -1.0
+PATIENCE = 16  # times that every sample is looked at, on average, before hulls are made
 
 
 class Rows(NamedTuple):
@@ -50,21 +51,21 @@ def with_part(waiting: Rows, start: float, end: float) -> Rows:
 
 
 @compiled()
-def most_distant_of_all(z: Floats) -> int:
-    """Index of the first point of the most distant pair of a path; ``z`` has two rows more than it has samples."""
-    n = len(z) - 2
-    pair = most_distant_between(z, search_in(z, n), 0.0, n - 1.0)[0]
-    return 0 if pair.p == n else pair.p
+def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
+    """Half cycles of a path, each ``t_P, t_Q, R, L, g`` (h, 5), in no order, and the sample that t counts from.
 
-
-@compiled()
-def half_cycles(z: Floats) -> Floats:
-    """Half cycles of a path, each ``t_P, t_Q, R, L, g`` (h, 5), in no order.
-
-    ``z`` (n + 2, dimensions) has two rows more than the path has samples, as work space.
+    ``z`` (n + 2, dimensions) has two rows more than the path has samples, as work space. A path that recurs begins at
+    the first point of its most distant pair, and ends there.
     """
+    first = 0
+    if recurs:
+        place(z, len(z) - 2, 0.0)
+        place(z, len(z) - 1, len(z) - 3.0)
+        pair, _ = most_distant(z, search_in(z), 1, len(z) - 3)
+        first = 0 if pair.p == len(z) - 2 else pair.p
+        z = begun_at(z, first)
     n = len(z) - 2
-    search = search_in(z, n)
+    search, looked_at = search_in(z), 0.0
     found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.empty((n + 2, 2)), 0)
     if n > 1:
         waiting = with_row(waiting, (0.0, n - 1.0))
@@ -72,7 +73,13 @@ def half_cycles(z: Floats) -> Floats:
     while waiting.used > 0:
         start, end = waiting.values[waiting.used - 1, 0], waiting.values[waiting.used - 1, 1]
         waiting = Rows(waiting.values, waiting.used - 1)
-        pair, first, after = most_distant_between(z, search, start, end)
+        looked_at += end - start
+        if looked_at > PATIENCE * n:
+            search = with_hulls(z, search)
+        place(z, n, start)
+        place(z, n + 1, end)
+        i, after = int(np.floor(start)) + 1, int(np.ceil(end))
+        pair, search = most_distant(z, search, i, after)
         if pair.square <= smallest:
             continue
         if found.used == 0:
@@ -80,20 +87,21 @@ def half_cycles(z: Floats) -> Floats:
         t_p = start if pair.p == n else float(pair.p)
         t_q = end if pair.q == n + 1 else float(pair.q)
         waiting = with_part(with_part(waiting, start, t_p), t_q, end)
-        length, area, waiting = walk(z, search, pair, first, after, t_p, t_q, waiting)
+        length, area, waiting = walk(z, search, pair, i, after, t_p, t_q, waiting)
         square = square_between(z, pair.p, pair.q)
         found = with_row(found, (t_p, t_q, np.sqrt(square), length, area / (0.25 * np.pi * square)))
-    return found.values[: found.used]
+    return found.values[: found.used], first
 
 
 @compiled()
-def most_distant_between(z: Floats, search: Search, start: float, end: float) -> tuple[Pair, int, int]:
-    """Most distant pair of a part of a path, the first sample in it, and the first one behind it."""
+def begun_at(z: Floats, first: int) -> Floats:
+    """A path that begins at another sample and ends where it begins, with two rows more."""
     n = len(z) - 2
-    place(z, n, start)
-    place(z, n + 1, end)
-    first, after = int(np.floor(start)) + 1, int(np.ceil(end))
-    return most_distant(z, search, first, after), first, after
+    turned = np.empty((n + 3, z.shape[1]))
+    for k in range(n + 1):
+        for axis in range(z.shape[1]):
+            turned[k, axis] = z[(first + k) % n, axis]
+    return turned
 
 
 @compiled()
