@@ -22,12 +22,13 @@ from fatigue.life.path.hulls import (
     BLOCK,
     Hulls,
     Room,
+    alone,
     first_reaching,
     hulls_of,
+    in_order,
     largest_block,
     merge_hulls,
     reaches,
-    sort_points,
 )
 
 Floats = NDArray[np.float64]
@@ -70,26 +71,19 @@ def search_in(z: Floats) -> Search:
 
 
 @compiled()
-def with_hulls(z: Floats, search: Search) -> Search:
-    """The search with the hulls of all blocks; in space there are none."""
-    if z.shape[1] != 2 or search.hulls.vertices.size > 0:
-        return search
-    hulls = hulls_of(z, len(z) - 2, search.room)
-    return Search(hulls, search.room, search.hull, search.ring, search.boxes, search.is_far)
-
-
-@compiled()
-def most_distant(z: Floats, search: Search, i: int, end: int) -> tuple[Pair, Search]:
+def most_distant(z: Floats, search: Search, i: int, end: int, patient: bool) -> tuple[Pair, Search]:
     """Most distant pair of the first point, the samples i to ``end`` (excluded) and the last point of a part.
 
-    The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples. The
-    search that comes back has hulls if they were needed.
+    The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples. 
+    ``patient`` is whether all samples may be looked at. The search that comes back has hulls if they were needed.
     """
-    if search.hulls.vertices.size == 0 or end - i < SHORT:
+    if end - i < SHORT or patient or z.shape[1] != 2:
         far = far_points(z, search.hull, i, end)
         if z.shape[1] != 2 or far <= FEW or far * far <= PAIRS * (end - i):
             return first_pair(z, search.hull, far), search
-    search = with_hulls(z, search)
+    if search.hulls.vertices.size == 0:
+        hulls = hulls_of(z, len(z) - 2, search.room)
+        search = Search(hulls, search.room, search.hull, search.ring, search.boxes, search.is_far)
     return by_hull(z, search, i, end), search
 
 
@@ -177,8 +171,8 @@ def by_hull(z: Floats, search: Search, i: int, end: int) -> Pair:
     p = n
     if not reaches(z, n, apex, apexes, enough):
         p = first_reaching(z, search.hulls, apex, apexes, i, end, enough)
-    apex[0] = p
-    q = first_reaching(z, search.hulls, apex, 1, i if p == n else p + 1, end, enough)
+    apexes = alone(apex, p)
+    q = first_reaching(z, search.hulls, apex, apexes, i if p == n else p + 1, end, enough)
     return Pair(p, q if q < end else n + 1, largest)
 
 
@@ -186,24 +180,18 @@ def by_hull(z: Floats, search: Search, i: int, end: int) -> Pair:
 def hull_of_part(z: Floats, search: Search, i: int, end: int) -> int:
     """Write the hull of a part into ``search.hull`` and return how many vertices it has."""
     n = len(z) - 2
-    hulls, hull, samples = search.hulls, search.hull, search.ring
-    hull[0], hull[1] = n, n + 1
-    sort_points(z, hull, 2)
-    h = 2
+    hulls, hull = search.hulls, search.hull
+    h = in_order(z, n, n + 2, hull)
     while i < end:
         level = largest_block(hulls, i, end)
         if level >= 0:
-            block = hulls.levels[level] + i // (BLOCK << level)
-            first, after = hulls.offsets[block], hulls.offsets[block + 1]
-            h = merge_hulls(z, hull, 0, h, hulls.vertices, first, after, search.room, hull)
-            i += BLOCK << level
+            block, following = hulls.levels[level] + i // (BLOCK << level), i + (BLOCK << level)
+            points, first, after = hulls.vertices, hulls.offsets[block], hulls.offsets[block + 1]
         else:
-            stop = min(end, (i // BLOCK + 1) * BLOCK)
-            for k in range(i, stop):
-                samples[k - i] = k
-            sort_points(z, samples, stop - i)
-            h = merge_hulls(z, hull, 0, h, samples, 0, stop - i, search.room, hull)
-            i = stop
+            following = min(end, (i // BLOCK + 1) * BLOCK)
+            points, first, after = search.ring, 0, in_order(z, i, following, search.ring)
+        h = merge_hulls(z, hull, h, points, first, after, search.room)
+        i = following
     return h
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.path.hulls import first_reaching
-from fatigue.life.path.most_distant import Pair, Search, most_distant, search_in, square_between, with_hulls
+from fatigue.life.path.hulls import alone, first_reaching
+from fatigue.life.path.most_distant import Pair, Search, most_distant, search_in, square_between
 
 Floats = NDArray[np.float64]
 
@@ -57,29 +57,25 @@ def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
     ``z`` (n + 2, dimensions) has two rows more than the path has samples, as work space. A path that recurs begins at
     the first point of its most distant pair, and ends there.
     """
-    first = 0
-    if recurs:
-        place(z, len(z) - 2, 0.0)
-        place(z, len(z) - 1, len(z) - 3.0)
-        pair, _ = most_distant(z, search_in(z), 1, len(z) - 3)
-        first = 0 if pair.p == len(z) - 2 else pair.p
-        z = begun_at(z, first)
-    n = len(z) - 2
+    n, first = len(z) - 2, 0
     search, looked_at = search_in(z), 0.0
     found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.empty((n + 2, 2)), 0)
-    if n > 1:
-        waiting = with_row(waiting, (0.0, n - 1.0))
+    waiting = with_part(waiting, 0.0, n - 1.0)
     smallest = 0.0
     while waiting.used > 0:
         start, end = waiting.values[waiting.used - 1, 0], waiting.values[waiting.used - 1, 1]
         waiting = Rows(waiting.values, waiting.used - 1)
         looked_at += end - start
-        if looked_at > PATIENCE * n:
-            search = with_hulls(z, search)
         place(z, n, start)
         place(z, n + 1, end)
         i, after = int(np.floor(start)) + 1, int(np.ceil(end))
-        pair, search = most_distant(z, search, i, after)
+        pair, search = most_distant(z, search, i, after, looked_at <= PATIENCE * n)
+        if recurs:
+            first = 0 if pair.p == n else pair.p
+            z = begun_at(z, first)
+            n, search, recurs = n + 1, search_in(z), False
+            waiting = with_part(waiting, 0.0, n - 1.0)
+            continue
         if pair.square <= smallest:
             continue
         if found.used == 0:
@@ -174,9 +170,7 @@ def products(z: Floats, p: int, a: int, b: int) -> tuple[float, float, float]:
 def first_far(z: Floats, search: Search, p: int, i: int, stop: int, square: float) -> int:
     """First of the samples i to ``stop`` (excluded) that is at least so far from p, or ``stop``."""
     if z.shape[1] == 2:
-        only = search.hull
-        only[0] = p
-        return first_reaching(z, search.hulls, only, 1, i, stop, square)
+        return first_reaching(z, search.hulls, search.hull, alone(search.hull, p), i, stop, square)
     while i < stop and square_between(z, p, i) < square:
         i += 1
     return i
