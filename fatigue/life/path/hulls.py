@@ -165,13 +165,6 @@ def reaches(z: Floats, i: int, points: Indices, n: int, square: float) -> bool:
 
 
 @compiled()
-def alone(points: Indices, p: int) -> int:
-    """Make p the only one of a list of points, and return how many there are."""
-    points[0] = p
-    return 1
-
-
-@compiled()
 def first_reaching(z: Floats, hulls: Hulls, points: Indices, n: int, i: int, end: int, square: float) -> int:
     """First of the samples i to ``end`` (excluded) that ``reaches`` one of n points, or ``end``."""
     in_doubt = (1.0 - DOUBT) * square

@@ -22,9 +22,7 @@ from fatigue.life.path.hulls import (
     BLOCK,
     Hulls,
     Room,
-    alone,
     first_reaching,
-    hulls_of,
     in_order,
     largest_block,
     merge_hulls,
@@ -60,9 +58,8 @@ class Search(NamedTuple):
     is_far: NDArray[np.bool_]
 
 
-@compiled()
 def search_in(z: Floats) -> Search:
-    """Prepare searches in a path z (n + 2, dimensions), see ``most_distant``; without hulls."""
+    """Prepare searches in a path z (n + 2, dimensions); without hulls."""
     points = len(z) + BLOCK
     room = Room(np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points, np.bool_))
     none = Hulls(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64))
@@ -71,20 +68,27 @@ def search_in(z: Floats) -> Search:
 
 
 @compiled()
-def most_distant(z: Floats, search: Search, i: int, end: int, patient: bool) -> tuple[Pair, Search]:
+def without_hulls(search: Search) -> Search:
+    """The same work space without hulls."""
+    hulls = Hulls(search.hulls.levels[:1].copy(), search.hulls.offsets[:1].copy(), search.hulls.vertices[:0].copy())
+    return Search(hulls, search.room, search.hull, search.ring, search.boxes, search.is_far)
+
+
+@compiled()
+def most_distant(z: Floats, search: Search, i: int, end: int, patient: bool) -> tuple[Pair, bool]:
     """Most distant pair of the first point, the samples i to ``end`` (excluded) and the last point of a part.
 
-    The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples. 
-    ``patient`` is whether all samples may be looked at. The search that comes back has hulls if they were needed.
+    The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples.
+    Returned is also whether it is found: not where too many points are far from one another for a search without
+    hulls, nor in a long part if the search is not ``patient``. In space it is always found.
     """
-    if end - i < SHORT or patient or z.shape[1] != 2:
-        far = far_points(z, search.hull, i, end)
-        if z.shape[1] != 2 or far <= FEW or far * far <= PAIRS * (end - i):
-            return first_pair(z, search.hull, far), search
-    if search.hulls.vertices.size == 0:
-        hulls = hulls_of(z, len(z) - 2, search.room)
-        search = Search(hulls, search.room, search.hull, search.ring, search.boxes, search.is_far)
-    return by_hull(z, search, i, end), search
+    plane = z.shape[1] == 2
+    if plane and not patient and end - i >= SHORT:
+        return Pair(0, 0, 0.0), False
+    far = far_points(z, search.hull, i, end)
+    if plane and far > FEW and far * far > PAIRS * (end - i):
+        return Pair(0, 0, 0.0), False
+    return first_pair(z, search.hull, far), True
 
 
 @compiled()
@@ -171,7 +175,7 @@ def by_hull(z: Floats, search: Search, i: int, end: int) -> Pair:
     p = n
     if not reaches(z, n, apex, apexes, enough):
         p = first_reaching(z, search.hulls, apex, apexes, i, end, enough)
-    apexes = alone(apex, p)
+    apexes = in_order(z, p, p + 1, apex)
     q = first_reaching(z, search.hulls, apex, apexes, i if p == n else p + 1, end, enough)
     return Pair(p, q if q < end else n + 1, largest)
 

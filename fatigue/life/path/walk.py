@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.path.hulls import alone, first_reaching
-from fatigue.life.path.most_distant import Pair, Search, most_distant, search_in, square_between
+from fatigue.life.path.hulls import first_reaching, hulls_of, in_order
+from fatigue.life.path.most_distant import Pair, Search, by_hull, most_distant, search_in, square_between, without_hulls
 
 Floats = NDArray[np.float64]
 
@@ -19,6 +19,7 @@ SMALL = 1e-9  # of the largest distance of the record; shorter half cycles are d
 AT_END = 1e-12  # an excursion that ends this close behind a sample, over its segment, ends at the sample
 DOUBT = 1e-11  # samples that miss the distance by this much of its square are looked at
 NOWHERE = -1.0
+UNKNOWN = Pair(-1, -1, 0.0)
 PATIENCE = 16  # times that every sample is looked at, on average, before hulls are made
 
 
@@ -27,6 +28,30 @@ class Rows(NamedTuple):
 
     values: Floats
     used: int
+
+
+class Path(NamedTuple):
+    """How far a path is walked.
+
+    Attributes
+    ----------
+    z : (n + 2, dimensions) its points, and work space
+    search : in these points
+    found, waiting : half cycles, and parts by their two ends
+    smallest : square of the range up to which half cycles are dropped
+    looked_at : samples of all searches
+    first : sample that was the first one
+    recurs : whether the path is still to be turned to its most distant pair
+    """
+
+    z: Floats
+    search: Search
+    found: Rows
+    waiting: Rows
+    smallest: float
+    looked_at: float
+    first: int
+    recurs: bool
 
 
 @compiled()
@@ -50,30 +75,52 @@ def with_part(waiting: Rows, start: float, end: float) -> Rows:
     return with_row(waiting, (start, end)) if end > start else waiting
 
 
-@compiled()
 def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
     """Half cycles of a path, each ``t_P, t_Q, R, L, g`` (h, 5), in no order, and the sample that t counts from.
 
     ``z`` (n + 2, dimensions) has two rows more than the path has samples, as work space. A path that recurs begins at
-    the first point of its most distant pair, and ends there.
+    the first point of its most distant pair, and ends there. Hulls are made, and their loops compiled, only where a
+    part needs them.
     """
-    n, first = len(z) - 2, 0
-    search, looked_at = search_in(z), 0.0
-    found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.empty((n + 2, 2)), 0)
-    waiting = with_part(waiting, 0.0, n - 1.0)
-    smallest = 0.0
+    n = len(z) - 2
+    found, waiting = np.empty((n + 2, 5)), np.array([[0.0, n - 1.0]])
+    path = Path(z, search_in(z), Rows(found, 0), Rows(waiting, int(n > 1)), 0.0, 0.0, 0, recurs)
+    path = walked(path, UNKNOWN)
+    while path.waiting.used > 0:
+        if path.search.hulls.vertices.size == 0:
+            hulls = hulls_of(path.z, len(path.z) - 2, path.search.room)
+            path = path._replace(search=path.search._replace(hulls=hulls))
+        start, end = path.waiting.values[path.waiting.used - 1]
+        path = walked(path, by_hull(path.z, path.search, int(np.floor(start)) + 1, int(np.ceil(end))))
+    return path.found.values[: path.found.used], path.first
+
+
+@compiled()
+def walked(path: Path, known: Pair) -> Path:
+    """A path with all its half cycles, or walked on until what waits last needs hulls for its most distant pair.
+
+    ``known`` is that pair of what waits last, or ``UNKNOWN``.
+    """
+    z, search, found, waiting, smallest, looked_at, first, recurs = path
+    n = len(z) - 2
     while waiting.used > 0:
         start, end = waiting.values[waiting.used - 1, 0], waiting.values[waiting.used - 1, 1]
-        waiting = Rows(waiting.values, waiting.used - 1)
-        looked_at += end - start
         place(z, n, start)
         place(z, n + 1, end)
         i, after = int(np.floor(start)) + 1, int(np.ceil(end))
-        pair, search = most_distant(z, search, i, after, looked_at <= PATIENCE * n)
+        pair, is_found = known, known.p >= 0
+        if not is_found:
+            looked_at += end - start
+            pair, is_found = most_distant(z, search, i, after, looked_at <= PATIENCE * n)
+        if not is_found:
+            break
+        known = Pair(-1, -1, 0.0)
+        waiting = Rows(waiting.values, waiting.used - 1)
         if recurs:
             first = 0 if pair.p == n else pair.p
             z = begun_at(z, first)
-            n, search, recurs = n + 1, search_in(z), False
+            n, recurs = n + 1, False
+            search = without_hulls(search)
             waiting = with_part(waiting, 0.0, n - 1.0)
             continue
         if pair.square <= smallest:
@@ -86,7 +133,7 @@ def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
         length, area, waiting = walk(z, search, pair, i, after, t_p, t_q, waiting)
         square = square_between(z, pair.p, pair.q)
         found = with_row(found, (t_p, t_q, np.sqrt(square), length, area / (0.25 * np.pi * square)))
-    return found.values[: found.used], first
+    return Path(z, search, found, waiting, smallest, looked_at, first, recurs)
 
 
 @compiled()
@@ -170,7 +217,8 @@ def products(z: Floats, p: int, a: int, b: int) -> tuple[float, float, float]:
 def first_far(z: Floats, search: Search, p: int, i: int, stop: int, square: float) -> int:
     """First of the samples i to ``stop`` (excluded) that is at least so far from p, or ``stop``."""
     if z.shape[1] == 2:
-        return first_reaching(z, search.hulls, search.hull, alone(search.hull, p), i, stop, square)
+        only = search.hull
+        return first_reaching(z, search.hulls, only, in_order(z, p, p + 1, only), i, stop, square)
     while i < stop and square_between(z, p, i) < square:
         i += 1
     return i
