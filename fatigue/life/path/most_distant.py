@@ -68,13 +68,6 @@ def search_in(z: Floats) -> Search:
 
 
 @compiled()
-def without_hulls(search: Search) -> Search:
-    """The same work space without hulls."""
-    hulls = Hulls(search.hulls.levels[:1].copy(), search.hulls.offsets[:1].copy(), search.hulls.vertices[:0].copy())
-    return Search(hulls, search.room, search.hull, search.ring, search.boxes, search.is_far)
-
-
-@compiled()
 def most_distant(z: Floats, search: Search, i: int, end: int, patient: bool) -> tuple[Pair, bool]:
     """Most distant pair of the first point, the samples i to ``end`` (excluded) and the last point of a part.
 

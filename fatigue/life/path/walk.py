@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.path.hulls import first_reaching, hulls_of, in_order
-from fatigue.life.path.most_distant import Pair, Search, by_hull, most_distant, search_in, square_between, without_hulls
+from fatigue.life.path.most_distant import Pair, Search, by_hull, most_distant, search_in, square_between
 
 Floats = NDArray[np.float64]
 
@@ -40,8 +40,8 @@ class Path(NamedTuple):
     found, waiting : half cycles, and parts by their two ends
     smallest : square of the range up to which half cycles are dropped
     looked_at : samples of all searches
-    first : sample that was the first one
-    recurs : whether the path is still to be turned to its most distant pair
+    first : sample from which it recurs
+    recurs : whether only that sample is asked for
     """
 
     z: Floats
@@ -82,24 +82,39 @@ def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
     the first point of its most distant pair, and ends there. Hulls are made, and their loops compiled, only where a
     part needs them.
     """
+    first, n = 0, len(z) - 2
+    if recurs:
+        first = _walked_by_hulls(_begun(z, recurs)).first
+        z = np.concatenate([z[first:n], z[: first + 1], z[n:]])
+    found = _walked_by_hulls(_begun(z, recurs=False)).found
+    return found.values[: found.used], first
+
+
+def _begun(z: Floats, recurs: bool) -> Path:
+    """A path of which nothing is known, all of it one part."""
     n = len(z) - 2
-    found, waiting = np.empty((n + 2, 5)), np.array([[0.0, n - 1.0]])
-    path = Path(z, search_in(z), Rows(found, 0), Rows(waiting, int(n > 1)), 0.0, 0.0, 0, recurs)
+    found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.array([[0.0, n - 1.0]]), int(n > 1))
+    return Path(z, search_in(z), found, waiting, 0.0, 0.0, 0, recurs)
+
+
+def _walked_by_hulls(path: Path) -> Path:
+    """A path walked to its end, with hulls for the parts that need them."""
     path = walked(path, UNKNOWN)
     while path.waiting.used > 0:
-        if path.search.hulls.vertices.size == 0:
-            hulls = hulls_of(path.z, len(path.z) - 2, path.search.room)
-            path = path._replace(search=path.search._replace(hulls=hulls))
+        z, search = path.z, path.search
+        if search.hulls.vertices.size == 0:
+            search = search._replace(hulls=hulls_of(z, len(z) - 2, search.room))
         start, end = path.waiting.values[path.waiting.used - 1]
-        path = walked(path, by_hull(path.z, path.search, int(np.floor(start)) + 1, int(np.ceil(end))))
-    return path.found.values[: path.found.used], path.first
+        pair = by_hull(z, search, int(np.floor(start)) + 1, int(np.ceil(end)))
+        path = walked(path._replace(search=search), pair)
+    return path
 
 
 @compiled()
 def walked(path: Path, known: Pair) -> Path:
-    """A path with all its half cycles, or walked on until what waits last needs hulls for its most distant pair.
+    """A path walked to its end, or until the part that waits last needs hulls for its most distant pair.
 
-    ``known`` is that pair of what waits last, or ``UNKNOWN``.
+    ``known`` is the pair of the part that waits last, or ``UNKNOWN``. Of a path that recurs only that pair is found.
     """
     z, search, found, waiting, smallest, looked_at, first, recurs = path
     n = len(z) - 2
@@ -118,11 +133,7 @@ def walked(path: Path, known: Pair) -> Path:
         waiting = Rows(waiting.values, waiting.used - 1)
         if recurs:
             first = 0 if pair.p == n else pair.p
-            z = begun_at(z, first)
-            n, recurs = n + 1, False
-            search = without_hulls(search)
-            waiting = with_part(waiting, 0.0, n - 1.0)
-            continue
+            break
         if pair.square <= smallest:
             continue
         if found.used == 0:
@@ -134,17 +145,6 @@ def walked(path: Path, known: Pair) -> Path:
         square = square_between(z, pair.p, pair.q)
         found = with_row(found, (t_p, t_q, np.sqrt(square), length, area / (0.25 * np.pi * square)))
     return Path(z, search, found, waiting, smallest, looked_at, first, recurs)
-
-
-@compiled()
-def begun_at(z: Floats, first: int) -> Floats:
-    """A path that begins at another sample and ends where it begins, with two rows more."""
-    n = len(z) - 2
-    turned = np.empty((n + 3, z.shape[1]))
-    for k in range(n + 1):
-        for axis in range(z.shape[1]):
-            turned[k, axis] = z[(first + k) % n, axis]
-    return turned
 
 
 @compiled()
