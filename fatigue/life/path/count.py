@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fatigue.errors import DataError, NumericalError, Problem
 from fatigue.life.counting.signal import not_finite, recurs, samples_of
-from fatigue.life.path.walk import half_cycles, most_distant_of_all
+from fatigue.life.path.walk import half_cycles
 from fatigue.life.records.history import Residue
 
 Floats = NDArray[np.float64]
@@ -84,13 +84,10 @@ def count_path_in_space(points: ArrayLike, residue: Residue) -> PathCycles:
     if not np.isfinite(z).all():
         raise not_finite("the path of stresses")
     z, unit = _scaled(z)
-    first, samples, room = 0, len(z), np.zeros((2, z.shape[1]))
+    samples = len(z)
     if samples < 2:
         z = np.zeros((2, z.shape[1]))
-    elif block:
-        first = int(most_distant_of_all(np.concatenate([z, room])))
-        z = np.concatenate([z[first:], z[: first + 1]])
-    half = half_cycles(np.concatenate([z, room]))
+    half, first = half_cycles(np.concatenate([z, np.zeros((2, z.shape[1]))]), block)
     half = half[np.lexsort((-half[:, 2], half[:, 0]))]
     start, end, largest, length, moment = half.T
     if block and samples:

@@ -53,15 +53,15 @@ def before(z: Floats, i: int, j: int) -> bool:
 
 
 @compiled()
-def sort_points(z: Floats, points: Indices, n: int) -> None:
-    """Put a few indices of points in the order of x, then y."""
-    for k in range(1, n):
-        point = points[k]
-        j = k
+def in_order(z: Floats, i: int, end: int, points: Indices) -> int:
+    """Write the points i to ``end`` (excluded), a few, in the order of x, then y, and return how many there are."""
+    for point in range(i, end):
+        j = point - i
         while j > 0 and before(z, point, points[j - 1]):
             points[j] = points[j - 1]
             j -= 1
         points[j] = point
+    return end - i
 
 
 @compiled()
@@ -96,18 +96,18 @@ def hull_of(z: Floats, points: Indices, n: int, room: Room, hull: Indices) -> in
 
 
 @compiled()
-def merge_hulls(z: Floats, one: Indices, n: int, other: Indices, m: int, room: Room, hull: Indices) -> int:
-    """Write the hull of n and m ordered points, return the number of its vertices; ``hull`` may be one of the two."""
-    merged = room.merged
-    i = j = 0
-    for k in range(n + m):
-        if j == m or (i < n and not before(z, other[j], one[i])):
-            merged[k] = one[i]
+def merge_hulls(z: Floats, hull: Indices, n: int, other: Indices, j: int, end: int, room: Room) -> int:
+    """Replace n ordered points by their hull with other ones, j to ``end`` (excluded); the number of its vertices."""
+    merged, points = room.merged, n + end - j
+    i = 0
+    for k in range(points):
+        if j == end or (i < n and not before(z, other[j], hull[i])):
+            merged[k] = hull[i]
             i += 1
         else:
             merged[k] = other[j]
             j += 1
-    return hull_of(z, merged, n + m, room, hull)
+    return hull_of(z, merged, points, room, hull)
 
 
 @compiled()
@@ -126,15 +126,13 @@ def hulls_of(z: Floats, n: int, room: Room) -> Hulls:
         for k in range(n // (BLOCK << level)):
             block = first[level] + k
             if level == 0:
-                for i in range(BLOCK):
-                    hull[i] = k * BLOCK + i
-                sort_points(z, hull, BLOCK)
-                found = hull_of(z, hull, BLOCK, room, hull)
+                found = hull_of(z, hull, in_order(z, k * BLOCK, (k + 1) * BLOCK, hull), room, hull)
             else:
                 child = first[level - 1] + 2 * k
                 left, middle, right = offsets[child], offsets[child + 1], offsets[child + 2]
-                one, other = vertices[left:middle], vertices[middle:right]
-                found = merge_hulls(z, one, middle - left, other, right - middle, room, hull)
+                for v in range(left, middle):
+                    hull[v - left] = vertices[v]
+                found = merge_hulls(z, hull, middle - left, vertices, middle, right, room)
             start = offsets[block]
             if start + found > vertices.size:
                 grown = np.empty(2 * vertices.size + found, np.int64)

@@ -23,18 +23,19 @@ from fatigue.life.path.hulls import (
     Hulls,
     Room,
     first_reaching,
-    hulls_of,
+    in_order,
     largest_block,
     merge_hulls,
     reaches,
-    sort_points,
 )
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 TIE = 1e-9  # of the square of the largest distance
-FEW = 2 * BLOCK  # points up to which all pairs are looked at
+FEW = 16  # points up to which all pairs are looked at
+PAIRS = 32  # that may be looked at for each sample, before hulls are made
+SHORT = 256  # samples, below which hulls are not asked
 ARC = 16  # vertices of a hull in one box
 
 
@@ -55,29 +56,42 @@ class Search(NamedTuple):
     ring: Indices
     boxes: Floats
     is_far: NDArray[np.bool_]
-    distance: Floats
 
 
-@compiled()
-def search_in(z: Floats, n: int) -> Search:
-    """Prepare searches in a path of n samples in z (n + 2, dimensions), see ``most_distant``."""
-    points = n + 2 + BLOCK
+def search_in(z: Floats) -> Search:
+    """Prepare searches in a path z (n + 2, dimensions); without hulls."""
+    points = len(z) + BLOCK
     room = Room(np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points, np.bool_))
-    hulls = hulls_of(z, n if z.shape[1] == 2 else 0, room)
+    none = Hulls(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64))
     hull, ring = np.empty(points, np.int64), np.empty(points, np.int64)
-    boxes = np.empty((points // ARC + 1, 4))
-    return Search(hulls, room, hull, ring, boxes, np.empty(points, np.bool_), np.empty(points))
+    return Search(none, room, hull, ring, np.empty((points // ARC + 1, 4)), np.empty(points, np.bool_))
 
 
 @compiled()
-def most_distant(z: Floats, search: Search, i: int, end: int) -> Pair:
+def most_distant(z: Floats, search: Search, i: int, end: int, patient: bool) -> tuple[Pair, bool]:
     """Most distant pair of the first point, the samples i to ``end`` (excluded) and the last point of a part.
 
     The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples.
+    Returned is also whether it is found: not where too many points are far from one another for a search without
+    hulls, nor in a long part if the search is not ``patient``. In space it is always found.
     """
-    if end - i <= FEW:
-        return by_all_pairs(z, i, end)
-    return by_hull(z, search, i, end) if z.shape[1] == 2 else by_distances(z, search, i, end)
+    plane = z.shape[1] == 2
+    if plane and not patient and end - i >= SHORT:
+        return Pair(0, 0, 0.0), False
+    far = far_points(z, search.hull, i, end)
+    if plane and far > FEW and far * far > PAIRS * (end - i):
+        return Pair(0, 0, 0.0), False
+    return first_pair(z, search.hull, far), True
+
+
+@compiled()
+def square_from(z: Floats, place: Floats, row: int) -> float:
+    """Square of the distance of a point from a place."""
+    square = 0.0
+    for axis in range(z.shape[1]):
+        d = z[row, axis] - place[axis]
+        square += d * d
+    return square
 
 
 @compiled()
@@ -91,27 +105,56 @@ def square_between(z: Floats, p: int, q: int) -> float:
 
 
 @compiled()
-def point_at(k: int, i: int, end: int, n: int) -> int:
-    """Row of the point k of a part: its first point, its samples i to ``end``, its last point."""
-    if k == 0:
-        return n
-    return n + 1 if k == end - i + 1 else i + k - 1
+def farthest(z: Floats, centre: Floats, i: int, end: int) -> tuple[int, float]:
+    """Row of the point of a part that is farthest from a place, and the square of its distance."""
+    n = len(z) - 2
+    far, largest = n, -1.0
+    for k in range(i, end + 2):
+        row = k if k < end else n + k - end
+        square = square_from(z, centre, row)
+        if square > largest:
+            far, largest = row, square
+    return far, largest
 
 
 @compiled()
-def by_all_pairs(z: Floats, i: int, end: int) -> Pair:
-    """Most distant pair by the definition."""
-    n, points = len(z) - 2, end - i + 2
+def far_points(z: Floats, far: Indices, i: int, end: int) -> int:
+    """Write the points of a part that may be in its most distant pair, in their order, and return how many there are.
+
+    Seen from the middle of two points that are far from one another, two points nearer in sum than these are not it.
+    """
+    n = len(z) - 2
+    nearest = -1.0
+    if end - i > FEW:
+        one, _ = farthest(z, z[n], i, end)
+        other, square = farthest(z, z[one], i, end)
+        centre = 0.5 * (z[one] + z[other])
+        _, widest = farthest(z, centre, i, end)
+        least = np.sqrt(square) * (1.0 - 2.0 * TIE) - np.sqrt(widest)
+        nearest = least * least if least > 0.0 else -1.0
+    else:
+        centre = z[n]
+    found = 0
+    for k in range(i - 1, end + 1):
+        row = k if i <= k < end else (n if k < i else n + 1)
+        if square_from(z, centre, row) >= nearest:
+            far[found] = row
+            found += 1
+    return found
+
+
+@compiled()
+def first_pair(z: Floats, points: Indices, count: int) -> Pair:
+    """Most distant pair of points in their order, by the definition."""
     largest = 0.0
-    for j in range(points):
-        for k in range(j + 1, points):
-            largest = max(largest, square_between(z, point_at(j, i, end, n), point_at(k, i, end, n)))
-    for j in range(points):
-        for k in range(j + 1, points):
-            p, q = point_at(j, i, end, n), point_at(k, i, end, n)
-            if square_between(z, p, q) >= (1.0 - TIE) * largest:
-                return Pair(p, q, largest)
-    return Pair(n, n + 1, largest)
+    for j in range(count):
+        for k in range(j + 1, count):
+            largest = max(largest, square_between(z, points[j], points[k]))
+    for j in range(count):
+        for k in range(j + 1, count):
+            if square_between(z, points[j], points[k]) >= (1.0 - TIE) * largest:
+                return Pair(points[j], points[k], largest)
+    return Pair(points[0], points[count - 1], largest)
 
 
 @compiled()
@@ -125,8 +168,8 @@ def by_hull(z: Floats, search: Search, i: int, end: int) -> Pair:
     p = n
     if not reaches(z, n, apex, apexes, enough):
         p = first_reaching(z, search.hulls, apex, apexes, i, end, enough)
-    apex[0] = p
-    q = first_reaching(z, search.hulls, apex, 1, i if p == n else p + 1, end, enough)
+    apexes = in_order(z, p, p + 1, apex)
+    q = first_reaching(z, search.hulls, apex, apexes, i if p == n else p + 1, end, enough)
     return Pair(p, q if q < end else n + 1, largest)
 
 
@@ -134,24 +177,18 @@ def by_hull(z: Floats, search: Search, i: int, end: int) -> Pair:
 def hull_of_part(z: Floats, search: Search, i: int, end: int) -> int:
     """Write the hull of a part into ``search.hull`` and return how many vertices it has."""
     n = len(z) - 2
-    hulls, hull, samples = search.hulls, search.hull, search.ring
-    hull[0], hull[1] = n, n + 1
-    sort_points(z, hull, 2)
-    h = 2
+    hulls, hull = search.hulls, search.hull
+    h = in_order(z, n, n + 2, hull)
     while i < end:
         level = largest_block(hulls, i, end)
         if level >= 0:
-            block = hulls.levels[level] + i // (BLOCK << level)
-            first, after = hulls.offsets[block], hulls.offsets[block + 1]
-            h = merge_hulls(z, hull, h, hulls.vertices[first:after], after - first, search.room, hull)
-            i += BLOCK << level
+            block, following = hulls.levels[level] + i // (BLOCK << level), i + (BLOCK << level)
+            points, first, after = hulls.vertices, hulls.offsets[block], hulls.offsets[block + 1]
         else:
-            stop = min(end, (i // BLOCK + 1) * BLOCK)
-            for k in range(i, stop):
-                samples[k - i] = k
-            sort_points(z, samples, stop - i)
-            h = merge_hulls(z, hull, h, samples, stop - i, search.room, hull)
-            i = stop
+            following = min(end, (i // BLOCK + 1) * BLOCK)
+            points, first, after = search.ring, 0, in_order(z, i, following, search.ring)
+        h = merge_hulls(z, hull, h, points, first, after, search.room)
+        i = following
     return h
 
 
@@ -211,42 +248,3 @@ def lay_round(z: Floats, hull: Indices, h: int, ring: Indices) -> None:
         else:
             ring[back] = v
             back -= 1
-
-
-@compiled()
-def by_distances(z: Floats, search: Search, i: int, end: int) -> Pair:
-    """Most distant pair of a part in any number of dimensions."""
-    n, points, dimensions = len(z) - 2, end - i + 2, z.shape[1]
-    one = other = n
-    for _ in range(3):  # a point that is far from one that is far from the first
-        far = 0.0
-        for k in range(points):
-            square = square_between(z, one, point_at(k, i, end, n))
-            if square > far:
-                far, other = square, point_at(k, i, end, n)
-        one, other = other, one
-    largest = square_between(z, one, other)
-    distance, widest = search.distance, 0.0
-    for k in range(points):
-        p = point_at(k, i, end, n)
-        square = 0.0
-        for axis in range(dimensions):
-            d = z[p, axis] - 0.5 * (z[one, axis] + z[other, axis])
-            square += d * d
-        distance[k] = np.sqrt(square)
-        widest = max(widest, distance[k])
-    candidates, far = search.hull, 0
-    for k in range(points):
-        if (distance[k] + widest) * (1.0 + 2.0 * TIE) >= np.sqrt(largest):
-            candidates[far] = k
-            far += 1
-    for j in range(far):
-        for k in range(j + 1, far):
-            p, q = point_at(candidates[j], i, end, n), point_at(candidates[k], i, end, n)
-            largest = max(largest, square_between(z, p, q))
-    for j in range(far):
-        for k in range(j + 1, far):
-            p, q = point_at(candidates[j], i, end, n), point_at(candidates[k], i, end, n)
-            if square_between(z, p, q) >= (1.0 - TIE) * largest:
-                return Pair(p, q, largest)
-    return Pair(n, n + 1, largest)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.path.hulls import first_reaching
-from fatigue.life.path.most_distant import Pair, Search, most_distant, search_in, square_between
+from fatigue.life.path.hulls import first_reaching, hulls_of, in_order
+from fatigue.life.path.most_distant import Pair, Search, by_hull, most_distant, search_in, square_between
 
 Floats = NDArray[np.float64]
 
@@ -19,6 +19,8 @@ SMALL = 1e-9  # of the largest distance of the record; shorter half cycles are d
 AT_END = 1e-12  # an excursion that ends this close behind a sample, over its segment, ends at the sample
 DOUBT = 1e-11  # samples that miss the distance by this much of its square are looked at
 NOWHERE = -1.0
+UNKNOWN = Pair(-1, -1, 0.0)
+PATIENCE = 16  # times that every sample is looked at, on average, before hulls are made
 
 
 class Rows(NamedTuple):
@@ -26,6 +28,30 @@ class Rows(NamedTuple):
 
     values: Floats
     used: int
+
+
+class Path(NamedTuple):
+    """How far a path is walked.
+
+    Attributes
+    ----------
+    z : (n + 2, dimensions) its points, and work space
+    search : in these points
+    found, waiting : half cycles, and parts by their two ends
+    smallest : square of the range up to which half cycles are dropped
+    looked_at : samples of all searches
+    first : sample from which it recurs
+    recurs : whether only that sample is asked for
+    """
+
+    z: Floats
+    search: Search
+    found: Rows
+    waiting: Rows
+    smallest: float
+    looked_at: float
+    first: int
+    recurs: bool
 
 
 @compiled()
@@ -49,30 +75,65 @@ def with_part(waiting: Rows, start: float, end: float) -> Rows:
     return with_row(waiting, (start, end)) if end > start else waiting
 
 
-@compiled()
-def most_distant_of_all(z: Floats) -> int:
-    """Index of the first point of the most distant pair of a path; ``z`` has two rows more than it has samples."""
-    n = len(z) - 2
-    pair = most_distant_between(z, search_in(z, n), 0.0, n - 1.0)[0]
-    return 0 if pair.p == n else pair.p
+def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
+    """Half cycles of a path, each ``t_P, t_Q, R, L, g`` (h, 5), in no order, and the sample that t counts from.
 
-
-@compiled()
-def half_cycles(z: Floats) -> Floats:
-    """Half cycles of a path, each ``t_P, t_Q, R, L, g`` (h, 5), in no order.
-
-    ``z`` (n + 2, dimensions) has two rows more than the path has samples, as work space.
+    ``z`` (n + 2, dimensions) has two rows more than the path has samples, as work space. A path that recurs begins at
+    the first point of its most distant pair, and ends there. Hulls are made, and their loops compiled, only where a
+    part needs them.
     """
+    first, n = 0, len(z) - 2
+    if recurs:
+        first = _walked_by_hulls(_begun(z, recurs)).first
+        z = np.concatenate([z[first:n], z[: first + 1], z[n:]])
+    found = _walked_by_hulls(_begun(z, recurs=False)).found
+    return found.values[: found.used], first
+
+
+def _begun(z: Floats, recurs: bool) -> Path:
+    """A path of which nothing is known, all of it one part."""
     n = len(z) - 2
-    search = search_in(z, n)
-    found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.empty((n + 2, 2)), 0)
-    if n > 1:
-        waiting = with_row(waiting, (0.0, n - 1.0))
-    smallest = 0.0
+    found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.array([[0.0, n - 1.0]]), int(n > 1))
+    return Path(z, search_in(z), found, waiting, 0.0, 0.0, 0, recurs)
+
+
+def _walked_by_hulls(path: Path) -> Path:
+    """A path walked to its end, with hulls for the parts that need them."""
+    path = walked(path, UNKNOWN)
+    while path.waiting.used > 0:
+        z, search = path.z, path.search
+        if search.hulls.vertices.size == 0:
+            search = search._replace(hulls=hulls_of(z, len(z) - 2, search.room))
+        start, end = path.waiting.values[path.waiting.used - 1]
+        pair = by_hull(z, search, int(np.floor(start)) + 1, int(np.ceil(end)))
+        path = walked(path._replace(search=search), pair)
+    return path
+
+
+@compiled()
+def walked(path: Path, known: Pair) -> Path:
+    """A path walked to its end, or until the part that waits last needs hulls for its most distant pair.
+
+    ``known`` is the pair of the part that waits last, or ``UNKNOWN``. Of a path that recurs only that pair is found.
+    """
+    z, search, found, waiting, smallest, looked_at, first, recurs = path
+    n = len(z) - 2
     while waiting.used > 0:
         start, end = waiting.values[waiting.used - 1, 0], waiting.values[waiting.used - 1, 1]
+        place(z, n, start)
+        place(z, n + 1, end)
+        i, after = int(np.floor(start)) + 1, int(np.ceil(end))
+        pair, is_found = known, known.p >= 0
+        if not is_found:
+            looked_at += end - start
+            pair, is_found = most_distant(z, search, i, after, looked_at <= PATIENCE * n)
+        if not is_found:
+            break
+        known = Pair(-1, -1, 0.0)
         waiting = Rows(waiting.values, waiting.used - 1)
-        pair, first, after = most_distant_between(z, search, start, end)
+        if recurs:
+            first = 0 if pair.p == n else pair.p
+            break
         if pair.square <= smallest:
             continue
         if found.used == 0:
@@ -80,20 +141,10 @@ def half_cycles(z: Floats) -> Floats:
         t_p = start if pair.p == n else float(pair.p)
         t_q = end if pair.q == n + 1 else float(pair.q)
         waiting = with_part(with_part(waiting, start, t_p), t_q, end)
-        length, area, waiting = walk(z, search, pair, first, after, t_p, t_q, waiting)
+        length, area, waiting = walk(z, search, pair, i, after, t_p, t_q, waiting)
         square = square_between(z, pair.p, pair.q)
         found = with_row(found, (t_p, t_q, np.sqrt(square), length, area / (0.25 * np.pi * square)))
-    return found.values[: found.used]
-
-
-@compiled()
-def most_distant_between(z: Floats, search: Search, start: float, end: float) -> tuple[Pair, int, int]:
-    """Most distant pair of a part of a path, the first sample in it, and the first one behind it."""
-    n = len(z) - 2
-    place(z, n, start)
-    place(z, n + 1, end)
-    first, after = int(np.floor(start)) + 1, int(np.ceil(end))
-    return most_distant(z, search, first, after), first, after
+    return Path(z, search, found, waiting, smallest, looked_at, first, recurs)
 
 
 @compiled()
@@ -167,8 +218,7 @@ def first_far(z: Floats, search: Search, p: int, i: int, stop: int, square: floa
     """First of the samples i to ``stop`` (excluded) that is at least so far from p, or ``stop``."""
     if z.shape[1] == 2:
         only = search.hull
-        only[0] = p
-        return first_reaching(z, search.hulls, only, 1, i, stop, square)
+        return first_reaching(z, search.hulls, only, in_order(z, p, p + 1, only), i, stop, square)
     while i < stop and square_between(z, p, i) < square:
         i += 1
     return i
