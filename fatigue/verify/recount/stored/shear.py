@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.results import read_table
+from fatigue.results import read_codes, read_table
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import OnePass, Values
 from fatigue.verify.recount.anew.shear.passes import ShearPass, ShearRules
@@ -23,6 +23,8 @@ EQUAL = 1.0 - 1e-12  # of the largest sum: only rounding tells these apart
 RATIOS = ("path_factor", "path_moment", "bending_ratio", "shear_bending_ratio")
 PATH_COLUMNS = ["start_s", "end_s", "range_MPa", "path_factor", "path_moment", "normal_range_MPa", "shear_range_MPa",
                 "bending_ratio", "shear_bending_ratio", "equivalent_range_dS", "damage"]  # fmt: skip
+LEFT_TO_COUNT = ("fails", "counted")  # statuses of the points that no bound has settled
+PATH_METHODS = ("range", "length", "mlp")  # with one of them every counted point may have its half cycles
 DECIDING = ("range", "length", "mlp", "asme")  # methods that may decide about life and verdict
 
 
@@ -58,14 +60,24 @@ def stored_shear(stored: Stored, inputs: RecountInputs, record: Mapping[str, Any
     table = read_table(stored.folder, "nodes", sorted(names))
     column = {name: stored.nodes.in_order(table[name].to_numpy()).astype(float) for name in names}
     by_range = column["utilisation_path_range"]
-    kept = frozenset(_with_half_cycles(stored, by_range))
+    left = np.isin(_texts(stored, "multiaxial_status"), LEFT_TO_COUNT) | (method in PATH_METHODS)
+    kept = frozenset(_with_half_cycles(stored, np.where(left, by_range, np.nan)))
     found = frozenset() if stored.path_cycles is None else frozenset(stored.path_cycles.points().tolist())
     by_method = column[of_method] if method in DECIDING else np.full(len(by_range), np.nan)
     return StoredShear(rules, ~np.isnan(by_range), kept | found, column["multiaxial_bound"], by_method)
 
 
+def _texts(stored: Stored, column: str) -> NDArray[np.object_]:
+    """Texts (p,) of a column of the table of points."""
+    codes, names = read_codes(stored.folder, "nodes", column)
+    return stored.nodes.in_order(np.array([*names, ""], dtype=object)[codes])
+
+
 def _with_half_cycles(stored: Stored, by_range: NDArray[np.float64]) -> list[int]:
-    """Points that have to have half cycles in the table: the worst one of each weld, from some sum on."""
+    """Points that have to have half cycles in the table: the worst one of each weld, from some sum on.
+
+    ``by_range`` are their sums, NaN where they are none that only the counter could settle.
+    """
     points = []
     first = 2 * stored.body.first
     for begin, end in zip(first[:-1].tolist(), first[1:].tolist(), strict=True):
