@@ -264,9 +264,6 @@ LEVERS = (
 )
 
 
-NOT_IN_OLDER = ("unit_load",)
-"""Columns of texts that tables of older versions lack."""
-
 ASSESSED: dict[str, tuple[Column, ...]] = {
     "nodes": NODES,
     "damage": DAMAGE,
@@ -283,3 +280,19 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, "sensitivity": SENSITIVITY, **CHECKED}
 """Tables of an assessment that older versions do not write, or only one that asks for them does."""
 TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED
+
+_SHEAR = ("shear_required", "multiaxial_status", "multiaxial_bound", "multiaxial_verdict")
+_SUMS = ("utilisation_path_range", "utilisation_path_length", "utilisation_path_mlp", "utilisation_asme")
+_PATH = ("path_factor_largest", "path_moment_largest")
+_CURVE = ("curve_status", "edition", "attachment_mm", "damage_limit")
+_CHECKS = ("worst_check", "worst_check_utilisation")
+_QUALITY = ("joint_type", "performance_class", "inspection_class", "stress_utilisation", "stress_category")
+_UNIT_LOAD = {"unit_load": None}
+NOT_IN_OLDER: dict[str, dict[str, int | None]] = {
+    "nodes": dict.fromkeys(("curve_status", *_SHEAR, *_SUMS, *_PATH)),
+    "welds": dict.fromkeys((*_CURVE, *_CHECKS, *_QUALITY)) | {"checks_not_assessed": 0},
+    "attribution": _UNIT_LOAD,
+    "track": _UNIT_LOAD,
+    "levers": _UNIT_LOAD,
+}
+"""Columns that tables of older versions lack, and what is read in their place: nothing, or the number of none."""

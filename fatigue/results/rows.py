@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.results.columns import NOT_IN_OLDER, TABLES
-from fatigue.results.tables import expect_columns, read_table, readable, table_path
+from fatigue.results.tables import expect_columns, read_table, readable, table_path, with_later_columns
 
 
 def read_rows(
@@ -38,6 +38,7 @@ def read_rows(
             whole = file.read_row_group(number, names)
             groups.append(whole.take(pa.array(wanted[group == number] - end[number])))
     found = _plain(pa.concat_tables(groups).unify_dictionaries())
+    found = with_later_columns(found, table, [c.name for c in TABLES[table]] if columns is None else columns)
     return found if (np.diff(rows) > 0).all() else found.take(pa.array(np.argsort(ascending)))
 
 
@@ -50,10 +51,11 @@ def row_groups(folder: Path | str, table: str) -> Iterator[pa.Table]:
     """
     with _opened(folder, table) as file:
         _wanted(file, table, None)
+        every = [column.name for column in TABLES[table]]
         if file.num_row_groups == 0:
-            yield _plain(file.schema_arrow.empty_table())
+            yield with_later_columns(_plain(file.schema_arrow.empty_table()), table, every)
         for number in range(file.num_row_groups):
-            yield _plain(file.read_row_group(number))
+            yield with_later_columns(_plain(file.read_row_group(number)), table, every)
 
 
 def row_count(folder: Path | str, table: str) -> int:
@@ -84,7 +86,7 @@ def number_groups(
     with _opened(folder, table) as file:
         names = _wanted(file, table, [*numbers, *texts])
         for number in range(file.num_row_groups):
-            group = file.read_row_group(number, names)
+            group = with_later_columns(file.read_row_group(number, names), table, [*numbers, *texts])
             columns: dict[str, NDArray[Any]] = {name: group.column(name).to_numpy() for name in numbers}
             for name, place in places.items():
                 codes, found = _coded(group.select([name]))
@@ -140,7 +142,8 @@ def read_codes(folder: Path | str, table: str, column: str) -> tuple[NDArray[np.
     DataError : the folder holds no such table, or the file is damaged
     """
     with _opened(folder, table) as file:
-        codes, names = _coded(file.read(_wanted(file, table, [column])))
+        found = file.read(_wanted(file, table, [column]))
+    codes, names = _coded(with_later_columns(found, table, [column]))
     return codes, names.to_pylist()
 
 
@@ -158,7 +161,7 @@ def _opened(folder: Path | str, table: str) -> Iterator[pq.ParquetFile]:
     texts = [column.name for column in TABLES[table] if column.type == "text"]
     with readable(path):
         there = pq.read_schema(path).names
-        texts = [name for name in texts if name in there or name not in NOT_IN_OLDER]
+        texts = [name for name in texts if name in there or name not in NOT_IN_OLDER.get(table, {})]
         try:
             opened = pq.ParquetFile(path, read_dictionary=texts, page_checksum_verification=True)
         except KeyError as error:  # of the library, for a coded column that is not there
@@ -183,4 +186,5 @@ def _plain(table: pa.Table) -> pa.Table:
 def _coded(table: pa.Table) -> tuple[NDArray[np.int32], pa.Array]:
     """Codes and texts of the one column of a table."""
     column = table.unify_dictionaries().column(0).combine_chunks()
+    column = column if pa.types.is_dictionary(column.type) else column.dictionary_encode()
     return pc.fill_null(column.indices, -1).to_numpy(), column.dictionary

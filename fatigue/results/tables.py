@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, given_names, given_path, refuse
 from fatigue.files.mishaps import is_of_the_system, refusal, refused_writing
-from fatigue.results.columns import ASSESSED, TABLES
+from fatigue.results.columns import ASSESSED, NOT_IN_OLDER, TABLES
 from fatigue.results.dictionary.column import ColumnType
 
 _ARROW_TYPE: dict[ColumnType, pa.DataType] = {
@@ -177,13 +177,36 @@ def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = N
     wanted = own if columns is None else list(given_names(columns, "columns"))
     refuse(DataError, _unknown_columns(path, wanted, own))
     with readable(path):
-        found = pq.read_table(path, columns=None if columns is None else wanted, page_checksum_verification=True)
+        later = later_columns(path, table)
+        named = None if columns is None else [name for name in wanted if name not in later]
+        found = pq.read_table(path, columns=named, page_checksum_verification=True)
         expect_columns(found.schema, table, wanted)
-    return found
+        return with_later_columns(found, table, wanted)
+
+
+def later_columns(path: Path, table: str) -> list[str]:
+    """Columns that a table lacks because an older version wrote it: see ``NOT_IN_OLDER``."""
+    later = NOT_IN_OLDER.get(table, {})
+    there = pq.read_schema(path).names if later else []
+    return [name for name in later if name not in there]
+
+
+def with_later_columns(found: pa.Table, table: str, wanted: Sequence[str]) -> pa.Table:
+    """The same rows with the wanted columns that a table of an older version lacks: see ``NOT_IN_OLDER``."""
+    there = found.column_names
+    later = {name: value for name, value in NOT_IN_OLDER.get(table, {}).items() if name in wanted and name not in there}
+    if not later:
+        return found
+    for name, value in later.items():
+        field = schema(table).field(name)
+        found = found.append_column(field, pa.array([value] * found.num_rows, field.type))
+    return found.select([*wanted, *(name for name in there if name not in wanted)])
 
 
 def expect_columns(found: pa.Schema, table: str, wanted: Sequence[str]) -> None:
     """Refuse a table without one of some columns, or with texts where numbers belong or the reverse.
+
+    Columns that tables of older versions lack need not be there.
 
     Raises
     ------
@@ -192,7 +215,10 @@ def expect_columns(found: pa.Schema, table: str, wanted: Sequence[str]) -> None:
     for column in TABLES[table]:
         if column.name not in wanted:
             continue
-        if (columns := found.names.count(column.name)) != 1:
+        columns = found.names.count(column.name)
+        if columns == 0 and column.name in NOT_IN_OLDER.get(table, {}):
+            continue
+        if columns != 1:
             raise pa.ArrowInvalid(f"it has {columns or 'no'} column{'s' * bool(columns)} {column.name}")
         kind = found.field(column.name).type
         kind = kind.value_type if pa.types.is_dictionary(kind) else kind

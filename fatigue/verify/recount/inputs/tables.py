@@ -95,11 +95,15 @@ def _typed(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def _ids(column: pd.Series) -> pd.Series:
-    """Ids of a column, exact where they are written as whole numbers; a program may write them as 12.0 or 1e3."""
+    """Ids of a column, exact where they are written as whole numbers; a program may write them as 12.0 or 1e3.
+
+    Where some are missing, as modes in rows of unit loads are, they are numbers and NaN.
+    """
     try:
         return column.astype(np.int64)
     except ValueError:
-        return column.astype(np.float64).astype(np.int64)
+        numbers = column.astype(np.float64)
+        return numbers if numbers.isna().any() else numbers.astype(np.int64)
 
 
 def _numbers(column: pd.Series) -> pd.Series:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.results import read_table
+from fatigue.results import read_codes, read_table
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import OnePass, Values
 from fatigue.verify.recount.anew.shear.passes import ShearPass, ShearRules
@@ -66,6 +66,12 @@ def stored_shear(stored: Stored, inputs: RecountInputs, record: Mapping[str, Any
     found = frozenset() if stored.path_cycles is None else frozenset(stored.path_cycles.points().tolist())
     by_method = column[of_method] if method in DECIDING else np.full(len(by_range), np.nan)
     return StoredShear(rules, ~np.isnan(by_range), kept | found, column["multiaxial_bound"], by_method)
+
+
+def _texts(stored: Stored, column: str) -> NDArray[np.object_]:
+    """Texts (p,) of a column of the table of points."""
+    codes, names = read_codes(stored.folder, "nodes", column)
+    return stored.nodes.in_order(np.array([*names, ""], dtype=object)[codes])
 
 
 def _with_half_cycles(stored: Stored, by_range: NDArray[np.float64]) -> list[int]:

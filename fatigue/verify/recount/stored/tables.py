@@ -11,6 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.results import TABLES, number_groups, read_codes, read_rows, read_table
+from fatigue.results.tables import later_columns, table_path
 from fatigue.verify.recount.choice import worst_points
 from fatigue.verify.recount.inputs.case import RecountInputs
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates
@@ -64,6 +65,7 @@ def open_tables(
     DataError : a table is missing or damaged
     """
     welds = read_table(folder, "welds", [column.name for column in TABLES["welds"]]).to_pandas().set_index("weld")
+    welds = welds.drop(columns=later_columns(table_path(folder, "welds"), "welds"))
     is_assessed = welds["status"] == "assessed"
     return Stored(
         folder=folder,
