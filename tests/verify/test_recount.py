@@ -150,8 +150,8 @@ ROUNDS = [
 
 @pytest.fixture(scope="module")
 def short_result(tmp_path_factory) -> Path:
-    """Result of one short open weld."""
-    tiny = TinyCase(welds=("short",), samples=120, spectrum="segment_s = 0.3")
+    """Result of one short open weld, which meets its target by normal stress, so that its paths are counted."""
+    tiny = TinyCase(welds=("short",), samples=120, spectrum="segment_s = 0.3", target_km=20.0)
     return assessed(tmp_path_factory.mktemp("short"), tiny)
 
 

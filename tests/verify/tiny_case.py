@@ -30,6 +30,7 @@ class TinyCase:
     samples: int = 400
     dead: str = ""  # a weld without forces
     still: str = ""  # an event in which nothing moves
+    target_km: float = 1e6
 
 
 def write_case(folder: Path, tiny: TinyCase) -> Path:
@@ -93,7 +94,7 @@ weld_nodes = "weld_nodes.csv"
 [spectrum]
 {tiny.spectrum}
 [mission]
-target_km = 1e6
+target_km = {tiny.target_km}
 km_per_year = 2e5
 damage_limit = 0.8
 [[mission.event]]
