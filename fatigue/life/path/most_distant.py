@@ -1,15 +1,17 @@
-"""Most distant pair of a part of a path: of few points by all pairs, in the plane by its hull, in space by distances.
+"""Most distant pair of a part of a path: by pairs of the points that are far enough out, or in the plane by its hull.
 
 Ties are settled by the order of the points: all pairs with ``d^2 >= (1 - TIE) d^2_max`` count as equal, and of these
 the one whose first point, then whose second point comes first is taken. Rounding must not choose between the turns of
 a motion that repeats itself.
 
-In the plane. The two points farthest apart are vertices of the convex hull, which is put together from the hulls of
-blocks. The largest distance of a place from all points is a convex function of the place, so a block has a point of
+By distances. Two points whose distances from any centre add up to less than the largest distance known cannot be the
+pair. On most parts few points are left, and all their pairs are looked at.
+
+By hulls, in the plane, where many points are left, or where parts lie in one another so that their samples would be
+looked at too often. The two points farthest apart are vertices of the convex hull, which is put together from the
+hulls of blocks. The largest distance of a place from all points is a convex function of the place, so a block has a point of
 such a pair only where a vertex of its own hull is one, or nearly. The first such point in time is P: had it a partner
 before it, that one would have come first.
-
-In space. Two points whose distances from any centre add up to less than the largest distance known cannot be the pair.
 """
 
 from typing import NamedTuple

@@ -1,7 +1,7 @@
 """The loops of the path counter: half cycle by half cycle, each walked from its beginning to its end.
 
 A part of the path waits until its turn comes, so that nothing is nested, however long the path is. In a walk every
-piece of the real part is passed once in all; an excursion is jumped over by the hulls of its blocks in the plane.
+piece of the real part is passed once in all; an excursion is jumped over by the hulls of its blocks, if they were made.
 """
 
 from typing import NamedTuple
