@@ -236,7 +236,7 @@ def assumptions(record: dict[str, Any]) -> str:
     loops = len(record["mission"].get("sequences", []))
     sequences = f"; cycles across the events of {loops} sequence{'s' * (loops != 1)}" * (loops > 0)
     common = record["mission"]["damage_limit"]
-    limits = {name: curve["used"].get("damage_limit", common) for name, curve in record["curves"].items()}
+    limits = {name: curve["used"].get("damage_limit", common) for name, curve in record.get("curves", {}).items()}
     others = "".join(f", {limit:g} on {name}" for name, limit in limits.items() if limit != common)
     return (
         f"Curve {curves}; thickness {rules['thickness_rule']}; {extension}; mean stress {rules['mean_stress']}; "

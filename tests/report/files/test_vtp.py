@@ -43,7 +43,8 @@ def test_every_column_of_both_faces_is_point_data(result_folder, tmp_path):
             if column.name in ("x_mm", "y_mm", "z_mm", "surface"):
                 continue
             name = column.name if column.name in found else f"{column.name}_{face}"
-            expected = rows[column.name].fillna("") if column.type == "text" else rows[column.name]
+            missing = {"text": "", "flag": -1}.get(column.type)
+            expected = rows[column.name] if missing is None else rows[column.name].fillna(missing)
             np.testing.assert_array_equal(found[name], expected, err_msg=name)
 
 

@@ -170,9 +170,9 @@ def curve_named(
         h, ranges = MASTER[name]
         given = Given((1.0 / h,), (), 1.0, dict(zip(LEVELS, ranges, strict=True)), "dS", None, 0.0)
     elif own is not None and line_is_own:
-        listed = record["curves"][name]  # of what a changed curve of the catalogue keeps
+        listed = record.get("curves", {}).get(name, {})  # of what a changed curve of the catalogue keeps
         keeps = ("applies", "thickness_reference_mm", "thickness_exponent")
-        given = _own({key: listed[key] for key in keeps} | dict(own))
+        given = _own({key: listed[key] for key in keeps if key in listed} | dict(own))
     else:
         given = _listed(record["curves"][name])
     level = asked.get("survival", "mean-2sigma") if len(given.ranges) > 1 else next(iter(given.ranges))

@@ -209,6 +209,8 @@ def _relative_difference(name: str, row: Row) -> float:
     excess = found - expected
     if row.is_bound and name in UPPER_BOUNDS | LOWER_BOUNDS:
         excess = min(excess, 0.0) if name in UPPER_BOUNDS else max(excess, 0.0)
+    if excess == 0.0:  # on the right side of a bound, also of one that is 0
+        return 0.0
     size = max(row.scale.get(name, 0.0), abs(expected))
     return abs(excess) / size if size > 0 else np.inf
 

@@ -5,7 +5,6 @@ import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.pipeline.checks.test_directions import KNEE, ONE, PARTS, PLAIN, SUMS, event, plan_of
 
 from fatigue.assess import assess
 from fatigue.errors import DataError
@@ -13,6 +12,7 @@ from fatigue.life.curves import damage_law, user_curve
 from fatigue.life.rule import cycle_damage
 from fatigue.pipeline.checks.linear.counted import counted_each
 from fatigue.pipeline.checks.linear.paths import counted_paths, largest_factor
+from tests.pipeline.checks.linear.test_directions import KNEE, ONE, PARTS, PLAIN, SUMS, event, plan_of
 from tests.small_case import sine_only, small_case
 from tests.throat_case import HEAD, row, with_throats
 
