@@ -287,7 +287,7 @@ _PATH = ("path_factor_largest", "path_moment_largest")
 _CURVE = ("curve_status", "edition", "attachment_mm", "damage_limit")
 _CHECKS = ("worst_check", "worst_check_utilisation")
 _QUALITY = ("joint_type", "performance_class", "inspection_class", "stress_utilisation", "stress_category")
-_UNIT_LOAD = {"unit_load": None}
+_UNIT_LOAD: dict[str, int | None] = {"unit_load": None}
 NOT_IN_OLDER: dict[str, dict[str, int | None]] = {
     "nodes": dict.fromkeys(("curve_status", *_SHEAR, *_SUMS, *_PATH)),
     "welds": dict.fromkeys((*_CURVE, *_CHECKS, *_QUALITY)) | {"checks_not_assessed": 0},
