@@ -80,7 +80,7 @@ def refuse_wrong_checks(
     CaseError : with every mistake found
     """
     file = case.path.name
-    problems: list[Problem] = []
+    problems: list[Problem] = list(_of_counts(case, points))
     for number, interaction in enumerate(case.checks.interaction, 1):
         where = f"{file}: checks.interaction[{number}]"
         problems += _of_interaction(interaction, welds, where)
@@ -94,6 +94,16 @@ def refuse_wrong_checks(
         if check in case.checks.endurance[: number - 1]:
             problems.append(Problem("duplicate", where, "is there already, with the same keys", "Remove one of them"))
     refuse(CaseError, problems)
+
+
+def _of_counts(case: Case, points: StressPoints | None) -> Iterator[Problem]:
+    """Refusal of a check that is to decide, and that no stress point is for."""
+    kinds = {"hot_spot": ("hot_spot_a", EDGE), "nominal": ("nominal",), "parent": ("parent", "haz")}
+    for check in case.checks.counts:
+        if points is None or check not in kinds or set(kinds[check]) & set(points.kind):
+            continue
+        what = f"'{check}' is to decide, but {case.body.stress_points} has no point of kind {' or '.join(kinds[check])}"
+        yield Problem("no_check", f"{case.path.name}: checks.counts", what, f"Add such a point, or remove '{check}'")
 
 
 def looks_at_welds(check: EnduranceCheck) -> bool:

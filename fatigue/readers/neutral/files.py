@@ -44,7 +44,7 @@ def open_columns(path: Path, texts: Collection[str]) -> Columns:
         raise
     if columns.rows == 0:
         refuse(DataError, filter(None, [other_format(path)]))
-        raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write the file again"))
+        raise DataError(Problem("empty_table", path.name, "the table has no rows", "Write at least one row"))
     return columns
 
 

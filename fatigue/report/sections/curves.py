@@ -47,12 +47,18 @@ def curve_sections(result: ShownResult) -> dict[str, Any]:
     return {
         "curves": curve_table(record),
         "factors": factor_table(record),
-        "unverified": f"{len(unverified)} of {len(result.assessed)} welds rest on unverified curves ({few(names)})"
-        if names
-        else "",
+        "unverified": _unverified(unverified, of_toes(result), len(result.assessed), names) if names else "",
         "entered": f"values entered by the user: {few(entered)}" if entered else "",
         "stress_factors": few(on_top) if on_top else "",
     }
+
+
+def _unverified(welds: Sequence[str], of_lives: Sequence[str], of: int, names: Sequence[str]) -> str:
+    """How many welds rest on unverified curves, and how many of them by checks beside the toe alone."""
+    said = f"{len(welds)} of {of} welds rest on unverified curves ({few(names)})"
+    if len(of_lives) == len(welds):
+        return said
+    return f"{said}, {len(of_lives) or 'none'} of them with {'their lives' if len(of_lives) > 1 else 'its life'}"
 
 
 def unverified_welds(result: ShownResult) -> list[str]:

@@ -131,7 +131,7 @@ def test_corrupt_parquet_data(tmp_path):
     [
         ("", "t.csv: the first line is empty. Write the column names there."),
         ("\na\n1\n", "t.csv: the first line is empty. Write the column names there."),
-        ("a,b\n", "t.csv: the table has no rows. Write the file again."),
+        ("a,b\n", "t.csv: the table has no rows. Write at least one row."),
         (
             "a,b\n1,2\n3\n",
             "t.csv: row 2: 1 cells in a table of 2 columns. Write one cell per column, texts with commas",

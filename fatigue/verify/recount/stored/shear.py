@@ -20,6 +20,7 @@ from fatigue.verify.recount.stored.tables import Stored
 
 HALF_CYCLES_FROM = 0.1  # of the damage limit, by range: the worst point of a weld has its half cycles from there on
 EQUAL = 1.0 - 1e-12  # of the largest sum: only rounding tells these apart
+PATH_SUMS = ("utilisation_path_", "path_")
 RATIOS = ("path_factor", "path_moment", "bending_ratio", "shear_bending_ratio")
 PATH_COLUMNS = ["start_s", "end_s", "range_MPa", "path_factor", "path_moment", "normal_range_MPa", "shear_range_MPa",
                 "bending_ratio", "shear_bending_ratio", "equivalent_range_dS", "damage"]  # fmt: skip
@@ -94,7 +95,7 @@ def shear_rows(
     """Columns of shear of one point, as they should be beside those in the table.
 
     The bound may be larger than that of the exact path where this was not traced, and so may the ASME sum of a point
-    whose cycles were not counted.
+    whose cycles were not counted. Of a point whose path has sums and was not counted again they are believed.
     """
     screened = bool(found["screened"]) and toe
     if screened:  # what follows from normal stress that was not counted is not known exactly, or not at all
@@ -102,8 +103,11 @@ def shear_rows(
         if not pd.isna(found["shear_required"]):
             known.append("shear_required")
         if not pd.isna(found["utilisation_path_range"]):
-            known += [name for name in values if name.startswith(("utilisation_path", "path_"))]
+            known += [name for name in values if name.startswith(PATH_SUMS)]
         values = {name: values[name] for name in known}
+    elif toe and np.isnan(values["utilisation_path_range"]) and not pd.isna(found["utilisation_path_range"]):
+        left = "multiaxial_verdict" if values["multiaxial_verdict"] != "settled_fails" else ""
+        values = {name: value for name, value in values.items() if not name.startswith(PATH_SUMS) and name != left}
     is_bound = {"multiaxial_bound": not exact_bound, "utilisation_asme": screened}
     rows = []
     for as_bound in (False, True):
