@@ -9,9 +9,9 @@ pair. On most parts few points are left, and all their pairs are looked at.
 
 By hulls, in the plane, where many points are left, or where parts lie in one another so that their samples would be
 looked at too often. The two points farthest apart are vertices of the convex hull, which is put together from the
-hulls of blocks. The largest distance of a place from all points is a convex function of the place, so a block has a point of
-such a pair only where a vertex of its own hull is one, or nearly. The first such point in time is P: had it a partner
-before it, that one would have come first.
+hulls of blocks. The largest distance of a place from all points is a convex function of the place, so a block has a
+point of such a pair only where a vertex of its own hull is one, or nearly. The first such point in time is P: had it a
+partner before it, that one would have come first.
 """
 
 from typing import NamedTuple
