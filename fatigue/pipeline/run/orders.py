@@ -3,9 +3,11 @@
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from shutil import rmtree
+from tempfile import mkdtemp
 from threading import Lock
 from typing import Any
+from weakref import finalize
 
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
@@ -51,10 +53,18 @@ def fulfil(order: Order) -> dict[str, NDArray[Any]]:
 _OPENING = Lock()
 
 
+class _Scratch:
+    """A folder for scratch files that goes with the object, without the warning of ``TemporaryDirectory``."""
+
+    def __init__(self) -> None:
+        self.path = Path(mkdtemp(prefix="fatigue-"))
+        finalize(self, rmtree, self.path, ignore_errors=True)
+
+
 @lru_cache(maxsize=1)
 def _opened(
     path: str, strict: bool, options: ScreeningOptions, key: str, factors: tuple[int, ...]
-) -> tuple[Work, TemporaryDirectory[str]]:
+) -> tuple[Work, _Scratch]:
     """The work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
     threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
     case = load_case(Path(path))
@@ -69,6 +79,5 @@ def _opened(
         )
     body = read_body(case, strict=strict)
     plan, _ = mission_plan(body, threads=1)
-    folder = TemporaryDirectory(prefix="fatigue-")
-    scratch = Path(folder.name)
-    return open_work(weld_groups(body, scratch / "forces"), plan, options, scratch, 1, factors), folder
+    scratch = _Scratch()
+    return open_work(weld_groups(body, scratch.path / "forces"), plan, options, scratch.path, 1, factors), scratch
