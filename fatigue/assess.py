@@ -59,7 +59,7 @@ from fatigue.stages import stage
 
 log = logging.getLogger(__name__)
 
-SCREEN = "Leave out share (--screen), or give method = 'report'"
+SCREEN = "Leave out --screen (share), or give method = 'report'"
 
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
 

@@ -117,7 +117,7 @@ def test_alpha_is_required_by_the_moment(tmp_path):
 
 def test_screening_beside_a_named_method_is_refused(tmp_path):
     """Bounds of the normal stress say nothing of shear; nothing has been written then."""
-    with pytest.raises(CaseError, match="needs every point counted"):
+    with pytest.raises(CaseError, match=r"needs every point counted.*Leave out --screen \(share\)"):
         assess(sheared(multiaxial='method = "range"').write(tmp_path / "case"), tmp_path / "out", share=0.1)
     assert not (tmp_path / "out").exists()
 

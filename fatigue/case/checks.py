@@ -21,7 +21,7 @@ CHECK_FILES = ("static_cases", "endurance_lines", "strength_factors")
 Method = Literal["report", "range", "length", "mlp", "asme", "off"]
 Check = Literal["throat_perp", "throat_par", "throat_root", "hot_spot", "nominal", "parent", "interaction", "endurance"]
 Rule = Literal["en1993", "iiw", "en1999", "dnv"]
-_Names: TypeAlias = Annotated[tuple[Text, ...], Field(strict=False)]
+_Names: TypeAlias = Annotated[tuple[Text, ...], Field(strict=False, min_length=1)]
 
 
 class Multiaxial(Table):

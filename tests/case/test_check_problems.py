@@ -58,6 +58,7 @@ WRONG_INTERACTIONS = [
     ),
     (['rule = "en1990"'], "rule: \"en1990\" should be 'en1993', 'iiw', 'en1999' or 'dnv'."),
     (['rule = "en1993"', 'welds = ["a", "b", "a"]'], "welds: names 'a' twice. Name it once."),
+    (['rule = "en1993"', "welds = []"], "welds: [] is empty. Give a list of the welds; left out: every weld with"),
     (['rule = "iiw"', "cv = 0.0", "damage_limit = 0.5"], "cv: 0.0 should be greater than 0."),
 ]
 
@@ -73,6 +74,14 @@ WRONG_CHECKS = [
     (
         '[[checks.endurance]]\ncases = "ride"\nperp = "F3"\nlimit = 1.0\n',
         "endurance[1].limit: limit = 1 is given for 1",
+    ),
+    (
+        '[[checks.endurance]]\ncases = "ride"\nperp = "F3"\nwelds = []\n',
+        "endurance[1].welds: [] is empty. Give a list of welds; left out together with points: every weld.",
+    ),
+    (
+        '[[checks.endurance]]\ncases = "ride"\nperp = "F3"\npoints = []\n',
+        "endurance[1].points: [] is empty. Give a list of stress points.",
     ),
     (
         '[[checks.endurance]]\ncases = "ride"\ncurve = "c"\nlimit = 1.0\n',

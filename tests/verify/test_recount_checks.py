@@ -14,7 +14,9 @@ from fatigue.results import schema
 from fatigue.verify.recount import recount
 from tests.compared_case import CASES, LINES, compared_case
 from tests.older_result import without_hashes
+from tests.small_case import small_case
 from tests.stress_point_case import curve_text, point, stresses, write_points
+from tests.unit_load_case import as_unit_load
 
 CHECKS = """
 [checks]
@@ -170,3 +172,28 @@ def test_a_verdict_that_is_not_that_of_its_row_is_found(result, tmp_path):
     frame.loc[row, "fulfilled"] = not frame.loc[row, "fulfilled"]
     pq.write_table(pa.Table.from_pandas(frame, schema=schema("checks"), preserve_index=False), path)
     assert "checks, all rows.fulfilled" in differing(path.parent, sample=0)
+
+
+@pytest.fixture(scope="module", params=["csv", "parquet"])
+def of_a_load(request, tmp_path_factory) -> Path:
+    """Result of stress points whose stress is that of modes and of a unit load, in whose rows the mode is empty."""
+    folder = tmp_path_factory.mktemp("load") / "case"
+    case = small_case(seconds=2.0)
+    forces = as_unit_load(case, 7, "press", request.param)
+    case.mission["target_km"] = 2e4
+    case.extra += curve_text("points", 20.0) + curve_text("metal", 60.0, "parent")
+    tensors = {1: (1.0, 2.0, 0.5), 2: (0.3, -1.5, 0.2), "press": (2.0, 4.0, -1.0)}
+    points = [point("spot", weld="A", curve="points"), point("metal", "parent", curve="metal")]
+    tables = [stresses("spot", tensors, (3.2, 8.0)), stresses("metal", tensors)]
+    path = write_points(case, folder, points, tables, request.param)
+    (forces.to_csv if request.param == "csv" else forces.to_parquet)(folder / f"loads.{request.param}", index=False)
+    assess(path, folder.parent / "out", threads=1, report=False)
+    return without_hashes(folder.parent / "out")
+
+
+def test_stress_of_unit_loads_is_counted_again(of_a_load, tmp_path):
+    """Rows of a unit load have no mode; what they add is recounted, and a wrong value at such a point is found."""
+    found = recount(of_a_load, sample=None)
+    assert found.passed, found.as_text()
+    assert {column.column: column.compared for column in found.columns if column.table == "checks"}["damage_per_km"] > 2
+    assert "checks.damage_per_km" in differing(spoiled(of_a_load, tmp_path, "parent", "", "damage_per_km"), sample=0)

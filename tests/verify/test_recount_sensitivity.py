@@ -37,14 +37,16 @@ SETTINGS = {
 }
 
 
-def varied_case(*, extra: str = "", reversals: str = "samples", upsample: object = 1, **curve: object) -> SmallCase:
-    """Two welds whose forces vary along the line, at a target that they are close to."""
+def varied_case(
+    *, extra: str = "", reversals: str = "samples", upsample: object = 1, target_km: float = 2e4, **curve: object
+) -> SmallCase:
+    """Two welds whose forces vary along the line, which are far from their target unless it is a shorter one."""
     case = small_case(seconds=2.0)
     along = 1.0 + 0.4 * np.sin(np.arange(len(case.nodal_forces)) % 7)
     components = [c for c in case.nodal_forces if c.endswith(("_N", "_Nmm"))]
     case.nodal_forces[components] *= along[:, None]
     case.counting = {"upsample": upsample, "reversals": reversals}
-    case.mission["target_km"] = 2e4
+    case.mission["target_km"] = target_km
     case.curve |= curve
     case.extra = extra
     return case
@@ -76,8 +78,15 @@ def test_all_variants_agree(tmp_path, name):
 
 @pytest.fixture(scope="module")
 def result(tmp_path_factory) -> Path:
-    """Result with rows of every basis that names a point, and bounds on either side."""
+    """Result of welds that fail: rows of every basis that names a point, and bounds from below."""
     return assessed(tmp_path_factory.mktemp("varied"), survival="mean-3sigma", extension="haibach", knee_cycles=3e5)
+
+
+@pytest.fixture(scope="module")
+def fulfilled(tmp_path_factory) -> Path:
+    """Result of welds that meet their target, some of them under variants by a bound from above."""
+    curve = {"survival": "mean-3sigma", "extension": "haibach", "knee_cycles": 3e5}
+    return assessed(tmp_path_factory.mktemp("fulfilled"), target_km=5.0, **curve)
 
 
 def spoiled(result: Path, folder: Path, rows, change) -> Path:
@@ -117,6 +126,31 @@ def test_a_thousandth_is_found(result, tmp_path, basis):
     """Of numbers that are exact, counted again, or those of the assessment."""
     folder = spoiled(result, tmp_path, lambda frame: frame["basis"] == basis, scaled(1.001))
     assert differing(folder, sample=None) == {"utilisation"}
+
+
+def is_bound(frame: pd.DataFrame) -> pd.Series:
+    """Rows of a variant whose bound is close to what is counted."""
+    return (frame["basis"] == "bound") & (frame["variant"] == "no_knee")
+
+
+@pytest.mark.parametrize("sample", [None, 1])
+def test_a_bound_below_what_is_counted_is_found(fulfilled, tmp_path, sample):
+    """A bound from above, of a weld that meets its target, where all points are counted again and where few are."""
+    folder = spoiled(fulfilled, tmp_path, is_bound, scaled(0.5))
+    assert differing(folder, sample=sample) == {"utilisation"}
+
+
+def test_a_bound_above_what_is_counted_is_found(result, tmp_path):
+    """A bound from below, of a weld that fails: wrong only if no point of the weld reaches it, so all are counted."""
+    folder = spoiled(result, tmp_path, is_bound, scaled(2.0))
+    assert differing(folder, sample=None) == {"utilisation"}
+
+
+@pytest.mark.parametrize(("of", "factor"), [("fulfilled", 2.0), ("result", 0.5)])
+def test_a_wide_bound_is_none_that_is_wrong(request, tmp_path, of, factor):
+    """A bound that is farther from what is counted than it need be still holds."""
+    folder = spoiled(request.getfixturevalue(of), tmp_path, is_bound, scaled(factor))
+    assert differing(folder, sample=None) == set()
 
 
 @pytest.mark.parametrize("column", ["fulfilled", "flips"])

@@ -53,7 +53,7 @@ def shear_of(
     """Columns of shear of some points, whose columns by normal stress are ``values``; nothing without shear."""
     if shear is None:
         return {}
-    found, f_M = {}, mean_stress_of(inputs).counts
+    found, mean_stress = {}, mean_stress_of(inputs)
     for point, station in stations.items():
         of, surface = passes[point], body.key(point)[3]
         if surface not in station.weld.toes:
@@ -64,23 +64,13 @@ def shear_of(
             passes=of.treated[: len(of.extents)],
             extents=of.extents,
             paths=of.paths or None,
+            mean_stress=mean_stress,
             stored_bound=float(shear.bound[point]),
             has_sums=bool(shear.counted[point]),
         )
         own = shear_values(at, values[point], events[: len(of.extents)], inputs.case["mission"], shear.rules.beta)
         rounding = shear_bounds(at, values[point], bounds[point], own)
-        if f_M:  # of the bound it is only known that nothing may exceed it
-            own["multiaxial_bound"] = float(np.nan_to_num(own["utilisation_path_range"]))
-        if at.paths is None and at.has_sums:  # not counted again, so nothing is known of them
-            unknown = ("utilisation_path_", "path_", "multiaxial_verdict")
-            own = {name: value for name, value in own.items() if not name.startswith(unknown)}
-        proven = min(station.weld.curve.slopes) >= 1.0 and not f_M
-        found[point] = Sheared(
-            own,
-            rounding,
-            exact_bound=at.paths is not None and proven,
-            toe=True,
-        )
+        found[point] = Sheared(own, rounding, exact_bound=at.paths is not None, toe=True)
     return found
 
 

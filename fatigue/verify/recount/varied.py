@@ -220,7 +220,8 @@ def _utilisation(of: Asked, job: Job, events: Sequence[RecountEvent]) -> tuple[f
     """Utilisation of a point under its variant, and what rounding may do to it."""
     mission, curve, n = job.inputs.case["mission"], of.point.curve, len(job.inputs.case["mission"]["event"])
     raw = [one.quantities["damage_per_pass"] for one in of.passes]
-    normal = point_values(of.passes, raw, events, mission, curve, mean_stress_of(job.inputs))
+    mean_stress = mean_stress_of(job.inputs)
+    normal = point_values(of.passes, raw, events, mission, curve, mean_stress)
     of_raw = [one.bounds["damage_per_pass"] for one in of.passes]
     rounding = bounds_of_point(of.passes, of_raw, events, mission, curve, normal)["utilisation"]
     used = float(normal["utilisation"])
@@ -229,7 +230,7 @@ def _utilisation(of: Asked, job: Job, events: Sequence[RecountEvent]) -> tuple[f
     normal["damage_per_km_transitions"] = float(
         sum(event.passes_per_km * damage for event, damage in zip(events[n:], raw[n:], strict=True))
     )
-    at = AtPoint(of.point, of.passes[:n], of.extents, of.paths or None, np.nan, has_sums=False)
+    at = AtPoint(of.point, of.passes[:n], of.extents, of.paths or None, mean_stress, np.nan, has_sums=False)
     by_method = shear_values(at, normal, events[:n], mission, job.rules.beta)
     name = "utilisation_asme" if of.method == "asme" else f"utilisation_path_{of.method}"
     return float(np.fmax(used, by_method[name])), rounding

@@ -98,14 +98,16 @@ def shear_rows(
     whose cycles were not counted. Of a point whose path has sums and was not counted again they are believed.
     """
     screened = bool(found["screened"]) and toe
+    of_path = found["utilisation_path_range"]
+    is_believed = toe and np.isnan(values["utilisation_path_range"]) and not pd.isna(of_path)
     if screened:  # what follows from normal stress that was not counted is not known exactly, or not at all
         known = ["multiaxial_bound", "utilisation_asme"]
         if not pd.isna(found["shear_required"]):
             known.append("shear_required")
-        if not pd.isna(found["utilisation_path_range"]):
+        if not (pd.isna(of_path) or is_believed):
             known += [name for name in values if name.startswith(PATH_SUMS)]
         values = {name: values[name] for name in known}
-    elif toe and np.isnan(values["utilisation_path_range"]) and not pd.isna(found["utilisation_path_range"]):
+    elif is_believed:
         left = "multiaxial_verdict" if values["multiaxial_verdict"] != "settled_fails" else ""
         values = {name: value for name, value in values.items() if not name.startswith(PATH_SUMS) and name != left}
     is_bound = {"multiaxial_bound": not exact_bound, "utilisation_asme": screened}

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from fatigue.verify.recount.anew.curve import RecountCurve
+from fatigue.verify.recount.anew.mean_stress import MeanStress
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values
 from fatigue.verify.recount.anew.record import RecountRecord
@@ -21,6 +22,7 @@ NO_SHEAR: Values = {
     **dict.fromkeys(("path_factor_largest", "path_moment_largest"), np.nan),
 }
 EQUAL = 1.0 - 1e-9  # ranges that only rounding tells apart
+ROUNDING = 1e-9  # by which bounds are raised
 CLOSE = 1e-6  # to a limit: rounding decides on which side
 
 
@@ -44,7 +46,12 @@ def shear_extent(point: RecountPoint, record: RecountRecord, beta: float) -> She
 
 
 def path_bound(extent: ShearExtent, curve: RecountCurve, size: float, beta: float) -> float:
-    """Damage of a pass that half cycles by range cannot exceed: all of its length in cycles of the largest range."""
+    """Damage of a pass that half cycles by range cannot exceed: all of its length in cycles of the largest range.
+
+    Infinite on slopes below 1, where nothing is proven.
+    """
+    if min(curve.slopes) < 1.0:
+        return np.inf
     c = size / float(curve.bending_factor(np.zeros(1))[0])
     largest = c * float(np.hypot(extent.normal, np.sqrt(beta) * extent.shear))
     damage = float(curve.damage(np.array([largest]))[0])
@@ -60,6 +67,7 @@ class AtPoint:
     point : its stresses and curve
     passes, extents : of every event
     paths : of every event; None where they were not counted again
+    mean_stress : what the case says of it
     stored_bound : bound in the table, from which follows what is settled where the paths were not counted
     has_sums : whether the table has sums of the paths
     """
@@ -68,6 +76,7 @@ class AtPoint:
     passes: Sequence[OnePass]
     extents: Sequence[ShearExtent]
     paths: Sequence[ShearPass] | None
+    mean_stress: MeanStress
     stored_bound: float
     has_sums: bool
 
@@ -77,7 +86,8 @@ def shear_values(
 ) -> Values:
     """Columns of shear of a toe point whose columns by the normal stress are ``normal``.
 
-    The bound is that of the exact path; the stored one may be larger where the paths were not counted.
+    The bound is that of the exact path, infinite where f_M may apply; the stored one may be larger where the paths
+    were not counted.
     """
     of_target: float = mission["target_km"] / of.point.curve.limit(mission)
     weights = of_target * np.array([event.passes_per_km for event in events])
@@ -89,7 +99,7 @@ def shear_values(
         return float(weights @ np.array(of_events)) + across
 
     asme = summed([one.quantities["with_shear"] for one in of.passes])
-    bound = summed([path_bound(extent, curve, size, beta) for extent in of.extents])
+    bound = np.inf if _may_need_mean_stress(of) else summed([path_bound(one, curve, size, beta) for one in of.extents])
     largest = max(one.quantities["max_range_MPa"] for one in of.passes)
     values = NO_SHEAR | {
         "shear_required": bool(max(extent.shear for extent in of.extents) > largest / 3.0),
@@ -113,6 +123,15 @@ def shear_values(
         values["multiaxial_status"] = _status(normal["utilisation"], bound, asme, top)
     values["multiaxial_verdict"] = _verdict(values)
     return values
+
+
+def _may_need_mean_stress(of: AtPoint) -> bool:
+    """Whether a cycle may reach the tension from which on f_M is below 1: no stress is above mean and range."""
+    if not of.mean_stress.counts or of.mean_stress.yield_MPa is None:
+        return False
+    means = [one.quantities["mean_stress_MPa"] for one in of.passes]
+    highest = max(mean + extent.normal for mean, extent in zip(means, of.extents, strict=True))
+    return bool(2.0 * highest * (1.0 + ROUNDING) >= of.mean_stress.yield_MPa)
 
 
 def shear_bounds(of: AtPoint, normal: Values, normal_bounds: Mapping[str, float], values: Values) -> dict[str, float]:
