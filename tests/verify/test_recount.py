@@ -390,6 +390,8 @@ def test_text_and_record_of_a_recount(short_result, copy_of_short):
         "welds",
         "cycles",
         "histogram",
+        "path_cycles",
+        "sensitivity",
     ]
     spoil(copy_of_short, "nodes", "life_km")
     bad = recount(copy_of_short, sample=None)
