@@ -48,7 +48,7 @@ def test_fewer_welds_where_all_would_take_long(result):
     samples = sum(e["samples"] for e in json.loads((result / "provenance.json").read_text())["mission"]["events"])
     found = recount(result, sample=0, most_samples=4 * samples)
     assert found.passed, found.as_text()
-    assert found.points == 4
+    assert found.points == 4 + 1  # one of these welds has half cycles, at another point than its worst one
     assert found.choice.startswith("the worst points of 4 of 6 welds, 2 with the shortest lives and 2 drawn")
     assert f"  recounted: {found.choice}" in found.as_text().splitlines()
     record = json.loads(json.dumps(json_ready(found.as_record())))
