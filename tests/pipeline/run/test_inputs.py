@@ -11,6 +11,7 @@ from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import DataError
 from fatigue.pipeline.run import inputs as of_run
+from fatigue.pipeline.tables import written
 from fatigue.results import read_provenance
 from tests.small_case import sine_only
 
@@ -160,10 +161,10 @@ def test_a_failure_of_half_replaced_inputs_names_them(case_file, tmp_path, monke
         rewritten(case_file.parent / "nodal_forces.csv")
         raise IndexError
 
-    monkeypatch.setattr(story, "write_group", replace_and_fail)
+    monkeypatch.setattr(written, "write_group", replace_and_fail)
     with pytest.raises(DataError, match=r"nodal_forces\.csv: was replaced while the run was going on"):
         assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
-    monkeypatch.setattr(story, "write_group", fail)
+    monkeypatch.setattr(written, "write_group", fail)
     with pytest.raises(IndexError):
         assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
 
@@ -187,10 +188,14 @@ def test_inputs_that_change_while_they_are_read_are_read_again(case_file, tmp_pa
             grown(case_file.parent / "modes.csv")
         return found
 
-    monkeypatch.setattr(story, "read_case", lambda *args, strict: restless(*args, strict=strict, changes=1))
+    monkeypatch.setattr(
+        story, "read_case", lambda *args, strict, require_verified: restless(*args, strict=strict, changes=1)
+    )
     assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
     assert len(times) == 2
-    monkeypatch.setattr(story, "read_case", lambda *args, strict: restless(*args, strict=strict, changes=99))
+    monkeypatch.setattr(
+        story, "read_case", lambda *args, strict, require_verified: restless(*args, strict=strict, changes=99)
+    )
     with pytest.raises(DataError, match=r"modes\.csv: is being written while it is read"):
         assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
 
