@@ -3,6 +3,7 @@
 import os
 import shutil
 import time
+from functools import partial
 
 import pytest
 
@@ -181,8 +182,8 @@ def test_inputs_that_change_while_they_are_read_are_read_again(case_file, tmp_pa
     """Once: the second reading counts; again and again: refused."""
     read, times = story.read_case, []
 
-    def restless(case, threads, *, strict, changes):
-        found = read(case, threads, strict=strict)
+    def restless(case, threads, *, strict, require_verified, changes):
+        found = read(case, threads, strict=strict, require_verified=require_verified)
         times.append(1)
         if len(times) <= changes:
             grown(case_file.parent / "modes.csv")
