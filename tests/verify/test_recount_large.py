@@ -12,8 +12,8 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.results import json_ready, schema
-from fatigue.verify.recount import folder as story
 from fatigue.verify.recount import Recount, recount
+from fatigue.verify.recount import folder as story
 from fatigue.verify.recount.inputs import tables
 from tests.older_result import without_hashes
 from tests.verify.test_recount import assessed, differing, edit
