@@ -189,14 +189,10 @@ def test_inputs_that_change_while_they_are_read_are_read_again(case_file, tmp_pa
             grown(case_file.parent / "modes.csv")
         return found
 
-    monkeypatch.setattr(
-        story, "read_case", lambda *args, strict, require_verified: restless(*args, strict=strict, changes=1)
-    )
+    monkeypatch.setattr(story, "read_case", partial(restless, changes=1))
     assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
     assert len(times) == 2
-    monkeypatch.setattr(
-        story, "read_case", lambda *args, strict, require_verified: restless(*args, strict=strict, changes=99)
-    )
+    monkeypatch.setattr(story, "read_case", partial(restless, changes=99))
     with pytest.raises(DataError, match=r"modes\.csv: is being written while it is read"):
         assess(load_case(case_file), tmp_path / "result", threads=1, report=False)
 
