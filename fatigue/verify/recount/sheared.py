@@ -16,7 +16,7 @@ from fatigue.verify.recount.layout import Layout
 from fatigue.verify.recount.stored.rows import Station
 from fatigue.verify.recount.stored.shear import DECIDING, StoredShear
 
-PATH_SAMPLES = 1_000_000  # of paths that are counted where points are drawn: a minute or two
+PATH_SAMPLES = 300_000  # of paths that are counted where points are drawn: some ten seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
