@@ -111,7 +111,8 @@ def test_the_shipped_example_agrees(example_result):
     found = recount(example_result, sample=5)
     assert found.passed, found.as_text()
     assert 14 + 5 <= found.points < found.points_in_all
-    assert max(column.difference for column in found.columns if column.column != "power_sum_per_pass") < 1e-9
+    looser = ("power_sum_per_pass", "multiaxial_bound")  # the bound is raised by more than its rounding
+    assert max(column.difference for column in found.columns if column.column not in looser) < 1e-9
     assert all(c.difference < OF_SMALL_CYCLES for c in found.columns if c.column == "power_sum_per_pass")
 
 
@@ -178,8 +179,9 @@ def spoil(folder: Path, table: str, column: str) -> None:
         if values.dtype == bool or any(isinstance(value, bool) for value in values):
             row = values.first_valid_index()
             frame.loc[row, column] = not values[row]
-        elif values.dtype.kind == "i":
-            frame.loc[0, column] = values[0] + 1
+        elif pa.types.is_integer(schema(table).field(column).type):  # with empty cells pandas has floats
+            row = values.first_valid_index()
+            frame.loc[row, column] = values[row] + 1
         elif values.dtype.kind == "f":
             known = values[np.isfinite(values) & (values != 0.0)]
             if column == "multiaxial_bound":  # exact where the path was counted; elsewhere it may be larger

@@ -115,9 +115,10 @@ def shear_values(
             [one.by_moment for one in of.paths],
         )
         values |= {f"utilisation_path_{name}": summed(each) for name, each in zip(PATHS, sums, strict=True)}
-        widest = [one for one in of.paths if one.range >= EQUAL * max(other.range for other in of.paths)]
-        values["path_factor_largest"] = max(one.factor for one in widest)
-        values["path_moment_largest"] = max(one.moment for one in widest)
+        widest = [one for one in of.paths if one.range >= EQUAL * max(other.range for other in of.paths) > 0.0]
+        if widest:  # else the path does not move
+            values["path_factor_largest"] = max(one.factor for one in widest)
+            values["path_moment_largest"] = max(one.moment for one in widest)
         values["multiaxial_bound"] = max(bound, values["utilisation_path_range"])  # nothing below would be a bound
         top = summed([one.top_pair for one in of.paths])
         values["multiaxial_status"] = _status(normal["utilisation"], bound, asme, top)
