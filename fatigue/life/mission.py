@@ -113,6 +113,16 @@ def life_km(damage_per_km: NDArray[np.float64], damage_limit: NDArray[np.float64
         return np.divide(damage_limit, damage_per_km, out=life, where=damage_per_km > 0.0)
 
 
+def stress_utilisation(load_factor: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Stress over the largest stress that just meets the target, 1 / load factor; 0 of an infinite one.
+
+    >>> stress_utilisation(np.array([1.25, np.inf]))
+    array([0.8, 0. ])
+    """
+    with np.errstate(divide="ignore"):
+        return np.asarray(1.0 / load_factor)
+
+
 def straight_load_factor(utilisation: NDArray[np.float64], slope: float) -> NDArray[np.float64]:
     """Scale on all stresses that just meets the target on one slope, ``utilisation^(-1/k)`` (Eq. 16); +inf undamaged.
 

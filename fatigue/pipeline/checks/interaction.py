@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.case import Interaction
 from fatigue.life.interaction import combined_factor
-from fatigue.life.mission import Plan
+from fatigue.life.mission import Plan, stress_utilisation
 from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
 from fatigue.pipeline.count.result import GroupResult
@@ -92,7 +92,7 @@ def _normal(
         return _counted(signals, loads, own, "normal stress at the toe")
     mission, k = result.mission, float(law.slopes.min())
     damage = mission.damage_per_km[stations]
-    u = (damage * plan.target_km / limit) ** (1.0 / k) if scales else _inverse(mission.load_factor[stations])
+    u = (damage * plan.target_km / limit) ** (1.0 / k) if scales else stress_utilisation(mission.load_factor[stations])
     return Counted(damage, u, mission.governing[stations], k)
 
 
@@ -106,13 +106,7 @@ def _shear(model: Model, stations: Rows, rated: RatedCurve, loads: Sequence[Even
 def _counted(signals: Signals, loads: Sequence[EventLoad], own: Plan, names: str) -> Counted:
     mission = counted_mission(signals, loads, own, names)
     k = float(signals.rule.law.slopes.min())
-    return Counted(mission.damage_per_km, _inverse(mission.load_factor), mission.governing, k)
-
-
-def _inverse(factor: Floats) -> Floats:
-    """1 / factor, 0 of infinite ones."""
-    with np.errstate(divide="ignore"):
-        return np.asarray(1.0 / factor)
+    return Counted(mission.damage_per_km, stress_utilisation(mission.load_factor), mission.governing, k)
 
 
 def _rows(
@@ -180,4 +174,4 @@ def _utilisation(u_n: Floats, u_t: Floats, sums: Sequence[Floats], limit: float,
     from_factors = combined_factor(u_n, k_n, u_t, k_t)
     met = sums[0] + sums[1] <= limit
     from_sums = combined_factor((sums[0] / limit) ** (1.0 / k_n), k_n, (sums[1] / limit) ** (1.0 / k_t), k_t)
-    return _inverse(np.where(met, np.maximum(from_factors, 1.0), np.maximum(from_factors, from_sums)))
+    return stress_utilisation(np.where(met, np.maximum(from_factors, 1.0), np.maximum(from_factors, from_sums)))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
+from fatigue.pipeline.checks.linear.counted import counted_columns
 from fatigue.pipeline.checks.linear.planes import critical_planes, face_pairs
 from fatigue.pipeline.checks.linear.signals import counted_mission
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined, no_rows
@@ -144,7 +145,6 @@ def _rows(
     of, face = np.nonzero(stress.given[batch.points])
     row, number = at[of, face], batch.points[of]
     direction = np.array(batch.planes)[plane[of, face]]
-    utilisation, load_factor = mission.utilisation[row, face], mission.load_factor[row, face]
     some = number.tolist()
     rows = check_rows(
         len(row),
@@ -155,13 +155,7 @@ def _rows(
         direction_deg=direction,
         component=component,
         curve=batch.rated.curve.name,
-        range_max_MPa=mission.max_range[row, face],
-        damage_per_km=mission.damage_per_km[row, face],
-        damage_sum=mission.damage_per_km[row, face] * plan.target_km,
-        damage_limit=plan.damage_limit,
-        utilisation_stress=1.0 / load_factor,
-        fulfilled=utilisation <= 1.0,
-        governing_event=np.array([*plan.names, ""])[mission.governing[row, face]],
+        **counted_columns(mission, row, face, plan),
         note=[_note(points, stress, i, component, d) for i, d in zip(some, direction.tolist(), strict=True)],
     )
     return (number * len(ORDER) + ORDER.index(component)) * 2 + face, rows

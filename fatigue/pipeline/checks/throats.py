@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
-from fatigue.pipeline.checks.linear.counted import counted_columns, counted_each
+from fatigue.pipeline.checks.linear.counted import ALL, counted_columns, counted_each
 from fatigue.pipeline.checks.linear.directions import half_circle, worst_directions
 from fatigue.pipeline.checks.linear.paths import counted_paths
 from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
@@ -134,7 +134,7 @@ def _at_root(fillets: _Fillets, model: Model, loads: Sequence[EventLoad], plan: 
     for side, stress in fillets.stress.items():
         signals = Signals(stress.sigma_perp, stress.bending, fillets.size(rated), rated.rule)
         mission = counted_mission(signals, loads, plan, fillets.names)
-        root, face = (counted_columns(mission, number, plan) for number in range(2))
+        root, face = (counted_columns(mission, ALL, number, plan) for number in range(2))
         decides = face["damage_per_km"] > root["damage_per_km"]
         both = {name: np.where(decides, face[name], value) for name, value in root.items()}
         more = {

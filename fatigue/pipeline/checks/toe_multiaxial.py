@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fatigue.life.mission import Plan
+from fatigue.life.mission import Plan, stress_utilisation
 from fatigue.pipeline.checks.rows import CheckRows, check_rows
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.multiaxial.found import FACES, MODELS
@@ -21,16 +21,13 @@ def toe_multiaxial_rows(method: str, model: Model, result: GroupResult, plan: Pl
     stations, mission, found = model.stations, result.mission, result.multiaxial
     station, face = np.nonzero(stations.toe)
     at = station, face
-    utilisation, load_factor = mission.utilisation[at], mission.load_factor[at]
+    utilisation = mission.utilisation[at]
     by_normal = ~(found[method][at] > found["normal"][at])
     of_path = (method in MODELS) & ~by_normal
     event = np.where(of_path, found["event"][at], mission.governing[at])
     names = np.array([*plan.names, ""])
     limit = model.damage_limits(plan.damage_limit)[station]
     curve = np.array([rated.curve.name for rated in model.curve_of_weld])
-    limit = np.array([rated.damage_limit(plan.damage_limit) for rated in model.curve_of_weld])[stations.weld[station]]
-    with np.errstate(divide="ignore"):
-        of_stress = 1.0 / load_factor
     return check_rows(
         len(station),
         check="toe_multiaxial",
@@ -44,7 +41,7 @@ def toe_multiaxial_rows(method: str, model: Model, result: GroupResult, plan: Pl
         damage_per_km=mission.damage_per_km[at],
         damage_sum=utilisation * limit,
         damage_limit=limit,
-        utilisation_stress=of_stress,
+        utilisation_stress=stress_utilisation(mission.load_factor[at]),
         fulfilled=utilisation <= 1.0,
         governing_event=names[event],
         note=np.where(by_normal, "the normal stress alone does more damage", IN_WORDS[method]),

@@ -22,11 +22,9 @@ def assess_group(model: Model, loads: Sequence[EventLoad], plan: Plan, screening
     ------
     NumericalError : stress or damage exceeds double precision
     """
-    stations, curve_of_weld = model.stations, model.curve_of_weld
+    stations = model.stations
     result = GroupResult.empty(len(loads), len(stations), len(plan.loops))
-    curve_of = np.array([rated.curve.name for rated in curve_of_weld])[stations.weld]
-    for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
-        rows = np.flatnonzero(curve_of == name)
+    for rated, rows in model.by_curve():
         stress, names = modal_stress(stations, rows, rated), weld_names(stations, rows)
         block = Block(stress, stations.weld[rows], stations.toe[rows], loads, rated.plan(plan), names)
         for settled in block.all_counted() if screening is None else settle(block, screening):

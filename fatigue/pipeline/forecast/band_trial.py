@@ -70,11 +70,9 @@ def _beginning(body: Body, number: int, scratch: Path) -> EventLoad:
 
 def _spectral(model: Model, load: EventLoad, weight: float) -> Spectral:
     """What the spectrum of an event says of the stations of the group, curve by curve."""
-    stations, curves = model.stations, model.curve_of_weld
+    stations = model.stations
     found: NDArray[np.float64] = np.full((3, len(stations), 2), np.nan)
-    curve_of = np.array([rated.curve.name for rated in curves])[stations.weld]
-    for name, rated in {rated.curve.name: rated for rated in curves}.items():
-        rows = np.flatnonzero(curve_of == name)
+    for rated, rows in model.by_curve():
         stress = modal_stress(stations, rows, rated)
         of = estimate_event(stress, load, member_variances(stress, load))
         found[:, rows] = of.tb, of.tb_whole, of.outside_share

@@ -68,9 +68,7 @@ def group_multiaxial(model: Model, result: GroupResult, loads: Sequence[EventLoa
     """
     stations, found = model.stations, nothing_found((len(model.stations), 2))
     worst = worst_points(stations, result)
-    curve_of = np.array([rated.curve.name for rated in model.curve_of_weld])[stations.weld]
-    for name, rated in {rated.curve.name: rated for rated in model.curve_of_weld}.items():
-        rows = np.flatnonzero(curve_of == name)
+    for rated, rows in model.by_curve():
         own, names = rated.plan(plan), weld_names(stations, rows)
         toes = toes_of(modal_stress(stations, rows, rated), stations.toe, result, rows, own)
         with no_overflow("mission", names):

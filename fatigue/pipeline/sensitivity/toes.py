@@ -10,6 +10,7 @@ from fatigue.case import Case
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import Block
 from fatigue.pipeline.count.bounds import Screening
+from fatigue.pipeline.count.group import weld_names
 from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.modal_bound import bounded_raw_ends
 from fatigue.pipeline.count.result import GroupResult
@@ -66,17 +67,15 @@ def toes_of_curve(
     model: Model, result: GroupResult, plan: Plan, loads: Sequence[EventLoad], screening: Screening | None
 ) -> Iterator[Toes]:
     """The stations of every curve of a group of welds."""
-    stations, curve_of_weld = model.stations, model.curve_of_weld
-    name_of = np.array([rated.curve.name for rated in curve_of_weld])
-    for name, rated in {rated.curve.name: rated for rated in curve_of_weld}.items():
-        welds = np.flatnonzero(name_of == name)
-        rows = np.flatnonzero(np.isin(stations.weld, welds))
+    stations = model.stations
+    for rated, rows in model.by_curve():
+        welds = np.unique(stations.weld[rows])
         stress, own_plan = modal_stress(stations, rows, rated), rated.plan(plan)
         bound = np.full((len(rows), 2), np.inf)
         ends = stress.raw_ends.rows
         if screening is not None and ends.size:
-            names = ", ".join(stations.welds[int(weld)].name for weld in welds[:1])
-            block = Block(stress, stations.weld[rows], stations.toe[rows], loads, own_plan, f"weld {names} and others")
+            names = weld_names(stations, rows)
+            block = Block(stress, stations.weld[rows], stations.toe[rows], loads, own_plan, names)
             bound[ends] = bounded_raw_ends(block, screening)
         yield Toes(
             case=model.case,

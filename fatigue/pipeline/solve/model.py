@@ -1,6 +1,6 @@
 """Welds brought to life: their forces read and their structural stress solved, for all modes at once."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
@@ -57,6 +57,13 @@ class Model:
     def curve_of_weld(self) -> list[RatedCurve]:
         """The curve of every weld."""
         return [self.body.curve_of(weld) for weld in self.welds]
+
+    def by_curve(self) -> Iterator[tuple[RatedCurve, NDArray[np.intp]]]:
+        """Every curve and the stations of its welds, ascending; what is a weld's own is that of one of them."""
+        curves = self.curve_of_weld
+        curve_of = np.array([rated.curve.name for rated in curves])[self.stations.weld]
+        for name, rated in {rated.curve.name: rated for rated in curves}.items():
+            yield rated, np.flatnonzero(curve_of == name)
 
     def damage_limits(self, of_mission: float) -> NDArray[np.float64]:
         """Allowed Miner sum of every station (n,), that of its curve where it has one."""

@@ -1,6 +1,7 @@
 """Every cycle of the points that govern: the table behind a weld's life, with the instants of each cycle."""
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from fatigue.life.mission import Plan
 from fatigue.life.records.history import stress_chunks, stress_history
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
+from fatigue.pipeline.tables.batches import Batches
 from fatigue.pipeline.tables.cycle_rows import CycleParts, KeptPoint, cycle_rows
 from fatigue.pipeline.tables.sequence_cycles import sequence_rows
 from fatigue.results import TableWriter
@@ -22,32 +24,18 @@ POINTS_AT_ONCE = 16  # a record is read once for so many, whatever groups of wel
 _SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
 
 
-class CycleWriter:
-    """Writes the cycles of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
+def cycle_writer(table: TableWriter, loads: Sequence[EventLoad], plan: Plan | None = None) -> Batches[KeptPoint]:
+    """Writer of the cycles of points that come a few at a time, ``POINTS_AT_ONCE`` of them at once."""
+    return Batches(POINTS_AT_ONCE, partial(_write, table, loads, plan))
 
-    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], plan: Plan | None = None) -> None:
-        self._table, self._loads, self._plan = table, loads, plan
-        self._waiting: list[KeptPoint] = []
 
-    def add(self, points: Sequence[KeptPoint]) -> None:
-        """Have the cycles of some more points written, sooner or later."""
-        self._waiting += points
-        while len(self._waiting) >= POINTS_AT_ONCE:
-            self._write(self._waiting[:POINTS_AT_ONCE])
-            self._waiting = self._waiting[POINTS_AT_ONCE:]
-
-    def flush(self) -> None:
-        """Write what is waiting."""
-        self._write(self._waiting)
-        self._waiting = []
-
-    def _write(self, points: Sequence[KeptPoint]) -> None:
-        for load in self._loads:
-            for rows in point_cycles(points, load):
-                self._table.write(rows)
-        if points and self._plan is not None and self._plan.loops:
-            for rows in sequence_rows(points, self._loads, self._plan):
-                self._table.write(rows)
+def _write(table: TableWriter, loads: Sequence[EventLoad], plan: Plan | None, points: Sequence[KeptPoint]) -> None:
+    for load in loads:
+        for rows in point_cycles(points, load):
+            table.write(rows)
+    if plan is not None and plan.loops:
+        for rows in sequence_rows(points, loads, plan):
+            table.write(rows)
 
 
 def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[str, Any]]:

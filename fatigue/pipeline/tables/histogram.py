@@ -7,6 +7,7 @@ across events those that close count as they are, and those that they replace be
 """
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from fatigue.life.counting.count import count_histograms
 from fatigue.life.mission import Plan
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.offsets import face_offset
+from fatigue.pipeline.tables.batches import Batches
 from fatigue.pipeline.tables.cycle_rows import KeptPoint
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.pipeline.tables.sequence_cycles import sequence_rows
@@ -34,40 +36,29 @@ _ROW = np.dtype(
 )
 
 
-class HistogramWriter:
-    """Writes the histograms of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
+def histogram_writer(
+    table: TableWriter, loads: Sequence[EventLoad], plan: Plan, threads: int | None
+) -> Batches[KeptPoint]:
+    """Writer of the histograms of points that come a few at a time, ``POINTS_AT_ONCE`` of them at once."""
+    return Batches(POINTS_AT_ONCE, partial(_write, table, loads, plan, threads))
 
-    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], plan: Plan, threads: int | None) -> None:
-        self._table, self._loads, self._plan, self._threads = table, loads, plan, threads
-        self._waiting: list[KeptPoint] = []
 
-    def add(self, points: Sequence[KeptPoint]) -> None:
-        """Have the histograms of some more points written, sooner or later."""
-        self._waiting += points
-        while len(self._waiting) >= POINTS_AT_ONCE:
-            self._write(self._waiting[:POINTS_AT_ONCE])
-            self._waiting = self._waiting[POINTS_AT_ONCE:]
-
-    def flush(self) -> None:
-        """Write what is waiting."""
-        if self._waiting:
-            self._write(self._waiting)
-        self._waiting = []
-
-    def _write(self, points: Sequence[KeptPoint]) -> None:
-        jobs = [
-            (event, of_curve[first : first + _at_once(load)])
-            for event, load in enumerate(self._loads)
-            for of_curve in _by_curve(points)
-            for first in range(0, len(of_curve), _at_once(load))
-        ]
-        found = in_order(lambda job: _filled(points, self._loads, *job), jobs, self._threads)
-        if self._plan.loops:
-            pieces = range(0, len(points), _POINTS_OF_LOOPS)
-            found += in_order(lambda first: _of_loops(points, self._loads, self._plan, first), pieces, self._threads)
-        rows = np.concatenate(found)
-        rows = rows[np.lexsort([rows[name] for name in ("bin", "kind", "event", "point")])]
-        self._table.write(_columns(rows, points, self._plan.names))
+def _write(
+    table: TableWriter, loads: Sequence[EventLoad], plan: Plan, threads: int | None, points: Sequence[KeptPoint]
+) -> None:
+    jobs = [
+        (event, of_curve[first : first + _at_once(load)])
+        for event, load in enumerate(loads)
+        for of_curve in _by_curve(points)
+        for first in range(0, len(of_curve), _at_once(load))
+    ]
+    found = in_order(lambda job: _filled(points, loads, *job), jobs, threads)
+    if plan.loops:
+        pieces = range(0, len(points), _POINTS_OF_LOOPS)
+        found += in_order(lambda first: _of_loops(points, loads, plan, first), pieces, threads)
+    rows = np.concatenate(found)
+    rows = rows[np.lexsort([rows[name] for name in ("bin", "kind", "event", "point")])]
+    table.write(_columns(rows, points, plan.names))
 
 
 def _by_curve(points: Sequence[KeptPoint]) -> list[list[int]]:

@@ -7,6 +7,7 @@ the counter could settle, or of all where a method of the path counter decides: 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.multiaxial.counted import PathParts, Point, paths_of
 from fatigue.pipeline.multiaxial.found import STATUSES
 from fatigue.pipeline.run.workers import Group
+from fatigue.pipeline.tables.batches import Batches
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import TableWriter, coded
 
@@ -35,30 +37,16 @@ class KeptPath:
     point: Point
 
 
-class PathWriter:
-    """Writes the half cycles of points that come a few at a time, always ``POINTS_AT_ONCE`` of them at once."""
+def path_writer(table: TableWriter, loads: Sequence[EventLoad], beta: float) -> Batches[KeptPath]:
+    """Writer of the half cycles of points that come a few at a time, ``POINTS_AT_ONCE`` of them at once."""
+    return Batches(POINTS_AT_ONCE, partial(_write, table, loads, beta))
 
-    def __init__(self, table: TableWriter, loads: Sequence[EventLoad], beta: float) -> None:
-        self._table, self._loads, self._beta = table, loads, beta
-        self._waiting: list[KeptPath] = []
 
-    def add(self, points: Sequence[KeptPath]) -> None:
-        """Have the half cycles of some more points written, sooner or later."""
-        self._waiting += points
-        while len(self._waiting) >= POINTS_AT_ONCE:
-            self._write(self._waiting[:POINTS_AT_ONCE])
-            self._waiting = self._waiting[POINTS_AT_ONCE:]
-
-    def flush(self) -> None:
-        """Write what is waiting."""
-        self._write(self._waiting)
-        self._waiting = []
-
-    def _write(self, points: Sequence[KeptPath]) -> None:
-        for load in self._loads:
-            found = paths_of([kept.point for kept in points], load, self._beta)
-            for kept, parts in zip(points, found, strict=True):
-                self._table.write(path_rows(kept, load, parts))
+def _write(table: TableWriter, loads: Sequence[EventLoad], beta: float, points: Sequence[KeptPath]) -> None:
+    for load in loads:
+        found = paths_of([kept.point for kept in points], load, beta)
+        for kept, parts in zip(points, found, strict=True):
+            table.write(path_rows(kept, load, parts))
 
 
 def kept_paths(group: Group, *, everything: bool) -> list[KeptPath]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fatigue.case import stress_categories
-from fatigue.life.mission import Plan
+from fatigue.life.mission import Plan, stress_utilisation
 from fatigue.life.quality import StressCategories
 from fatigue.pipeline.checks.verdict import Verdicts
 from fatigue.pipeline.count.result import GroupResult
@@ -109,9 +109,7 @@ def quality_rows(
     ``load_factor`` (w,) is that of the welds' toes, NaN where there is none; ``of_checks`` (w,) the largest stress
     utilisation of their other checks, NaN where nothing else is checked, None: nowhere.
     """
-    factor = np.asarray(load_factor, np.float64)
-    with np.errstate(divide="ignore"):
-        utilisation = 1.0 / factor  # of an infinite one: 0
+    utilisation = stress_utilisation(np.asarray(load_factor, np.float64))
     if of_checks is not None:
         utilisation = np.fmax(utilisation, np.asarray(of_checks, np.float64))
     return {

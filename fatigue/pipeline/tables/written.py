@@ -12,9 +12,9 @@ from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.run.workers import Group
 from fatigue.pipeline.tables.checks import check_table_rows
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
-from fatigue.pipeline.tables.cycles import CycleWriter
-from fatigue.pipeline.tables.histogram import HistogramWriter
-from fatigue.pipeline.tables.path_cycles import PathWriter, kept_paths
+from fatigue.pipeline.tables.cycles import cycle_writer
+from fatigue.pipeline.tables.histogram import histogram_writer
+from fatigue.pipeline.tables.path_cycles import kept_paths, path_writer
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
 from fatigue.pipeline.tables.sensitivity import sensitivity_rows
@@ -47,9 +47,9 @@ def write_tables(
     optional = {"histogram": wants_histograms, "checks": wants_checks, "path_cycles": work.shear is not None}
     wanted = [*ASSESSED, "sensitivity", *(table for table, is_wanted in optional.items() if is_wanted)]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
-        cycles = CycleWriter(tables["cycles"], work.loads, work.plan)
-        histograms = HistogramWriter(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
-        paths = PathWriter(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
+        cycles = cycle_writer(tables["cycles"], work.loads, work.plan)
+        histograms = histogram_writer(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
+        paths = path_writer(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
         done.checks.add(apart, body.case.checks.counts)
         for group in assessed:
             worst = write_group(tables, group, work, apart)

@@ -140,10 +140,8 @@ def _recount(
     named = governing if shear is None else np.union1d(governing, np.array(sorted(shear.half_cycles), dtype=np.int64))
     choice = choose(body, worst, utilisation, named, sample=sample, seed=seed, most=most)
     sampling = list(zip(fastest_peaks(folder, inputs, events), upsampling_factors(record), strict=True))
-    cycles_of, histogram_of = (
-        with_cycles(stored, governing, record),
-        with_histogram(stored, record, _toes(inputs, body)),
-    )
+    toes = _toes(inputs, body)
+    cycles_of, histogram_of = with_cycles(stored, governing, record), with_histogram(stored, record, toes)
     paths_of = paths_to_count(shear, choice.points, samples, everything=sample is None)
     all_counted = bool(is_counted(stored).all())
     share = record["rules"]["screening"]["share_of_limit"]
@@ -177,6 +175,7 @@ def _recount(
         chosen = {body.welds[weld]: welds[body.welds[weld]] for weld in group if weld in choice.welds}
         found += _compared_welds(chosen, stored, values, bounds, inputs, frame, all_counted=all_counted)
     checks += merged(found)
+    station_at = _station_finder(inputs, coordinates, record)
     if frame is not None:
         checks += check_table(
             frame,
@@ -184,7 +183,7 @@ def _recount(
             coordinates,
             record,
             body,
-            _station_finder(inputs, coordinates, record),
+            station_at,
             sampling,
             sample=sample,
             seed=seed,
@@ -195,17 +194,14 @@ def _recount(
         inputs,
         coordinates,
         record,
-        _station_finder(inputs, coordinates, record),
+        station_at,
         sampling,
         sample=sample,
         seed=seed,
         most=int(SHARE * most_samples) // samples,
         samples=samples,
     )
-    if choice.what:
-        checks += check_sums(stored, inputs.case, mission)
-    else:
-        checks += check_load_factors(stored, _toes(inputs, body))
+    checks += check_sums(stored, inputs.case, mission) if choice.what else check_load_factors(stored, toes)
     return Recount(folder, len(choice.points), body.points, tuple(checks), choice.what, astray)
 
 

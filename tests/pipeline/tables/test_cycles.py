@@ -89,7 +89,7 @@ def test_points_are_written_many_at_a_time_and_all(model, load, monkeypatch, num
     cycles_of = cycles.point_cycles
     monkeypatch.setattr(cycles, "point_cycles", rows_of)
     points = (kept(model) * number_of_points)[:number_of_points]
-    writer = cycles.CycleWriter(SimpleNamespace(write=found.append), [load])
+    writer = cycles.cycle_writer(SimpleNamespace(write=found.append), [load])
     for point in points:
         writer.add([point])
     writer.flush()

@@ -6,25 +6,28 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.mission import Plan
+from fatigue.life.mission import Plan, stress_utilisation
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.mission.event_load import EventLoad
-from fatigue.quotient import quotient
+
+ALL = slice(None)  # rows of a mission
 
 
-def counted_columns(mission: MissionBlock, face: int, plan: Plan) -> dict[str, NDArray[Any]]:
-    """Columns of ``check_rows`` (n,) for one face of n points that were counted."""
-    factor = mission.load_factor[:, face]
+def counted_columns(
+    mission: MissionBlock, row: slice | NDArray[np.intp], face: int | NDArray[np.intp], plan: Plan
+) -> dict[str, NDArray[Any]]:
+    """Columns of ``check_rows`` (n,) for n counted points: some rows of a mission, at one face or each at its own."""
+    per_km = mission.damage_per_km[row, face]
     return {
-        "range_max_MPa": mission.max_range[:, face],
-        "damage_per_km": mission.damage_per_km[:, face],
-        "damage_sum": mission.damage_per_km[:, face] * plan.target_km,
-        "damage_limit": np.full(len(factor), plan.damage_limit),
-        "utilisation_stress": np.where(np.isinf(factor), 0.0, quotient(np.ones(len(factor)), factor)),
-        "fulfilled": (mission.utilisation[:, face] <= 1.0).astype(np.int64),
-        "governing_event": np.array([*plan.names, ""])[mission.governing[:, face]],
+        "range_max_MPa": mission.max_range[row, face],
+        "damage_per_km": per_km,
+        "damage_sum": per_km * plan.target_km,
+        "damage_limit": np.full(len(per_km), plan.damage_limit),
+        "utilisation_stress": stress_utilisation(mission.load_factor[row, face]),
+        "fulfilled": (mission.utilisation[row, face] <= 1.0).astype(np.int64),
+        "governing_event": np.array([*plan.names, ""])[mission.governing[row, face]],
     }
 
 
@@ -55,5 +58,5 @@ def counted_each(
         else:
             signals = Signals.of_pairs(some[0], some[1] if len(some) == 2 else nothing, size, rule)
         mission = counted_mission(signals, loads, plan, names)
-        found += [counted_columns(mission, face, plan) for face in range(len(some))]
+        found += [counted_columns(mission, ALL, face, plan) for face in range(len(some))]
     return found

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
-from fatigue.life.mission import Plan
+from fatigue.life.mission import Plan, stress_utilisation
 from fatigue.life.path.count import COUNT, count_path
 from fatigue.life.records.history import stress_history
 from fatigue.life.rule import CycleRule, cycle_damage
@@ -58,7 +58,7 @@ def counted_paths(
         "damage_per_km": per_km,
         "damage_sum": per_km * plan.target_km,
         "damage_limit": np.full(n, limit),
-        "utilisation_stress": 1.0 / factor,
+        "utilisation_stress": stress_utilisation(factor),
         "fulfilled": (per_km * plan.target_km / limit <= 1.0).astype(np.int64),
         "governing_event": np.array([*(one.event for one in plan.passes), ""])[governing],
     }
