@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from fatigue.case.channels import Alarm, Channel, Equipment, EquipmentMode, Ride
 from fatigue.case.check_problems import counts_problems, shear_problems
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
@@ -41,6 +42,11 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
     ("mission", "unit_load"): MissionLoad,
     ("mission", "event", "unit_load"): GivenLoad,
     ("body", "unit_load"): UnitLoad,
+    ("mission", "event", "channel"): Channel,
+    ("ride",): Ride,
+    ("ride", "alarm"): Alarm,
+    ("ride", "equipment_mode"): EquipmentMode,
+    ("ride", "equipment"): Equipment,
     ("multiaxial",): Multiaxial,
     ("checks",): Checks,
     ("checks", "interaction"): Interaction,

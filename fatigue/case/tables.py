@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, field_validator
 
+from fatigue.case.channels import Channel, Ride
 from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
@@ -65,6 +66,22 @@ class Body(Table):
     )
     modal_stresses: Text | None = Field(
         default=None, description="the file of the stress of each mode at the stress points [MPa]"
+    )
+    participation: Text | None = Field(
+        default=None,
+        description="the file of the participation factors of the modes (l_x, l_y, l_z [t], l_rx, l_ry, l_rz [t mm])",
+    )
+    total_mass_t: Positive | None = Field(
+        default=None, description="the mass [t] of the body, which effective modal masses sum up to, above 0"
+    )
+    inertia_t_mm2: Annotated[tuple[Positive, ...], Field(strict=False, min_length=3, max_length=3)] | None = Field(
+        default=None, description="a list of the three moments of inertia [t mm2] of the body about its centre of mass"
+    )
+    interface_shapes: Text | None = Field(
+        default=None, description="the file of the mode shapes at loaded points (point, direction, mode, value)"
+    )
+    flexibility: Text | None = Field(
+        default=None, description="the file of a static solution at loaded points (point, direction, value_mm_per_N)"
     )
     weld_register: Text | None = Field(
         default=None,
@@ -189,6 +206,9 @@ class Event(Table):
     unit_load: Annotated[tuple[GivenLoad, ...], Field(strict=False)] = Field(
         default=(), description="one [[mission.event.unit_load]] table per unit load that the event gives"
     )
+    channel: Annotated[tuple[Channel, ...], Field(strict=False)] = Field(
+        default=(), description="one [[mission.event.channel]] table per channel that `fatigue ride` looks at"
+    )
 
     @property
     def static_values(self) -> int:
@@ -260,6 +280,7 @@ class Case(Table):
     multiaxial: Multiaxial = Field(default=Multiaxial(), description="a [multiaxial] table")
     checks: Checks = Field(default=Checks(), description="a [checks] table")
     mission: Mission = Field(description="a [mission] table")
+    ride: Ride = Field(default=Ride(), description="a [ride] table")
     _path: Path = PrivateAttr(Path())
     _text: str = PrivateAttr("")
 

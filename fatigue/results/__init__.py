@@ -41,6 +41,9 @@ from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.dictionary.nodes import NODES
+from fatigue.results.dictionary.resonance import FORMED
+from fatigue.results.dictionary.ride import RIDDEN
+from fatigue.results.dictionary.shift import SHIFTED
 from fatigue.results.dictionary.welds import WELDS
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
@@ -77,6 +80,7 @@ __all__ = [
     "DIAGNOSED",
     "DIAGNOSIS",
     "DOCUMENTS",
+    "FORMED",
     "HISTOGRAM",
     "JOURNAL",
     "LEVERS",
@@ -87,6 +91,8 @@ __all__ = [
     "PAGE",
     "PICTURE",
     "PRINT",
+    "RIDDEN",
+    "SHIFTED",
     "STRUCTURAL_STRESS",
     "TABLES",
     "TRACK",

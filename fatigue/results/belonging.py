@@ -22,6 +22,9 @@ from fatigue.files.hashes import sha256
 from fatigue.results.columns import ASSESSED, DIAGNOSED, OPTIONAL, TABLES
 from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
+from fatigue.results.dictionary.resonance import FORMED
+from fatigue.results.dictionary.ride import RIDDEN
+from fatigue.results.dictionary.shift import SHIFTED
 from fatigue.results.json_records import write_json
 from fatigue.results.outputs import altered
 from fatigue.results.provenance import hashes_on_record
@@ -41,6 +44,8 @@ CSV_TABLES = (
     "path_cycles",
     *LOAD_SPECTRA,
     *BENCHED,
+    *RIDDEN,
+    *SHIFTED,
 )
 DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
@@ -181,9 +186,11 @@ def _is_as_listed(folder: Path, name: str, record: Mapping[str, Any]) -> bool:
 _AGAIN = "Run the assessment again"
 _REMEDY = {
     **{f"{table}.parquet": _AGAIN for table in ASSESSED | OPTIONAL},
-    **{f"{table}.parquet": "Run `fatigue diagnose` again, or remove it" for table in DIAGNOSED},
+    **{f"{table}.parquet": "Run `fatigue diagnose` again, or remove it" for table in DIAGNOSED | FORMED},
     **{f"{table}.parquet": "Run `fatigue spectra` again, or remove it" for table in LOAD_SPECTRA},
     **{f"{table}.parquet": "Run `fatigue bench` again, or remove it" for table in BENCHED},
+    **{f"{table}.parquet": "Run `fatigue ride` again, or remove it" for table in RIDDEN},
+    **{f"{table}.parquet": "Run `fatigue shift` again, or remove it" for table in SHIFTED},
     **dict.fromkeys((*DOCUMENTS, LIST), "Write it again with `fatigue report`, or remove it"),
 }
 _NEEDED = {f"{table}.parquet" for table in ASSESSED}  # documents, diagnosis, ranges and spectra may be missing

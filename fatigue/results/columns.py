@@ -6,7 +6,10 @@ from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.dictionary.nodes import NODES
+from fatigue.results.dictionary.resonance import FORMED
+from fatigue.results.dictionary.ride import RIDDEN
 from fatigue.results.dictionary.sensitivity import SENSITIVITY
+from fatigue.results.dictionary.shift import SHIFTED
 from fatigue.results.dictionary.welds import WELDS
 
 DAMAGE = (
@@ -279,7 +282,7 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
 }
 OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, "sensitivity": SENSITIVITY, **CHECKED}
 """Tables of an assessment that older versions do not write, or only one that asks for them does."""
-TABLES = ASSESSED | OPTIONAL | DIAGNOSED | LOAD_SPECTRA | BENCHED
+TABLES = ASSESSED | OPTIONAL | DIAGNOSED | FORMED | LOAD_SPECTRA | BENCHED | RIDDEN | SHIFTED
 
 _SHEAR = ("shear_required", "multiaxial_status", "multiaxial_bound", "multiaxial_verdict")
 _SUMS = ("utilisation_path_range", "utilisation_path_length", "utilisation_path_mlp", "utilisation_asme")

@@ -3,6 +3,6 @@
 A file here registers its commands with ``main.cli`` when it is imported, and knows no other file here.
 """
 
-from fatigue.cli.commands import assess, beginnings, convert, results, spectra, verify, welds
+from fatigue.cli.commands import assess, basis, beginnings, convert, results, ride, shift, spectra, verify, welds
 
-__all__ = ["assess", "beginnings", "convert", "results", "spectra", "verify", "welds"]
+__all__ = ["assess", "basis", "beginnings", "convert", "results", "ride", "shift", "spectra", "verify", "welds"]

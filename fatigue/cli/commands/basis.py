@@ -1,0 +1,1 @@
+"""The command for whether the modal basis of a case is complete enough."""

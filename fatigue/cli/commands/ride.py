@@ -1,0 +1,1 @@
+"""The command for what the channels of a ride say."""

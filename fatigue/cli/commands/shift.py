@@ -1,0 +1,1 @@
+"""The command for life against the frequency or damping of a mode."""

@@ -1,0 +1,103 @@
+"""Columns of what channels of a ride say: hunting, coincidence, alarm, comfort, equipment, running behaviour."""
+
+from fatigue.results.dictionary.column import POINT, Column
+
+_EVENT = Column("event", "text", "-", "event of the mission")
+_CHANNEL = Column("channel", "text", "-", "channel of the event")
+
+FLUTTER = (
+    _EVENT,
+    _CHANNEL,
+    Column("start_km", "float", "km", "start of the stretch, from the first kept sample; empty if counted by number"),
+    Column("end_km", "float", "km", "end of the stretch; empty if counted by number"),
+    Column("start_s", "float", "s", "file time at the start of the stretch"),
+    Column("end_s", "float", "s", "file time at the end of the stretch"),
+    Column("frequency_hz", "float", "Hz", "dominant frequency in the band of hunting: median over the stretch"),
+    Column("share", "float", "-", "power within 0.5 Hz of that frequency over the power of the band, median"),
+    Column("rms", "float", "-", "rms in the band over the stretch; m/s2 of an acceleration"),
+    Column("peak", "float", "-", "largest value in the band over the stretch; m/s2 of an acceleration"),
+    Column("hot", "flag", "-", "rms above hot_factor medians and share above hot_share, long enough"),
+)
+
+COINCIDENCE = (
+    _EVENT,
+    Column("channel", "text", "-", "channel whose hunting is compared"),
+    Column("equipment", "text", "-", "mode of equipment"),
+    Column("f_hunt_hz", "float", "Hz", "dominant frequency of the hot stretches, or of the whole event without any"),
+    Column("frequency_hz", "float", "Hz", "frequency of the equipment mode"),
+    Column("damping_ratio", "float", "-", "damping ratio of the equipment mode"),
+    Column("amplification", "float", "-", "dynamic amplification of the equipment mode at f_hunt_hz"),
+    Column("coherence", "float", "-", "coherence of the channel and that of the equipment there; empty: none"),
+    Column("phase_deg", "float", "deg", "phase of the equipment behind the channel at f_hunt_hz; empty: none"),
+    Column("flag", "text", "-", "red: closer than max(1 Hz, 2 zeta f_e); amber: amplification above 1.5; else green"),
+    Column("reason", "text", "-", "why a number is empty"),
+)
+
+ALARM = (
+    _EVENT,
+    _CHANNEL,
+    Column("alarms", "int", "-", "how often the alarm would have gone off"),
+    Column("peak_m_s2", "float", "m/s2", "largest half-cycle peak in the band of the alarm"),
+    Column("longest_run", "float", "-", "most cycles in a row that reach the threshold"),
+    Column("threshold_m_s2", "float", "m/s2", "threshold of the rule"),
+    Column("cycles", "int", "-", "cycles in a row of the rule"),
+    Column("hot_km_share", "float", "-", "share of the event that lies in hot stretches of the channel"),
+    Column("damage_share_inside_hot", "float", "-", "of the event's damage at its worst weld: share there"),
+    Column("told", "text", "-", "whether the alarm tells the damage: yes, no_damage, missed, no_hot_stretch"),
+    Column("reason", "text", "-", "why a number is empty"),
+)
+
+HOT_DAMAGE = (
+    *POINT,
+    _EVENT,
+    _CHANNEL,
+    Column("damage_per_km", "float", "1/km", "damage of the event per km of the mission"),
+    Column("damage_per_km_inside", "float", "1/km", "of it, in hot stretches of the channel"),
+    Column("share_inside", "float", "-", "the same over the damage of the event"),
+    Column("length_share_inside", "float", "-", "share of the event's length in hot stretches"),
+    Column("intensity", "float", "-", "damage per length inside over that outside; empty where nothing is outside"),
+)
+
+COMFORT = (
+    _EVENT,
+    _CHANNEL,
+    Column("index", "text", "-", "sperling_wz, en12299_nmv, ..."),
+    Column("form", "text", "-", "filter, line, ...: the form of the index"),
+    Column("band_hz", "text", "Hz", "band of frequencies that counts"),
+    Column("block_s", "float", "s", "length of a block; empty where the record is taken whole"),
+    Column("value", "float", "-", "the index"),
+    Column("short_record", "flag", "-", "the record is shorter than the index asks for"),
+    Column("reason", "text", "-", "why a number is empty, or what it is to be read with"),
+)
+
+EQUIPMENT = (
+    _EVENT,
+    _CHANNEL,
+    Column("class", "text", "-", "category and class of the table of limits"),
+    Column("edition", "text", "-", "edition of the table, and whether it is superseded"),
+    Column("rms_m_s2", "float", "m/s2", "rms in the band"),
+    Column("limit_m_s2", "float", "m/s2", "functional rms of the table"),
+    Column("asd_ratio", "float", "-", "largest ratio of the spectral density to that of the table, in third octaves"),
+    Column("reason", "text", "-", "why a number is empty, or what it is to be read with"),
+)
+
+RUNNING = (
+    _EVENT,
+    _CHANNEL,
+    Column("quantity", "text", "-", "what is looked at"),
+    Column("value", "float", "-", "its value"),
+    Column("unit", "text", "-", "its unit"),
+    Column("limit", "float", "-", "its limit, recalled and editable; empty: none"),
+    Column("edition", "text", "-", "where the limit is from"),
+    Column("reason", "text", "-", "why a number is empty, or what it is to be read with"),
+)
+
+RIDDEN: dict[str, tuple[Column, ...]] = {
+    "flutter": FLUTTER,
+    "coincidence": COINCIDENCE,
+    "alarm": ALARM,
+    "hot_damage": HOT_DAMAGE,
+    "comfort": COMFORT,
+    "equipment": EQUIPMENT,
+    "running": RUNNING,
+}

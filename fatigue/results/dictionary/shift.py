@@ -1,0 +1,16 @@
+"""Columns of a shift study: life against the frequency or damping of one mode."""
+
+from fatigue.results.dictionary.column import POINT, Column
+
+SHIFT = (
+    *POINT,
+    Column("mode", "int", "-", "mode that is shifted"),
+    Column("frequency_hz", "float", "Hz", "frequency it is shifted to"),
+    Column("damping_ratio", "float", "-", "damping ratio it is shifted to"),
+    Column("is_as_assessed", "flag", "-", "frequency and damping as they are"),
+    Column("damage_per_km", "float", "1/km", "Miner sum per km of the mission, counted again"),
+    Column("life_km", "float", "km", "life; a screening without feedback"),
+    Column("life_ratio", "float", "-", "life over that of the result"),
+)
+
+SHIFTED: dict[str, tuple[Column, ...]] = {"shift": SHIFT}

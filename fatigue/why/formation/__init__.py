@@ -1,0 +1,1 @@
+"""How the resonance that damages forms: effective excitation of the modes, what follows it and what swings."""
