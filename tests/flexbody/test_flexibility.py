@@ -29,7 +29,7 @@ def test_mass_on_a_spring_has_the_flexibility_of_the_spring():
 def test_static_solution_of_the_beam_against_its_closed_form():
     """Under a force at its end a free beam of mass m turns so that v is L^3 / (105 E I) at the end, less rigid motion.
 
-    The load P at one end of a free beam is balanced by q(x) = P (4 L - 6 x) / L^2; E I v'''' = -q, v without rigid part.
+    A load P at the end is balanced by q(x) = P (4 L - 6 x) / L^2: E I v'''' = -q.
     """
     fine = free_beam(40)
     assert fine.static([0])[0, 0] == pytest.approx(LENGTH**3 / (105 * BENDING_STIFFNESS), rel=1e-6)

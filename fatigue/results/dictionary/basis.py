@@ -1,5 +1,6 @@
 """Columns of what is said of the modal basis of a body, written into a folder of their own."""
 
+from fatigue.results.dictionary.basis_points import BASIS_POINTS
 from fatigue.results.dictionary.column import Column
 
 MODAL_MASS = (
@@ -13,4 +14,4 @@ MODAL_MASS = (
     Column("summed_share", "float", "-", "summed over the modes up to this frequency"),
 )
 
-BASIS: dict[str, tuple[Column, ...]] = {"modal_mass": MODAL_MASS}
+BASIS: dict[str, tuple[Column, ...]] = {"modal_mass": MODAL_MASS} | BASIS_POINTS

@@ -34,7 +34,7 @@ class InterfaceShapes:
         """Shapes (m,) of one direction; None where the file does not have it."""
         for i, key in enumerate(zip(self.point, self.direction, strict=True)):
             if key == (point, direction):
-                return self.value[i]
+                return np.asarray(self.value[i])
         return None
 
     @property
@@ -56,7 +56,7 @@ def read_interface_shapes(
     DataError : an unknown direction or mode, a value given twice or missing
     """
     table = open_table(path, texts=("point", "direction"))
-    table.expect(("point", "direction", "mode", "value"), strict=strict)
+    table.expect(("point", "direction", "mode", "value"), (), strict=strict)
     points, point = table.groups("point")
     direction = table.texts("direction")
     table.choices("direction", direction, DIRECTIONS)

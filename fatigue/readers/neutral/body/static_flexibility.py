@@ -30,7 +30,7 @@ def read_flexibility(path: Path, *, strict: bool) -> tuple[tuple[StaticFlexibili
     DataError : an unknown direction, a value not above 0, a direction of a point given twice
     """
     table = open_table(path, texts=("point", "direction"))
-    table.expect(("point", "direction", "value_mm_per_N"), strict=strict)
+    table.expect(("point", "direction", "value_mm_per_N"), (), strict=strict)
     points, point = table.groups("point")
     direction = table.texts("direction")
     table.choices("direction", direction, DIRECTIONS)
