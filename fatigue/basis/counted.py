@@ -64,6 +64,7 @@ class CountedGroup:
     welds : names of the welds of the group
     weld : (n,) index into ``welds``, ascending
     part, order, node : (n,) identity of the stations
+    xyz : (n, 3) where they are [mm]
     toe : (n, 2) faces that carry a weld toe
     utilisation : (n, 2) with all modes
     without : (v, n, 2) without the modes of each of v choices
@@ -75,6 +76,7 @@ class CountedGroup:
     part: NDArray[np.int64]
     order: NDArray[np.int64]
     node: NDArray[np.int64]
+    xyz: Floats
     toe: NDArray[np.bool_]
     utilisation: Floats
     without: Floats
@@ -166,6 +168,7 @@ def _counted(model: Model, case: OpenCase, rows: NDArray[np.intp], masks: Sequen
         part=stations.part[rows],
         order=stations.order[rows],
         node=stations.node[rows],
+        xyz=stations.xyz[rows],
         toe=stations.toe[rows],
         utilisation=again(None),
         without=np.stack([again(mask) for mask in masks]) if masks else np.empty((0, len(rows), 2)),

@@ -6,18 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.rules import Rule
 from fatigue.basis.shapes import NO_SHAPES, NO_STATIC, Key, Loaded, loaded_points, told, unit_of
 from fatigue.errors import Problem
 from fatigue.flexbody.flexibility import flexibility_of_modes
 from fatigue.pipeline.solve.body import Body
 
 HEADING = "Local flexibility at loaded points"
-ENOUGH = Rule(
-    share=0.95,
-    source="computed on one car body with normal modes up to 15, 30 and 60 Hz: 0.95 to 1.00 at points whose interface "
-    "modes are kept, 0.11 to 0.90 at points without",
-    status="one body, no standard",
+ENOUGH = 0.95
+SOURCE = (
+    "computed on one car body with normal modes up to 15, 30 and 60 Hz: 0.95 to 1.00 at points whose interface modes "
+    "are kept, 0.11 to 0.90 at points without; no standard"
 )
 OF_FREE_BODY = (
     "The static solution of a free body is that with inertia relief and without its rigid motion; one with supports is "
@@ -56,7 +54,7 @@ def flexibility(body: Body) -> Finding:
     if rows:
         notes += [
             OF_FREE_BODY,
-            f"Enough is a ratio from {ENOUGH.share:g} on ({ENOUGH.source}; {ENOUGH.status}).",
+            f"Enough is a ratio from {ENOUGH:g} on ({SOURCE}).",
         ]
     warnings = (*loaded.warnings, *_too_soft(rows, body.case.body.flexibility or ""))
     return Finding("flexibility", HEADING, tuple(_said(rows)), rows, tuple(notes), warnings)
@@ -81,7 +79,7 @@ def _row(loaded: Loaded, key: Key) -> FlexibilityRow:
     if not reason and np.isnan(static):
         reason = NO_STATIC if not loaded.static else "the file of the static solution does not have it"
     of_index = of_interface / index if index > 0.0 else np.nan
-    enough = None if np.isnan(ratio) else bool(ratio >= ENOUGH.share)
+    enough = None if np.isnan(ratio) else bool(ratio >= ENOUGH)
     return FlexibilityRow(*key, unit_of(key[1]), static, index, ratio, 1.0 - of_index, of_index, enough, reason)
 
 

@@ -63,12 +63,19 @@ BASES = (
     Column("other_utilisation", "float", "-", "of the same point in the other case"),
     Column("life_ratio", "float", "-", "life in the other case over life in the first, at this point"),
     Column("shortest_life_ratio", "float", "-", "the same of the shortest lives of the weld, at whichever points"),
-    Column(
-        "event", "text", "-", "event whose stress is compared: the one with the most damage there in the first case"
-    ),
-    Column("rms_MPa", "float", "MPa", "root mean square of the structural stress of the event, its mean removed"),
+    _REASON,
+)
+
+BASES_CONTENT = (
+    _WELD,
+    _PART,
+    _NODE,
+    _ORDER,
+    _SURFACE,
+    Column("event", "text", "-", "event, by the name it has in both cases"),
+    Column("rms_MPa", "float", "MPa", "root mean square of the structural stress there, its mean removed"),
     Column("other_rms_MPa", "float", "MPa", "the same in the other case"),
-    Column("rms_above_MPa", "float", "MPa", "part of rms_MPa above the stated frequency, 20 Hz"),
+    Column("rms_above_MPa", "float", "MPa", "part of rms_MPa above 20 Hz"),
     Column("other_rms_above_MPa", "float", "MPa", "the same in the other case"),
     Column("ratio_above", "float", "-", "other_rms_above_MPa over rms_above_MPa"),
     _REASON,
@@ -100,6 +107,7 @@ BASIS_POINTS: dict[str, tuple[Column, ...]] = {
     "interface": INTERFACE,
     "truncation": TRUNCATION,
     "bases": BASES,
+    "bases_content": BASES_CONTENT,
     "bases_modes": BASES_MODES,
     "bases_flexibility": BASES_FLEXIBILITY,
 }
