@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fatigue.basis.counted import FACES, MOST_SAMPLES, CountedGroup, OpenCase, counted
 from fatigue.basis.finding import Finding
-from fatigue.basis.shapes import elastic
+from fatigue.basis.loaded.shapes import elastic
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.shown import few

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.basis.bases_content import content
-from fatigue.basis.bases_flexibility import flexibilities
-from fatigue.basis.bases_modes import corresponding_modes
 from fatigue.basis.counted import FACES, CountedGroup, OpenCase, Place, counted
 from fatigue.basis.finding import Finding
 from fatigue.basis.truncation import MOVES, life_ratio, moves
+from fatigue.basis.two_bases.content import content
+from fatigue.basis.two_bases.flexibility import flexibilities
+from fatigue.basis.two_bases.frequencies import corresponding_modes
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.shown import few
 from fatigue.stages import stage

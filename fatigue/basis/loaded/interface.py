@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.shapes import NO_SHAPES, Floats, Loaded, loaded_points
+from fatigue.basis.loaded.shapes import NO_SHAPES, Floats, Loaded, loaded_points
 from fatigue.flexbody.flexibility import NOT_MOVED, Spanned, spanned
 from fatigue.pipeline.solve.body import Body
 from fatigue.shown import few

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.shapes import elastic
+from fatigue.basis.loaded.shapes import elastic
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.shown import few
 

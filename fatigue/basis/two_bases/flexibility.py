@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.flexibility import indices
-from fatigue.basis.shapes import NO_SHAPES, Key, Loaded, loaded_points, unit_of
+from fatigue.basis.loaded.flexibility import indices
+from fatigue.basis.loaded.shapes import NO_SHAPES, Key, Loaded, loaded_points, unit_of
 from fatigue.pipeline.solve.body import Body
 
 HEADING = "Two bases: local flexibility at loaded points"
@@ -42,7 +42,8 @@ def flexibilities(body: Body, other: Body) -> Finding:
         return Finding("bases_flexibility", HEADING, notes=(note,))
     keys = first.keys + [key for key in second.keys if key not in first.keys]
     rows = tuple(_row(first, second, key) for key in keys)
-    return Finding("bases_flexibility", HEADING, tuple(_said(rows)), rows, tuple(_notes(first, second, keys)))
+    notes = tuple(_notes(first, second, keys))
+    return Finding("bases_flexibility", HEADING, tuple(_said(rows)), rows, notes, second.warnings)
 
 
 def _row(first: Loaded, second: Loaded, key: Key) -> BothFlexibilityRow:

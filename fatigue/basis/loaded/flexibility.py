@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.shapes import NO_SHAPES, NO_STATIC, Key, Loaded, loaded_points, told, unit_of
+from fatigue.basis.loaded.shapes import NO_SHAPES, NO_STATIC, Key, Loaded, loaded_points, told, unit_of
 from fatigue.errors import Problem
 from fatigue.flexbody.flexibility import flexibility_of_modes
 from fatigue.pipeline.solve.body import Body
