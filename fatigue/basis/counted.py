@@ -34,6 +34,7 @@ Floats = NDArray[np.float64]
 Place = tuple[str, int, int]  # weld, part, order
 
 MOST_SAMPLES = 100_000_000  # stress samples of a case of which all points are counted again: some seconds a time
+MOST_NUMBERS = 10_000_000  # of modal stress on each face: 160 MB in all
 FACES = ("top", "bottom")
 
 
@@ -51,8 +52,9 @@ class OpenCase:
     @property
     def is_small(self) -> bool:
         """Whether all points of the case are counted again, and not only the worst of every weld."""
+        stations = int(self.body.lines.begin[-1])
         samples = sum(load.counted.q.shape[1] for load in self.loads)
-        return bool(2 * int(self.body.lines.begin[-1]) * samples <= MOST_SAMPLES)
+        return 2 * stations * samples <= MOST_SAMPLES and stations * len(self.body.coordinates) <= MOST_NUMBERS
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -14,6 +14,7 @@ from fatigue.basis.finding import Finding
 from fatigue.basis.folder import refuse_foreign, write_basis
 from fatigue.basis.loaded.flexibility import flexibility
 from fatigue.basis.loaded.interface import interface
+from fatigue.basis.loaded.shapes import loaded_points
 from fatigue.basis.mass.findings import modal_mass
 from fatigue.basis.summary import Basis
 from fatigue.basis.truncation import truncation
@@ -87,8 +88,9 @@ def _findings(body: Body, other: Body | None, asked: Asked) -> Iterator[Finding]
     """Every question in turn."""
     stage("modal mass")
     yield from modal_mass(body, asked.band_hz, asked.damping)
-    yield flexibility(body)
-    yield interface(body)
+    loaded = loaded_points(body)
+    yield flexibility(loaded)
+    yield interface(loaded)
     with opened(body) as case:
         yield truncation(case)
         if other is not None:

@@ -126,6 +126,15 @@ def moves(ratio: float) -> bool | None:
     return None if np.isnan(ratio) else bool(max(ratio, 1.0 / ratio) > MOVES)
 
 
+def times(ratio: float) -> str:
+    """A life ratio in words.
+
+    >>> times(3627.4), times(0.8176), times(float("inf"))
+    ('3630 times as long', '0.818 times as long', 'without end')
+    """
+    return "without end" if np.isinf(ratio) else f"{float(f'{ratio:.3g}'):g} times as long"
+
+
 def _rows(group: CountedGroup, v: int, choice: LeftOut, modes: Modes) -> Iterator[TruncationRow]:
     """Every weld of a group without the modes of one choice."""
     full, without = group.utilisation, group.without[v]
@@ -168,11 +177,11 @@ def _said(choice: LeftOut, rows: Sequence[TruncationRow], modes: Modes) -> Itera
     elif not moving:
         most = max(known, key=_size)
         yield (
-            f"Without {what} no life moves by more than a factor of {MOVES:g}; most does {most.weld}, "
-            f"to {most.shortest_life_ratio:.4g} times."
+            f"Without {what} no life moves by more than a factor of {MOVES:g}; most does that of {most.weld}, "
+            f"{times(most.shortest_life_ratio)}."
         )
     else:
-        each = few([f"{row.weld} to {row.shortest_life_ratio:.3g} times" for row in moving])
+        each = few([f"{row.weld} {times(row.shortest_life_ratio)}" for row in moving])
         yield f"Without {what} {len(moving)} of {len(known)} lives move by more than a factor of {MOVES:g}: {each}."
 
 
@@ -202,8 +211,8 @@ def _notes(case: OpenCase, choices: Sequence[LeftOut]) -> Iterator[str]:
     )
     if not case.is_small:
         yield (
-            f"The case has more than {MOST_SAMPLES:.0e} stress samples, so only the worst point of every weld was "
-            "counted without the modes: another point may have the shorter life then."
+            f"The case is large (more than {MOST_SAMPLES:.0e} stress samples, or very many stations): only the worst "
+            "point of every weld was counted without the modes, and another may have the shorter life then."
         )
     method = case.body.case.multiaxial.method
     if method in DECIDING:

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.loaded.shapes import NO_SHAPES, NO_STATIC, Key, Loaded, loaded_points, told, unit_of
+from fatigue.basis.loaded.shapes import NO_SHAPES, NO_STATIC, Key, Loaded, told, unit_of
 from fatigue.errors import Problem
 from fatigue.flexbody.flexibility import flexibility_of_modes
-from fatigue.pipeline.solve.body import Body
 
 HEADING = "Local flexibility at loaded points"
 ENOUGH = 0.95
@@ -40,14 +39,8 @@ class FlexibilityRow:
     reason: str
 
 
-def flexibility(body: Body) -> Finding:
-    """The flexibility index of every direction that the case gives shapes or a static solution of.
-
-    Raises
-    ------
-    DataError : with every mistake found in the file at fault
-    """
-    loaded = loaded_points(body)
+def flexibility(loaded: Loaded) -> Finding:
+    """The flexibility index of every direction that the case gives shapes or a static solution of."""
     rows = tuple(_row(loaded, key) for key in loaded.keys)
     notes = [note for note, lacks in ((NO_SHAPES, loaded.shapes is None), (NO_STATIC, not loaded.static)) if lacks]
     notes = [f"No flexibility index: {note}" if note is NO_SHAPES else f"No ratio: {note}" for note in notes]
@@ -56,7 +49,7 @@ def flexibility(body: Body) -> Finding:
             OF_FREE_BODY,
             f"Enough is a ratio from {ENOUGH:g} on ({SOURCE}).",
         ]
-    warnings = (*loaded.warnings, *_too_soft(rows, body.case.body.flexibility or ""))
+    warnings = (*loaded.warnings, *_too_soft(rows, loaded.static_file))
     return Finding("flexibility", HEADING, tuple(_said(rows)), rows, tuple(notes), warnings)
 
 

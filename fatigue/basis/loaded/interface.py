@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.basis.finding import Finding
-from fatigue.basis.loaded.shapes import NO_SHAPES, Floats, Loaded, loaded_points
+from fatigue.basis.loaded.shapes import NO_SHAPES, Floats, Loaded
 from fatigue.flexbody.flexibility import NOT_MOVED, Spanned, spanned
-from fatigue.pipeline.solve.body import Body
 from fatigue.shown import few
 
 HEADING = "Interface modes at loaded points"
@@ -36,14 +35,8 @@ class InterfaceRow:
     reason: str
 
 
-def interface(body: Body) -> Finding:
-    """Interface modes of every loaded point, and of all points together.
-
-    Raises
-    ------
-    DataError : with every mistake found in the file at fault
-    """
-    loaded = loaded_points(body)
+def interface(loaded: Loaded) -> Finding:
+    """Interface modes of every loaded point, and of all points together."""
     if loaded.shapes is None:
         return Finding("interface", HEADING, notes=(f"No interface modes per loaded point: {NO_SHAPES}",))
     rows = tuple(_rows(loaded))

@@ -24,13 +24,15 @@ NO_STATIC = "the case gives no static solution at loaded points ([body] flexibil
 class Loaded:
     """Loaded points of a case.
 
-    ``shapes`` are None and ``static`` empty where the case does not give them; ``warnings`` are about their files.
+    ``shapes`` are None and ``static`` empty where the case does not give them; ``static_file`` is the name of the file
+    of the latter; ``warnings`` are about both files.
     """
 
     modes: Modes
     shapes: InterfaceShapes | None
-    static: tuple[StaticFlexibility, ...]
-    warnings: tuple[Problem, ...]
+    static: tuple[StaticFlexibility, ...] = ()
+    static_file: str = ""
+    warnings: tuple[Problem, ...] = ()
 
     @property
     def keys(self) -> list[Key]:
@@ -81,7 +83,7 @@ def loaded_points(body: Body) -> Loaded:
     if files.flexibility is not None:
         static, found = read_flexibility(case.resolve(files.flexibility), strict=body.strict)
         warnings += found
-    return Loaded(body.modes, shapes, static, tuple(warnings))
+    return Loaded(body.modes, shapes, static, files.flexibility or "", tuple(warnings))
 
 
 def elastic(modes: Modes) -> NDArray[np.bool_]:

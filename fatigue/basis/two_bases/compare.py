@@ -10,12 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.basis.counted import FACES, CountedGroup, OpenCase, Place, counted
+from fatigue.basis.counted import FACES, CountedGroup, OpenCase, counted
 from fatigue.basis.finding import Finding
-from fatigue.basis.truncation import MOVES, life_ratio, moves
+from fatigue.basis.truncation import MOVES, life_ratio, moves, times
 from fatigue.basis.two_bases.content import content
 from fatigue.basis.two_bases.flexibility import flexibilities
 from fatigue.basis.two_bases.frequencies import corresponding_modes
+from fatigue.basis.two_bases.matched import Match, stations_of, stress_of
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.shown import few
 from fatigue.stages import stage
@@ -23,10 +24,14 @@ from fatigue.stages import stage
 Floats = NDArray[np.float64]
 
 HEADING = "Two bases: lives at the same points"
-SAME_MM = 1.0  # between points of the same place in both meshes
+SAME = 1e-6  # of frequencies and stresses: round-off of a file with six digits
 A_TRUNCATION = (
     "Strong and weak interface are two choices of what a reduction keeps: how far the result moves is the error of "
     "truncation of one of them or of both. No verdict about a design follows from it."
+)
+ONE_BASIS = (
+    "Both cases have one and the same basis: their modes make the same stress at the welds. What differs comes from "
+    "the records and the mission, and says nothing about the basis."
 )
 
 
@@ -46,17 +51,6 @@ class BasesRow:
     reason: str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Matched:
-    """A point of the first case and the one at the same place in the other: group and station, and the face."""
-
-    group: CountedGroup
-    station: int
-    face: int
-    other_group: CountedGroup
-    other_station: int
-
-
 def two_bases(case: OpenCase, other: OpenCase) -> tuple[Finding, ...]:
     """Lives, stress above 20 Hz, frequencies and local flexibility of two cases with the welds of one body.
 
@@ -68,44 +62,19 @@ def two_bases(case: OpenCase, other: OpenCase) -> tuple[Finding, ...]:
     groups = counted(case)
     worst = [(group, *at) for group in groups for at in group.worst(group.utilisation)]
     others = counted(other, wanted=[group.place(station) for group, station, _ in worst])
-    there = {group.place(i): (group, i) for group in others for i in range(len(group.node))}
+    there, shortest = stations_of(others), _shortest(others)
+    found = [there.match(*at) for at in worst]
     longer = other.plan.target_km / case.plan.target_km
-    shortest = _shortest(others)
-    rows, matched = [], []
-    for group, station, face in worst:
-        found = _other(group, station, face, there)
-        rows.append(_row(group, station, face, found, longer, shortest))
-        if not isinstance(found, str):
-            matched.append(Matched(group, station, face, *found))
-    lives = Finding("bases", HEADING, tuple(_said(rows)), tuple(rows), tuple(_notes(case, other, rows, shortest)))
-    shared = _shared(groups, there)
-    modes = case.body.modes, other.body.modes
+    rows = tuple(_row(*at, match, longer, shortest) for at, match in zip(worst, found, strict=True))
+    stress = stress_of(list(there.matches(groups)))
+    is_one = _is_one_basis(case.body.modes, other.body.modes, stress)
+    notes = tuple(_notes(case, other, rows, shortest))
     return (
-        lives,
-        content(
-            case, other, [(one.group, one.station, one.face, one.other_group, one.other_station) for one in matched]
-        ),
-        corresponding_modes(modes, shared),
+        Finding("bases", HEADING, tuple(_said(rows, is_one)), rows, notes),
+        content(case, other, [match for match in found if isinstance(match, Match)]),
+        corresponding_modes((case.body.modes, other.body.modes), stress),
         flexibilities(case.body, other.body),
     )
-
-
-def _other(
-    group: CountedGroup, station: int, face: int, there: Mapping[Place, tuple[CountedGroup, int]]
-) -> tuple[CountedGroup, int] | str:
-    """The same point in the other case, or why there is none."""
-    place = group.place(station)
-    if not any(weld == place[0] for weld, _, _ in there):
-        return "the other case does not have this weld"
-    if place not in there:
-        return f"the other case has no station of part {place[1]} and order {place[2]} on this weld: another mesh"
-    found, at = there[place]
-    apart = float(np.linalg.norm(group.xyz[station] - found.xyz[at]))
-    if apart > SAME_MM:
-        return f"the station of this part and order lies {apart:.3g} mm away in the other case: another mesh"
-    if not found.toe[at, face]:
-        return f"the weld has no toe on its {FACES[face]} face in the other case"
-    return found, at
 
 
 def _shortest(groups: Sequence[CountedGroup]) -> dict[str, float]:
@@ -121,7 +90,7 @@ def _row(
     group: CountedGroup,
     station: int,
     face: int,
-    found: tuple[CountedGroup, int] | str,
+    match: Match | str,
     longer: float,
     shortest: Mapping[str, float],
 ) -> BasesRow:
@@ -130,29 +99,15 @@ def _row(
     u = float(group.utilisation[station, face])
     of_weld = life_ratio(u, shortest[weld])[0] * longer if weld in shortest else np.nan
     key = weld, part, int(group.node[station]), order, FACES[face], u
-    if isinstance(found, str):
-        return BasesRow(*key, np.nan, np.nan, of_weld, found)
-    at, there = found[1], found[0]
-    ratio, reason = life_ratio(u, float(there.utilisation[at, face]))
-    return BasesRow(*key, float(there.utilisation[at, face]), ratio * longer, of_weld, reason)
+    if isinstance(match, str):
+        return BasesRow(*key, np.nan, np.nan, of_weld, match)
+    other = float(match.other_group.utilisation[match.other_station, face])
+    ratio, reason = life_ratio(u, other)
+    return BasesRow(*key, other, ratio * longer, of_weld, reason)
 
 
-def _shared(groups: Sequence[CountedGroup], there: Mapping[Place, tuple[CountedGroup, int]]) -> tuple[Floats, Floats]:
-    """Modal stress of both cases (p, c) at all points they share, coordinates of each."""
-    first, second = [], []
-    for group in groups:
-        for i in range(len(group.node)):
-            found = there.get(group.place(i))
-            if found is not None and np.linalg.norm(group.xyz[i] - found[0].xyz[found[1]]) <= SAME_MM:
-                first.append(group.stress[i])
-                second.append(found[0].stress[found[1]])
-    if not first:
-        return np.zeros((0, 0)), np.zeros((0, 0))
-    return np.concatenate(first), np.concatenate(second)
-
-
-def _said(rows: Sequence[BasesRow]) -> Iterator[str]:
-    yield A_TRUNCATION
+def _said(rows: Sequence[BasesRow], is_one: bool) -> Iterator[str]:
+    yield ONE_BASIS if is_one else A_TRUNCATION
     known = [row for row in rows if moves(row.shortest_life_ratio) is not None]
     moving = [row for row in known if moves(row.shortest_life_ratio)]
     if known and not moving:
@@ -160,7 +115,7 @@ def _said(rows: Sequence[BasesRow]) -> Iterator[str]:
     if moving:
         each = few(
             [
-                f"{row.weld} {row.shortest_life_ratio:.3g} times"
+                f"{row.weld} {times(row.shortest_life_ratio)}"
                 for row in sorted(moving, key=lambda row: -abs(float(np.log(row.shortest_life_ratio))))
             ]
         )
@@ -185,14 +140,15 @@ def _notes(case: OpenCase, other: OpenCase, rows: Sequence[BasesRow], shortest: 
     same_curve = case.body.case.curve == other.body.case.curve
     if not same_curve or case.body.case.counting != other.body.case.counting:
         yield "Curve or counting differ between the cases, so lives differ by more than the basis."
-    if _same_modes(case.body.modes, other.body.modes):
-        yield "Both cases have modes of the same frequencies and kinds: they may be one basis, under other records."
-    else:
-        yield from _same_records(case, other)
+    yield from _same_records(case, other)
 
 
-def _same_modes(first: Modes, second: Modes) -> bool:
-    return first.kind == second.kind and np.array_equal(first.frequency, second.frequency)
+def _is_one_basis(first: Modes, second: Modes, stress: tuple[Floats, Floats]) -> bool:
+    """Whether two cases have the same modes, which make the same stress at the points they share."""
+    if first.kind != second.kind or not np.allclose(first.frequency, second.frequency, rtol=SAME, atol=0.0):
+        return False
+    mine, theirs = (one[:, : len(first.mode)] for one in stress)
+    return bool(np.allclose(np.abs(mine), np.abs(theirs), rtol=SAME, atol=SAME * np.abs(mine).max(initial=0.0)))
 
 
 def _same_records(case: OpenCase, other: OpenCase) -> Iterator[str]:

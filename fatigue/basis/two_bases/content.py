@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import welch
 
-from fatigue.basis.counted import FACES, CountedGroup, OpenCase
+from fatigue.basis.counted import FACES, OpenCase
 from fatigue.basis.finding import Finding
+from fatigue.basis.two_bases.matched import Match, stress_of
 from fatigue.pipeline.mission.event_load import EventLoad
 
 Floats = NDArray[np.float64]
-Pair = tuple[CountedGroup, int, int, CountedGroup, int]  # group, station, face; group and station in the other case
 
 ABOVE_HZ = 20.0  # the band in which two bases of one car body were seen to differ: factors 0.2 to 1.5
 HEADING = f"Two bases: stress above {ABOVE_HZ:g} Hz at the worst points"
@@ -46,10 +46,10 @@ class ContentRow:
     reason: str
 
 
-def content(case: OpenCase, other: OpenCase, pairs: Sequence[Pair]) -> Finding:
+def content(case: OpenCase, other: OpenCase, matches: Sequence[Match]) -> Finding:
     """Stress of every event at matched points of two cases, whole and above ``ABOVE_HZ``."""
     of_other = {load.counted.event: load for load in other.loads}
-    rows = [row for load in case.loads for row in _rows(load, of_other.get(load.counted.event), pairs)]
+    rows = [row for load in case.loads for row in _rows(load, of_other.get(load.counted.event), matches)]
     rows.sort(key=lambda row: row.weld)  # stable: events stay in the order of the case
     return Finding("bases_content", HEADING, tuple(_said(rows)), tuple(rows), (RECOVERED,) if rows else ())
 
@@ -68,24 +68,20 @@ def rms_above(signal: Floats, step: float, above_hz: float = ABOVE_HZ) -> tuple[
     return whole, np.asarray(whole * np.sqrt(share))
 
 
-def _rows(load: EventLoad, of_other: EventLoad | None, pairs: Sequence[Pair]) -> Iterator[ContentRow]:
+def _rows(load: EventLoad, of_other: EventLoad | None, matches: Sequence[Match]) -> Iterator[ContentRow]:
     """One event at all points."""
     reason = NO_EVENT if of_other is None else _too_slow(load) or _too_slow(of_other)
-    both = (load, of_other)
-    if not pairs or reason:
-        values = [(np.full(len(pairs), np.nan),) * 2] * 2
+    if not matches or of_other is None or reason:
+        nothing = np.full(len(matches), np.nan)
+        values = [(nothing, nothing)] * 2
     else:
-        stresses = (
-            np.array([group.stress[station, face] for group, station, face, _, _ in pairs]),
-            np.array([group.stress[station, face] for _, _, face, group, station in pairs]),
-        )
-        values = [_rms(stress, one) for stress, one in zip(stresses, both, strict=True) if one is not None]
+        values = [_rms(stress, one) for stress, one in zip(stress_of(matches), (load, of_other), strict=True)]
     (whole, above), (other_whole, other_above) = values
-    for i, (group, station, face, _, _) in enumerate(pairs):
-        weld, part, order = group.place(station)
+    for i, match in enumerate(matches):
+        weld, part, order = match.group.place(match.station)
         ratio = other_above[i] / above[i] if above[i] > 0.0 else np.nan
         yield ContentRow(
-            weld, part, int(group.node[station]), order, FACES[face], load.counted.event,
+            weld, part, int(match.group.node[match.station]), order, FACES[match.face], load.counted.event,
             float(whole[i]), float(other_whole[i]), float(above[i]), float(other_above[i]), float(ratio), reason,
         )  # fmt: skip
 

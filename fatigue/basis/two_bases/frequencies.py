@@ -15,6 +15,7 @@ from fatigue.shown import few
 Floats = NDArray[np.float64]
 
 HEADING = "Two bases: frequencies of the same modes"
+SAME = 1e-6  # of a frequency
 ALIKE = 0.8  # squared cosine from which two modes are taken for one; unlike ones stay below a half
 BY_STRESS = (
     "Modes are matched by their stress at the welds. Interface modes depend on what a reduction keeps and have no "
@@ -62,7 +63,7 @@ def modal_likeness(first: Floats, second: Floats) -> Floats:
     """Squared cosine between all columns of two matrices (p, a) and (p, b): (a, b), 0 where a column is 0 (MAC)."""
     product = (first.T @ second) ** 2
     size = np.outer((first**2).sum(axis=0), (second**2).sum(axis=0))
-    return np.divide(product, size, out=np.zeros_like(product), where=size > 0.0)
+    return np.minimum(np.divide(product, size, out=np.zeros_like(product), where=size > 0.0), 1.0)
 
 
 def _row(
@@ -87,8 +88,12 @@ def _said(rows: Sequence[ModesRow]) -> Iterator[str]:
     if not known:
         yield f"None of the {len(rows)} normal modes has a partner in the other case."
         return
+    of_all = f"{len(known)} of {len(rows)} normal modes have a partner in the other case"
     most = max(known, key=lambda row: abs(float(np.log(row.frequency_ratio))))
+    if abs(most.frequency_ratio - 1.0) < SAME:
+        yield f"{of_all}, all at the same frequency."
+        return
     yield (
-        f"{len(known)} of {len(rows)} normal modes have a partner in the other case; most differs mode {most.mode}, "
+        f"{of_all}; most differs mode {most.mode}, "
         f"{most.frequency_hz:.4g} Hz, which has {most.frequency_ratio:.4g} times its frequency there."
     )
