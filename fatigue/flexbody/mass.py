@@ -71,15 +71,13 @@ def centre_of_mass(about_origin: Floats) -> Floats:
     >>> M, R = sparse.eye_array(3) * 2.0, rigid_motions(np.tile([1.0, 2.0, 3.0], (3, 1)), np.arange(3))
     >>> centre_of_mass(rigid_mass(M, R)).tolist()
     [1.0, 2.0, 3.0]
+
+    A matrix with mass along one axis alone tells two of the three; the third is 0 then.
     """
     S, mass = about_origin[:3, 3:], np.diag(about_origin)[:3]  # of a point mass m at r: S = m [[0, z, -y], [-z, ...
-    return np.array(
-        [
-            (S[1, 2] - S[2, 1]) / (mass[1] + mass[2]),
-            (S[2, 0] - S[0, 2]) / (mass[2] + mass[0]),
-            (S[0, 1] - S[1, 0]) / (mass[0] + mass[1]),
-        ]
-    )
+    moment = np.array([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
+    of_both = mass[[1, 2, 0]] + mass[[2, 0, 1]]
+    return np.asarray(np.divide(moment, of_both, out=np.zeros(3), where=of_both > 0.0))
 
 
 def boundary_mass(M: sparse.sparray, R: Floats, held: NDArray[np.bool_]) -> Floats:

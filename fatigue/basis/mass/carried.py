@@ -27,6 +27,7 @@ Floats = NDArray[np.float64]
 SAME_MASS = 0.01  # relative: masses in a case are written with two digits or more
 SAME_DIRECTIONS = 1e-3  # relative: a body has one mass, whatever the direction
 ORTHOGONAL = 1e-3  # of the modal masses: shapes are written with four digits or more
+NO_INERTIA = 1e-12  # of the largest moment of inertia: what rounding leaves of a straight row of masses
 STILL = 1e-6  # of the largest displacement: a boundary that was held
 NAMED = 8
 
@@ -42,6 +43,7 @@ class Carried:
     effective : (p, 6) effective masses [t, t mm2]; NaN likewise
     body : (6,) mass and moments of inertia of the body [t, t mm2]; NaN where not known
     boundary : (6,) of it, what moves with the boundary and no mode; NaN where not known
+    no_body : (6,) why the mass or inertia of the body is not known, where it is not
     notes, warnings : what was assumed; what is doubtful
     """
 
@@ -53,6 +55,7 @@ class Carried:
     effective: Floats
     body: Floats
     boundary: Floats
+    no_body: tuple[str, ...]
     notes: tuple[str, ...]
     warnings: tuple[Problem, ...]
 
@@ -103,6 +106,7 @@ def _by_factors(body: Body) -> Carried:
         mass,
         np.array([total] * 3 + list(inertia)),
         np.array([lumped] * 3 + [np.nan] * 3),
+        ("total_mass_t is not given",) * 3 + ("inertia_t_mm2 is not given",) * 3,
         notes,
         warnings,
     )
@@ -139,7 +143,10 @@ def _by_matrix(body: Body) -> Carried:
     warnings = [*warnings, *of_shapes, *_doubts(rows, shapes, whole, of_modes, found, (matrix.name, shape_file.name))]
     there = ~massless
     factor = participation(M, shapes, R)
-    return _carried(modes, own[there], factor[there], mass[there], whole, lumped, notes, warnings)
+    whole[:3][whole[:3] <= 0.0] = np.nan
+    whole[3:][whole[3:] <= NO_INERTIA * whole[3:].max()] = np.nan
+    no_body = ("the matrix has no mass along it",) * 3 + ("the body has no inertia about it",) * 3
+    return _carried(modes, own[there], factor[there], mass[there], whole, lumped, no_body, notes, warnings)
 
 
 def _carried(
@@ -149,6 +156,7 @@ def _carried(
     mass: Floats,
     whole: Floats,
     boundary: Floats,
+    no_body: tuple[str, ...],
     notes: list[str],
     warnings: list[Problem],
 ) -> Carried:
@@ -170,6 +178,7 @@ def _carried(
         effective=effective_mass(factor[order], mass[order]),
         body=whole,
         boundary=boundary,
+        no_body=no_body,
         notes=tuple(notes),
         warnings=tuple(warnings),
     )

@@ -122,12 +122,12 @@ def _sum_of(found: Carried, number: int, band: float) -> MassSum:
     if not given:
         reasons.append(f"l_{direction} is not given")
     if np.isnan(body):
-        reasons.append(f"{'inertia_t_mm2' if number > 2 else 'total_mass_t'} is not given")
+        reasons.append(found.no_body[number])
     too_large = _too_large(found, number)
     if too_large:
         reasons.append("the modes carry more than the body has: see the warning")
     share = np.nan if too_large else in_band / body
-    missing = np.nan if too_large else 1.0 - (summed + np.nan_to_num(boundary)) / body
+    missing = np.nan if too_large else 1.0 - (summed + float(np.nan_to_num(boundary))) / body
     return MassSum(
         direction=direction,
         unit=unit_of(direction),
@@ -179,8 +179,9 @@ def _said(found: Carried, sums: tuple[MassSum, ...], band: float) -> Iterator[st
         )
     interface = np.array([kind == "interface" for kind in found.kind])
     if interface.any() and not interface.all():
-        share = np.nansum(found.effective[interface], axis=0) / np.nansum(found.effective, axis=0)
-        there = np.isfinite(share)
+        summed = np.nansum(found.effective, axis=0)
+        there = summed > 0.0
+        share = np.nansum(found.effective[interface], axis=0) / np.where(there, summed, 1.0)
         told = ", ".join(f"{d} {_percent(s)}" for d, s in zip(np.array(DIRECTIONS)[there], share[there], strict=True))
         yield f"Of what all modes carry, interface modes have: {told}."
 
