@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.group import assess_group
-from fatigue.pipeline.count.worst import worst_points
+from fatigue.pipeline.count.worst import EQUAL, worst_points
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
@@ -90,10 +90,11 @@ class CountedGroup:
         return np.searchsorted(self.weld, np.arange(len(self.welds) + 1))
 
     def worst(self, utilisation: Floats) -> Iterator[tuple[int, int]]:
-        """Station and face of the highest utilisation (n, 2) among the toe points of every weld."""
+        """Station and face of the highest utilisation (n, 2) among the toe points of every weld, the first of equals."""
         at_toes = np.where(self.toe, utilisation, -1.0)
         for first, end in pairwise(self.first.tolist()):
-            station, face = divmod(int(at_toes[first:end].argmax()), 2)
+            of_weld = at_toes[first:end]
+            station, face = divmod(int((of_weld >= EQUAL * of_weld.max()).argmax()), 2)
             yield first + station, face
 
     def place(self, station: int) -> Place:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fatigue.basis.counted import FACES, CountedGroup, OpenCase, counted
 from fatigue.basis.finding import Finding
+from fatigue.basis.loaded.shapes import loaded_points
 from fatigue.basis.truncation import MOVES, life_ratio, moves, times
 from fatigue.basis.two_bases.content import content
 from fatigue.basis.two_bases.flexibility import flexibilities
@@ -73,7 +74,7 @@ def two_bases(case: OpenCase, other: OpenCase) -> tuple[Finding, ...]:
         Finding("bases", HEADING, tuple(_said(rows, is_one)), rows, notes),
         content(case, other, [match for match in found if isinstance(match, Match)]),
         corresponding_modes((case.body.modes, other.body.modes), stress),
-        flexibilities(case.body, other.body),
+        flexibilities(loaded_points(case.body), loaded_points(other.body)),
     )
 
 

@@ -7,8 +7,7 @@ import numpy as np
 
 from fatigue.basis.finding import Finding
 from fatigue.basis.loaded.flexibility import indices
-from fatigue.basis.loaded.shapes import NO_SHAPES, Key, Loaded, loaded_points, unit_of
-from fatigue.pipeline.solve.body import Body
+from fatigue.basis.loaded.shapes import NO_SHAPES, Key, Loaded, unit_of
 
 HEADING = "Two bases: local flexibility at loaded points"
 AGREE = 1e-3  # of the static solution that both cases give
@@ -28,14 +27,8 @@ class BothFlexibilityRow:
     reason: str
 
 
-def flexibilities(body: Body, other: Body) -> Finding:
-    """Flexibility index of both bases in every direction that both cases give.
-
-    Raises
-    ------
-    DataError : with every mistake found in the file at fault
-    """
-    first, second = loaded_points(body), loaded_points(other)
+def flexibilities(first: Loaded, second: Loaded) -> Finding:
+    """Flexibility index of both bases in every direction that either case gives."""
     lacks = [name for name, one in (("the first", first), ("the other", second)) if one.shapes is None]
     if lacks:
         note = f"Local flexibility is not compared: {NO_SHAPES}, {' and '.join(lacks)} case."
