@@ -1,6 +1,7 @@
 """Does hunting meet a mode of equipment: dynamic amplification, how close they are, and what two records say of it."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -19,6 +20,7 @@ BAND_HZ = 0.5  # to either side of the frequency of hunting
 LINES = 9  # at which the coherence is read in the band
 FEWEST_AVERAGES = 4.0  # with three, records that have nothing to do with each other reach 0.78 in one of twenty cases
 CHANCE = 0.05
+ROUNDING = 1e-11  # of the largest value
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +74,8 @@ def common_grid(
     step = min(s for _, s, _ in thinned)
     start = max(t for _, _, t in thinned)
     end = min(t + (v.size - 1) * s for v, s, t in thinned)
-    times = start + np.arange(int((end - start) / step * (1 + 1e-12) + 1e-6) + 1 if end > start else 0) * step
+    samples = int((end - start) / step + 1e-6) + 1 if end > start else 0
+    times = np.asarray(start + np.arange(samples) * step, np.float64)
     on_grid = [_at(times, values, s, t) for values, s, t in thinned]
     return on_grid[0], on_grid[1], step, start
 
@@ -97,17 +100,14 @@ def coherence(
         for start, end in spans
         for begin in range(round(start / step), min(round(end / step), first.size) - size + 1, max(size // 2, 1))
     ]
-    neighbours = sum(b - a < size for a, b in zip(starts[:-1], starts[1:], strict=True))
+    neighbours = sum(b - a < size for a, b in pairwise(starts))
     averages = len(starts) ** 2 / (len(starts) + 2 * neighbours / 36) if starts else 0.0
     if len(starts) < FEWEST_AVERAGES:
         return None
     line = f_hunt + np.linspace(-BAND_HZ, BAND_HZ, LINES)
     window = signal.windows.hann(size, sym=False)
     fourier = window[:, np.newaxis] * np.exp(-2j * np.pi * line * step * np.arange(size)[:, np.newaxis])
-    x, y = (
-        signal.detrend(np.stack([record[begin : begin + size] for begin in starts]), axis=1) @ fourier
-        for record in (first, second)
-    )
+    x, y = (_moving(record, starts, size) @ fourier for record in (first, second))
     cross = np.sum(np.conj(x) * y, axis=0)
     squared = quotient(np.abs(cross) ** 2, np.sum(np.abs(x) ** 2, axis=0) * np.sum(np.abs(y) ** 2, axis=0))
     value = float(np.mean(squared))
@@ -118,6 +118,13 @@ def coherence(
         averages=averages,
         significant=1 - CHANCE ** (1 / (averages - 1)),
     )
+
+
+def _moving(record: NDArray[np.float64], starts: list[int], size: int) -> NDArray[np.float64]:
+    """Segments (segments, size) less the straight line through each; zeros where only rounding is left of one."""
+    segments = np.stack([record[begin : begin + size] for begin in starts])
+    moving = signal.detrend(segments, axis=1)
+    return np.where(np.abs(moving) > ROUNDING * np.max(np.abs(segments)), moving, 0.0)
 
 
 def _at(times: NDArray[np.float64], values: NDArray[np.float64], step: float, start: float) -> NDArray[np.float64]:

@@ -107,7 +107,7 @@ def track(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]
     size = round(WINDOW_S / step)
     window = np.asarray(signal.windows.hann(size, sym=False))
     line, _ = np.linalg.qr(np.stack([np.ones(size), np.arange(size)], axis=1))
-    f = np.fft.rfftfreq(PADDING * size, step)
+    f = np.fft.rfftfreq(PADDING * size, step).astype(np.float64)
     starts = np.rint(np.arange(int((slow.size - size) * step / HOP_S + 1e-9) + 1) * HOP_S / step).astype(np.int64)
     windows = np.lib.stride_tricks.sliding_window_view(slow, size)
     found = []
@@ -115,7 +115,7 @@ def track(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]
         level = windows[chunk]
         level = level - (level @ line) @ line.T
         transform = np.abs(np.fft.rfft(window * level, PADDING * size))
-        found.append(_ridge(f, np.asarray(transform**2 * (2 * step / np.sum(window**2)), np.float64), band_hz))
+        found.append(_ridge(f, transform**2 * (2 * step / np.sum(window**2)), band_hz))
     frequency, share, rms = np.concatenate(found, axis=1)
     still = rms <= ROUNDING * np.max(np.abs(values))
     frequency[still], share[still], rms[still] = np.nan, np.nan, 0.0
