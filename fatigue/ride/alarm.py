@@ -53,7 +53,7 @@ def _row(of: Tracked, rule: Alarm) -> AlarmRow:
         longest_run=longest,
         threshold_m_s2=rule.threshold_m_s2,
         cycles=rule.cycles,
-        hot_km_share=of.hot_share,
+        hot_km_share=of.hot_length_share,
         damage_share_inside_hot=NAN,
         told=None,
         reason=reason,

@@ -19,6 +19,7 @@ from fatigue.vibration.tracking import (
 )
 
 NAN = float("nan")
+MOSTLY = 0.75  # of an event under one frequency, though nothing stands out
 MUCH_HOT = 0.4  # share of an event from which on its own median is no measure of what is usual
 EDGE_HZ = 0.05
 
@@ -49,7 +50,7 @@ class Tracked:
         return [(start + s.start_s, start + s.end_s) for s in self.stretches if s.hot]
 
     @property
-    def hot_share(self) -> float:
+    def hot_length_share(self) -> float:
         """Share of the event that lies in hot stretches; NaN without a track."""
         if self.track is None:
             return NAN
@@ -176,17 +177,17 @@ def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
     said = []
     if np.isnan(found.dominant):
         return f"nothing vibrates between {low:g} and {high:g} Hz"
-    remedy = f"give its rms of a sound event: reference_rms = {{ {of.record.name} = ... }} in [ride]"
+    remedy = f'give its rms of a sound event: reference_rms = {{ "{of.record.name}" = ... }} in [ride]'
+    dominated = float(np.mean(found.share > ride.hot_share))
     if of.record.name not in ride.reference_rms:
-        if of.hot_share > MUCH_HOT:
+        if of.hot_length_share > MUCH_HOT:
             said.append(
-                f"{of.hot_share:.0%} of the event are hot, which draws up the median they are compared with: {remedy}"
+                f"{of.hot_length_share:.0%} of the event are hot, which draws up the median they are compared with: {remedy}"
             )
-        elif not of.hot.any() and float(np.nanmedian(found.share)) > ride.hot_share:
+        elif not of.hot.any() and dominated > MOSTLY:
             said.append(
-                f"one frequency dominates {np.mean(found.share > ride.hot_share):.0%} of the event, and no stretch "
-                f"exceeds {ride.hot_factor:g} times its median rms: hunting from end to end looks like this, and so "
-                f"does a lightly damped mode; {remedy}"
+                f"one frequency dominates {dominated:.0%} of the event, and no stretch exceeds {ride.hot_factor:g} times "
+                f"its median rms: hunting from end to end looks like this, and so does a lightly damped mode; {remedy}"
             )
     if of.hot.any() and not low + EDGE_HZ < of.hunting_hz < high - EDGE_HZ:
         said.append(
