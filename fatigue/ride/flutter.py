@@ -182,12 +182,12 @@ def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
     if of.record.name not in ride.reference_rms:
         if of.hot_length_share > MUCH_HOT:
             said.append(
-                f"{of.hot_length_share:.0%} of the event are hot, which draws up the median they are compared with: {remedy}"
+                f"{of.hot_length_share:.0%} of the event are hot, which draws up the median that they exceed: {remedy}"
             )
         elif not of.hot.any() and dominated > MOSTLY:
             said.append(
-                f"one frequency dominates {dominated:.0%} of the event, and no stretch exceeds {ride.hot_factor:g} times "
-                f"its median rms: hunting from end to end looks like this, and so does a lightly damped mode; {remedy}"
+                f"one frequency dominates {dominated:.0%} of the event, and no stretch exceeds {ride.hot_factor:g} "
+                f"times its median rms: hunting from end to end looks like this, and so does a lightly damped mode; {remedy}"
             )
     if of.hot.any() and not low + EDGE_HZ < of.hunting_hz < high - EDGE_HZ:
         said.append(
