@@ -9,6 +9,7 @@ from fatigue.case.channels import Ride
 from fatigue.ride.channel import ChannelRecord
 from fatigue.vibration.tracking import (
     ABOVE_NYQUIST,
+    RIDGE_HZ,
     SHORTEST_S,
     Stretch,
     Track,
@@ -187,10 +188,13 @@ def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
         elif not of.hot.any() and dominated > MOSTLY:
             said.append(
                 f"one frequency dominates {dominated:.0%} of the event, and no stretch exceeds {ride.hot_factor:g} "
-                f"times its median rms: hunting from end to end looks like this, and so does a lightly damped mode; {remedy}"
+                f"times its median rms: hunting from end to end looks like this, and so does a "
+                f"lightly damped mode; {remedy}"
             )
     if of.hot.any() and not low + EDGE_HZ < of.hunting_hz < high - EDGE_HZ:
         said.append(
             f"the largest density lies at {of.hunting_hz:.3g} Hz, the edge of hunting_band_hz: its peak may be outside"
         )
+    if high - low <= 2 * RIDGE_HZ:
+        said.append(f"hunting_band_hz is no wider than the ridge, {2 * RIDGE_HZ:g} Hz: every share is 1")
     return "; ".join(said) or None
