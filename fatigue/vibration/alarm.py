@@ -80,7 +80,7 @@ def count_alarms(values: NDArray[np.float64], step: float, threshold: float, cyc
 
     >>> t = np.arange(1000) / 1000
     >>> count_alarms(8.1 * np.sin(2 * np.pi * 8 * t), 0.001, threshold=8.0, cycles=6).times.round(3)
-    array([0.719])
+    array([0.716])
     """
     if values.size == 0:
         return AlarmCount(np.empty(0), 0.0, 0.0)

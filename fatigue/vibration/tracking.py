@@ -36,6 +36,7 @@ class Track:
     frequency : of the largest density in the band [Hz]
     share : power within 0.5 Hz of it over the power in the band
     rms : in the band [unit of the record]
+    dominant : frequency of the largest mean density of all slices [Hz]; NaN where nothing vibrates
     duration : of the record [s]
     """
 
@@ -43,6 +44,7 @@ class Track:
     frequency: NDArray[np.float64]
     share: NDArray[np.float64]
     rms: NDArray[np.float64]
+    dominant: float
     duration: float
 
     @property
@@ -110,16 +112,19 @@ def track(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]
     f = np.fft.rfftfreq(PADDING * size, step).astype(np.float64)
     starts = np.rint(np.arange(int((slow.size - size) * step / HOP_S + 1e-9) + 1) * HOP_S / step).astype(np.int64)
     windows = np.lib.stride_tricks.sliding_window_view(slow, size)
-    found = []
+    found, total = [], np.zeros(f.size)
     for chunk in np.split(starts, range(SLICES_AT_ONCE, starts.size, SLICES_AT_ONCE)):
         level = windows[chunk]
         level = level - (level @ line) @ line.T
         transform = np.abs(np.fft.rfft(window * level, PADDING * size))
-        found.append(_ridge(f, transform**2 * (2 * step / np.sum(window**2)), band_hz))
+        density = transform**2 * (2 * step / np.sum(window**2))
+        found.append(_ridge(f, density, band_hz))
+        total += np.sum(density, axis=0)
     frequency, share, rms = np.concatenate(found, axis=1)
     still = rms <= ROUNDING * np.max(np.abs(values))
     frequency[still], share[still], rms[still] = np.nan, np.nan, 0.0
-    return Track((starts + size / 2) * step, frequency, share, rms, duration)
+    dominant = np.nan if still.all() else float(_ridge(f, total[np.newaxis], band_hz)[0, 0])
+    return Track((starts + size / 2) * step, frequency, share, rms, dominant, duration)
 
 
 def hot_slices(track: Track, hot_factor: float, hot_share: float, reference_rms: float) -> NDArray[np.bool_]:
