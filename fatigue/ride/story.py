@@ -36,6 +36,7 @@ from fatigue.results.folder import result_log
 from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
 from fatigue.ride.alarm import alarm_rows
+from fatigue.ride.bands import band_problems
 from fatigue.ride.channel import ChannelRecord
 from fatigue.ride.coincidence import coincidence_rows
 from fatigue.ride.example import no_channels
@@ -88,6 +89,7 @@ def ride(
     if not any(event.channel for event in case.mission.event):
         raise CaseError(no_channels(case))
     channels, warnings = channel_records(case)
+    refuse(DataError, band_problems(case, channels))
     for problem in warnings:
         log.warning("%s", problem)
     plan, _ = mission_plan(body, threads)
