@@ -25,17 +25,17 @@ def response(frequency: Floats, weighting: Weighting) -> NDArray[np.complex128]:
     >>> abs(response(np.array([1.0, 2.0, 8.0]), "Wd")).round(3).tolist()
     [1.011, 0.89, 0.253]
     """
-    s = 2j * np.pi * np.asarray(frequency, np.float64)
+    s = np.asarray(2j * np.pi * np.asarray(frequency, np.float64), np.complex128)
     w1, w2 = (2 * np.pi * f for f in BAND_HZ)
     f4, q2 = _TRANSITION[weighting]
     w3 = w4 = 2 * np.pi * f4
-    h = s**2 / (s**2 + s * w1 / Q1 + w1**2) * w2**2 / (s**2 + s * w2 / Q1 + w2**2)
+    h: NDArray[np.complex128] = s**2 / (s**2 + s * w1 / Q1 + w1**2) * w2**2 / (s**2 + s * w2 / Q1 + w2**2)
     h = h * (s * w4**2 / w3 + w4**2) / (s**2 + s * w4 / q2 + w4**2)
     if weighting == "Wb":
         w5, w6 = (2 * np.pi * f for f in _STEP_HZ)
         q3, q4 = _STEP_Q
         h = h * _STEP_GAIN * (s**2 / w5**2 + s / (q3 * w5) + 1) / (s**2 / w6**2 + s / (q4 * w6) + 1)
-    return np.asarray(h, np.complex128)
+    return h
 
 
 def block_rms(values: Floats, step: float, weighting: Weighting) -> Floats:
