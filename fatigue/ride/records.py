@@ -169,9 +169,7 @@ def _modal(case: Case) -> Iterator[Problem]:
     ]
     if found:
         event, channel = found[0]
-        what = (
-            f"{channel.column} of {event.history} is a modal coordinate, and unit = {channel.unit!r} says that it is "
-        )
+        what = f"{channel.column} of {event.history} is a modal coordinate, and unit = {channel.unit!r} says it is "
         what += f"an acceleration ({len(found)} of the channels)"
         remedy = "Give unit = '-', or the column of the acceleration"
         yield Problem("modal_channel", f"{case.path.name}: channel '{channel.name}'", what, remedy, len(found))
