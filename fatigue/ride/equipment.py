@@ -2,11 +2,12 @@
 
 import tomllib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from fatigue.case import Case
 from fatigue.case.channels import Equipment, Ride
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.files.mishaps import refusal
@@ -44,6 +45,21 @@ class EquipmentRow:
     peak_ratio: float
     shock_m_s2: float
     reason: str
+
+
+def limits_of(case: Case) -> VibrationTable:
+    """Table of limits that a case asks for, which has all classes that the case gives.
+
+    Raises
+    ------
+    DataError : a file that is not there or cannot be read, and all that is wrong in it
+    CaseError : classes that the table does not have
+    """
+    own = case.ride.vibration_table
+    table = read_vibration_table(None if own is None else case.resolve(own))
+    problems = unknown_classes(case.ride, table)
+    refuse(CaseError, (replace(problem, where=f"{case.path.name}: {problem.where}") for problem in problems))
+    return table
 
 
 def read_vibration_table(path: Path | None) -> VibrationTable:
