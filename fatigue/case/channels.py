@@ -33,6 +33,11 @@ class Channel(Table):
     )
     role: Role = Field(description="what it is of: 'bogie', 'equipment', 'floor' or 'other'")
     direction: Direction = Field(description="its direction: 'x' along the track, 'y' lateral or 'z' vertical")
+    place: Text | None = Field(
+        default=None,
+        description="the place it is at, the same for the directions of one place; left out: its name without a last "
+        "word that is its direction",
+    )
     scale: float = Field(default=1.0, description="the factor [-] on its values")
     shift_s: float = Field(default=0.0, description="the time [s] added to the times of its file")
 

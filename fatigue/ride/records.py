@@ -118,6 +118,7 @@ def _record(case: Case, event: Event, channel: Channel, kept: Kept, where: str) 
         step=samples.grid.step,
         start=samples.grid.start + channel.shift_s + part.start * samples.grid.step,
         km_per_s=kept.km_per_s,
+        place=channel.place,
     )
 
 
