@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from fatigue.quotient import quotient
+from fatigue.vibration.band_pass import band_passed
 from fatigue.vibration.decimated import decimated
 
 WINDOW_S = 2.0
@@ -147,11 +148,10 @@ def stretches(
     A slice stands for the time from halfway to the slice before it to halfway to the next one, not for its window of
     2 s: a slice whose window is half filled by a burst is centred at its start, so this is where stretches begin and
     end, a third of a second early and late for a burst of some ten times what surrounds it. The first and the last
-    slice reach to the ends of the record. The peak is that of the record between forward and backward Butterworth
-    filters of the order 4.
+    slice reach to the ends of the record. The peak is that of ``band_passed``, which fades the ends of the record.
     """
     edges, found = track.edges, []
-    inside = np.abs(_in_band(values, step, band_hz))
+    inside = np.abs(band_passed(values, step, band_hz))
     for start, end in _runs(hot):
         samples = slice(round(edges[start] / step), max(round(edges[end] / step), 1))
         vibrates = track.rms[start:end] > 0
@@ -194,17 +194,6 @@ def _covered(
     """Part of the bin at each frequency that lies between two edges, which need not fall on a bin."""
     reach = np.minimum(high, f + spacing / 2) - np.maximum(low, f - spacing / 2)
     return np.asarray(np.clip(reach / spacing, 0.0, 1.0))
-
-
-def _in_band(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]) -> NDArray[np.float64]:
-    """The record with what is outside the band filtered off, without delay."""
-    low, high = band_hz
-    below_nyquist = high * step < 0.5 * (1 - 1e-9)
-    sos = signal.butter(
-        4, band_hz if below_nyquist else low, "bandpass" if below_nyquist else "highpass", fs=1 / step, output="sos"
-    )
-    pad = min(values.size - 1, round(2 / (low * step)))
-    return np.asarray(signal.sosfiltfilt(sos, values - np.mean(values), padlen=pad))
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
