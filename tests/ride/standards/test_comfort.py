@@ -7,9 +7,9 @@ import pytest
 
 from fatigue.case.channels import Ride
 from fatigue.results import RIDDEN
-from fatigue.ride.comfort import ComfortRow, comfort_rows
+from fatigue.ride.standards.comfort import ComfortRow, comfort_rows
 from fatigue.vibration.en12299 import response
-from tests.ride.synthetic_channels import channel, noise, sine
+from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 
 def rows_of(records, ride=None):

@@ -7,8 +7,8 @@ from typing import Literal, cast
 import numpy as np
 
 from fatigue.case.channels import Ride
-from fatigue.ride.band import heard, joined, no_acceleration, written
 from fatigue.ride.channel import ChannelRecord
+from fatigue.ride.standards.band import heard, joined, no_acceleration, written
 from fatigue.vibration.comfort_data import comfort_data, standing
 from fatigue.vibration.en12299 import BAND_HZ, WEIGHTING, block_rms, mean_comfort, section_percentiles
 from fatigue.vibration.mirrored import Floats

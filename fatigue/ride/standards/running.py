@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fatigue.case.channels import Ride
-from fatigue.ride.band import heard, joined, no_acceleration, written
 from fatigue.ride.channel import ChannelRecord
+from fatigue.ride.standards.band import heard, joined, no_acceleration, written
 from fatigue.vibration.mirrored import Floats, band_pass, filtered
 from fatigue.vibration.running import (
     body_band,

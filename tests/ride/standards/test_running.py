@@ -7,8 +7,8 @@ import pytest
 
 from fatigue.case.channels import Ride
 from fatigue.results import RIDDEN
-from fatigue.ride.running import RunningRow, running_rows
-from tests.ride.synthetic_channels import channel, noise, sine
+from fatigue.ride.standards.running import RunningRow, running_rows
+from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 RIDE = Ride(bogie_mass_t=6.8)
 

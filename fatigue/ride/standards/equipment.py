@@ -12,8 +12,8 @@ from fatigue.case.channels import Equipment, Ride
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.files.mishaps import refusal
 from fatigue.files.naming import missing_file
-from fatigue.ride.band import heard, joined, no_acceleration, written
 from fatigue.ride.channel import ChannelRecord
+from fatigue.ride.standards.band import heard, joined, no_acceleration, written
 from fatigue.vibration.environment import (
     PEAK_OF_RMS,
     DensityShape,

@@ -8,9 +8,9 @@ import pytest
 from fatigue.case.channels import Equipment, Ride
 from fatigue.errors import CaseError, DataError
 from fatigue.results import RIDDEN
-from fatigue.ride.equipment import EquipmentRow, equipment_rows, read_vibration_table
+from fatigue.ride.standards.equipment import EquipmentRow, equipment_rows, read_vibration_table
 from fatigue.vibration.environment_file import shipped_table
-from tests.ride.synthetic_channels import channel, noise, sine
+from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 OWN = """
 edition = "own, 2026"
