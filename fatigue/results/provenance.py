@@ -105,8 +105,8 @@ def hashes_on_record(record: Mapping[str, Any]) -> dict[str, str] | None:
 
 
 def is_same_result(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """Whether two records are of one result, though documents or spectra may have been written in between."""
-    later = {"outputs": None, "load_spectra": None}
+    """Whether two records are of one result, though documents, spectra or studies may have been written in between."""
+    later = {"outputs": None, "load_spectra": None, "shift_study": None}
     return {**one, **later} == {**other, **later}
 
 

@@ -13,7 +13,7 @@ that of the record at its start: the least white force before the record that ex
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import solve_sylvester
 
 from fatigue.vibration.oscillator import receptance
@@ -52,7 +52,7 @@ def shifted(q: Floats, step: float, before: Setting, after: Setting) -> Floats:
     return np.asarray(response + _free_vibration(start, q.size, step, after))
 
 
-def transfer(f_hz: Floats, before: Setting, after: Setting) -> NDArray[np.complex128]:
+def transfer(f_hz: ArrayLike, before: Setting, after: Setting) -> NDArray[np.complex128]:
     """Ratio of receptances, H' / H, at some frequencies [Hz]."""
     return receptance(f_hz, *after) / receptance(f_hz, *before)
 
