@@ -11,6 +11,7 @@ from plotly.offline import get_plotlyjs
 from fatigue import __version__
 from fatigue.basis.figures import dynamic_masses, summed_masses
 from fatigue.basis.finding import Finding
+from fatigue.basis.lives_figure import lives_without
 from fatigue.basis.summary import Basis
 from fatigue.report.environment import environment
 from fatigue.report.figures import CONFIG, TEMPLATE
@@ -79,6 +80,10 @@ _DRAWN: dict[str, tuple[Callable[[tuple[Any, ...], float], go.Figure | None], st
     "dynamic_mass": (
         dynamic_masses,
         "Dynamic mass: force (or moment) at the base over its acceleration; dotted: the band ends.",
+    ),
+    "truncation": (
+        lives_without,
+        "Shortest life of each weld without some modes over that with all modes; dotted: a life that moves.",
     ),
 }
 

@@ -8,10 +8,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from fatigue.basis.counted import opened
 from fatigue.basis.finding import Finding
 from fatigue.basis.folder import refuse_foreign, write_basis
+from fatigue.basis.loaded.flexibility import flexibility
+from fatigue.basis.loaded.interface import interface
+from fatigue.basis.loaded.shapes import loaded_points
 from fatigue.basis.mass.findings import modal_mass
 from fatigue.basis.summary import Basis
+from fatigue.basis.truncation import truncation
+from fatigue.basis.two_bases.compare import two_bases
 from fatigue.case import Case, given_case
 from fatigue.case.tables import BASIS_FILES
 from fatigue.errors import given_path
@@ -82,6 +88,14 @@ def _findings(body: Body, other: Body | None, asked: Asked) -> Iterator[Finding]
     """Every question in turn."""
     stage("modal mass")
     yield from modal_mass(body, asked.band_hz, asked.damping)
+    loaded = loaded_points(body)
+    yield flexibility(loaded)
+    yield interface(loaded)
+    with opened(body) as case:
+        yield truncation(case)
+        if other is not None:
+            with opened(other) as compared:
+                yield from two_bases(case, compared)
 
 
 def _inputs(case: Case, other: Case | None) -> Iterator[Path]:

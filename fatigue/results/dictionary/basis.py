@@ -1,5 +1,6 @@
 """Columns of what is said of the modal basis of a body, written into a folder of their own."""
 
+from fatigue.results.dictionary.basis_points import BASIS_POINTS
 from fatigue.results.dictionary.column import Column
 
 _DIRECTION = Column("direction", "text", "-", "x, y, z, rx, ry or rz")
@@ -39,4 +40,8 @@ DYNAMIC_MASS = (
     Column("elastic_mass", "float", "-", f"|elastic dynamic mass m_e|: {_MASS}"),
 )
 
-BASIS: dict[str, tuple[Column, ...]] = {"mass_sum": MASS_SUM, "modal_mass": MODAL_MASS, "dynamic_mass": DYNAMIC_MASS}
+BASIS: dict[str, tuple[Column, ...]] = {
+    "mass_sum": MASS_SUM,
+    "modal_mass": MODAL_MASS,
+    "dynamic_mass": DYNAMIC_MASS,
+} | BASIS_POINTS
