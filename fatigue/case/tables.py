@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, field_validator
 
-from fatigue.case.channels import Channel, Ride
+from fatigue.case.channels import Channel, Ride, no_channel_of_static_loads
 from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
@@ -297,6 +297,7 @@ class Event(Table):
         if self.start_s > 0.0:
             what = f"{self.start_s:g} is given for a static load case, which has no start-up"
             yield clash("start_s", what, "Remove it")
+        yield from no_channel_of_static_loads(self.channel)
 
 
 class Mission(Table):
