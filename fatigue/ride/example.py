@@ -15,7 +15,8 @@ def no_channels(case: Case) -> Problem:
     if event is None:
         remedy = "Give an event a history and [[mission.event.channel]] tables; all events are static load cases"
     else:
-        remedy = f"Write below [[mission.event]] of '{event.name}', for instance: {channel_line(case, event)}"
+        line = channel_line(case, event)
+        remedy = f"Write, for instance, {line} below the name of event '{event.name}', and give the same command again"
     return Problem("no_channels", case.path.name, what, remedy)
 
 

@@ -111,6 +111,8 @@ def _coincidence_text(row: CoincidenceRow) -> str:
         return f"coincidence with {mode}: cannot be had ({row.reason})"
     text = f"coincidence of '{row.channel}', {_number(row.f_hunt_hz)} Hz, with {mode}: {row.flag}, "
     text += f"amplification {_number(row.amplification)}"
+    if row.within != "hot":
+        text += ", no hot stretch"
     if not np.isnan(row.coherence):
         text += f", coherence {row.coherence:.2f}, phase {row.phase_deg:.0f} deg"
     return text + (f" ({row.reason})" if row.reason else "")
@@ -119,9 +121,8 @@ def _coincidence_text(row: CoincidenceRow) -> str:
 def _alarm_text(row: AlarmRow, worst: HotDamageRow | None) -> str:
     rule = f"{row.cycles} cycles at {_number(row.threshold_m_s2)} m/s2"
     if row.alarms is None:
-        text = f"alarm of '{row.channel}': cannot be had ({row.reason})"
-    else:
-        text = f"alarm of '{row.channel}' ({rule}): {row.alarms or 'none'}, largest peak {_number(row.peak_m_s2)} m/s2"
+        return f"alarm of '{row.channel}': cannot be had ({row.reason})"
+    text = f"alarm of '{row.channel}' ({rule}): {row.alarms or 'none'}, largest peak {_number(row.peak_m_s2)} m/s2"
     if worst is None or np.isnan(row.damage_share_inside_hot) or row.hot_km_share == 0.0:
         return text
     text += (
