@@ -7,8 +7,8 @@ import pytest
 
 from fatigue.case.channels import Ride
 from fatigue.results import RIDDEN
-from fatigue.ride.running import RunningRow, running_rows
-from tests.ride.synthetic_channels import channel, noise, sine
+from fatigue.ride.standards.running import RunningRow, running_rows
+from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 RIDE = Ride(bogie_mass_t=6.8)
 
@@ -89,6 +89,12 @@ def test_a_short_event_has_no_section():
     assert rows_of(channel(noise(duration=4.0)))["body_rms"].reason == "the record covers 400 m, a section is 500 m"
     row = rows_of(bogie(noise(duration=0.5)))["sliding_rms"]
     assert row.reason == "the record covers 50 m, a window is 100 m"
+
+
+def test_a_record_without_a_period_of_the_band_has_no_peak():
+    """2 s from 0.4 Hz on."""
+    row = rows_of(bogie(noise(duration=2.0)))["bogie_peak"]
+    assert (np.isnan(row.value), row.reason) == (True, "the record of 2 s is shorter than a period of 0.4 Hz")
 
 
 def test_directions_without_a_limit():

@@ -8,9 +8,9 @@ import pytest
 from fatigue.case.channels import Equipment, Ride
 from fatigue.errors import CaseError, DataError
 from fatigue.results import RIDDEN
-from fatigue.ride.equipment import EquipmentRow, equipment_rows, read_vibration_table
+from fatigue.ride.standards.equipment import EquipmentRow, equipment_rows, read_vibration_table
 from fatigue.vibration.environment_file import shipped_table
-from tests.ride.synthetic_channels import channel, noise, sine
+from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 OWN = """
 edition = "own, 2026"
@@ -137,6 +137,13 @@ def test_a_short_record_names_what_it_does_not_resolve():
     (row,) = rows_of(sine(1.0, 9.2, 5.0), converter())
     assert "5 s resolve no third octave up to 3.98 Hz" in row.reason
     assert row.asd_ratio_hz == pytest.approx(10.0)
+
+
+def test_a_record_without_a_period_of_its_band_has_no_rms():
+    """0.4 s from 2 Hz on."""
+    (row,) = rows_of(noise(duration=0.4), converter())
+    assert np.isnan([row.rms_m_s2, row.asd_ratio]).all()
+    assert row.reason == "the record of 0.4 s is shorter than a period of 2 Hz"
 
 
 @pytest.mark.filterwarnings("error")
