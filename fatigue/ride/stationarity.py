@@ -31,7 +31,7 @@ class StationarityRow:
 
 def stationarity_row(record: ChannelRecord) -> StationarityRow:
     """Dispersion test, kurtosis and crest of a channel, and whether they violate what the frequency domain assumes."""
-    scatter, reach = dispersion(record.values, record.step), peakedness(record.values, record.step)
+    scatter, reach = dispersion(record.values, record.step), peakedness(record.values)
     said = []
     if reach is None:
         said.append("the channel is silent")

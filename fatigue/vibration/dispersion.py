@@ -86,7 +86,7 @@ def dispersion(values: NDArray[np.float64], step: float) -> Dispersion | None:
     return Dispersion(ratio, float(stats.chi2.sf(freedom * ratio, freedom)), segments, size * step, bandwidth)
 
 
-def peakedness(values: NDArray[np.float64], step: float) -> Peakedness | None:
+def peakedness(values: NDArray[np.float64]) -> Peakedness | None:
     """Kurtosis and crest of a record (n,), and the crest to be expected; None where nothing vibrates.
 
     Of n independent Gaussian peaks the largest is ``sqrt(2 ln n) + 0.577 / sqrt(2 ln n)`` on the average (Davenport,
