@@ -30,6 +30,7 @@ STATIONARY = {
     "band": bandpass,
     "hunting 5 %": lambda samples, rng: oscillator(samples, 8.0, 0.05, rng),
     "body 1.5 %": lambda samples, rng: oscillator(samples, 8.0, 0.015, rng),
+    "body 1 %": lambda samples, rng: oscillator(samples, 9.0, 0.01, rng),
     "sway 10 %": lambda samples, rng: oscillator(samples, 1.2, 0.1, rng),
     "mixed": lambda samples, rng: oscillator(samples, 8.0, 0.03, rng) / 10 + rng.standard_normal(samples),
 }
@@ -71,6 +72,25 @@ def test_bursts_are_found(kind, seed):
     found = dispersion(values, 1 / RATE)
     assert found.ratio > 4
     assert found.p < 1e-5
+
+
+@pytest.mark.parametrize("seconds", [60, 120])
+@pytest.mark.parametrize("share", [0.1, 0.25])
+def test_a_burst_of_one_frequency_is_found(seconds, share):
+    """A sine that comes and goes makes the record narrow, and does not pass for narrow-band noise."""
+    values = 0.1 * np.random.default_rng(7).standard_normal(seconds * RATE)
+    inside = slice(round(0.3 * values.size), round((0.3 + share) * values.size))
+    values[inside] += np.sin(0.5 * np.arange(values.size))[inside]
+    found = dispersion(values, 1 / RATE)
+    assert found.ratio > 4
+    assert found.p < 1e-3
+
+
+def test_a_sine_scatters_less_than_noise():
+    """The mean square of a sine hardly changes."""
+    found = dispersion(np.sin(0.5 * np.arange(6000)), 1 / RATE)
+    assert found.ratio < 0.01
+    assert found.p > 0.999
 
 
 def test_a_trend_is_found():
@@ -119,11 +139,11 @@ def test_scale_constant_and_drift_do_not_matter(scale, constant, drift):
 
 
 def test_what_cannot_be_tested():
-    """Short records, a sine, whose mean square needs no time, and silence have no test; none of them warns."""
+    """Short records, narrow slow ones and silence have no test; none of them warns."""
     rng = np.random.default_rng(5)
     assert dispersion(rng.standard_normal(1599), 1 / RATE) is None
     assert dispersion(rng.standard_normal(1600), 1 / RATE).segments == 8
-    assert dispersion(np.sin(0.5 * np.arange(6000)), 1 / RATE) is None
+    assert dispersion(oscillator(6000, 0.2, 0.02, rng), 1 / RATE) is None
     for value in (0.0, 9.81):
         assert dispersion(np.full(6000, value), 1 / RATE) is None
         assert peakedness(np.full(6000, value)) is None
