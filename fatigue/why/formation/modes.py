@@ -181,7 +181,7 @@ def _statistics(
         at = own.start + here
         response, excited = (Spectrum(of.hz, of.variance[here]) for of in (of_q, of_qs))
         response_hz[at], excitation_hz[at] = dominant_hz(response), dominant_hz(excited)
-        highest[at] = _highest(response)
+        highest[at] = np.where(rms[at] > 0.0, _highest(response), np.nan)
         response_share[at] = share_between(response, low[at], high[at])
         half_power[at] = share_between(excited, low[at], high[at])
     lines = 2.0 / (record.samples * record.step)
