@@ -16,10 +16,19 @@ from fatigue.results import json_ready, read_provenance
 from fatigue.vibration.excitation import quasi_static
 from fatigue.why.findings import Diagnosis
 from tests.small_case import STEP, SmallCase, small_case
+from tests.unit_load_case import as_unit_load, write_with_loads
 from tests.why.formation.swinging_case import BURST, HUNTING_HZ, ZETA, swinging_case
 
 TABLES = ("resonance", "weld_resonance", "watch")
 POINT = ["weld", "part", "order", "surface"]
+STATIC = """
+[[mission.event]]
+name = "lift"
+per_1000_km = 3
+[[mission.event.unit_load]]
+name = "pull"
+values = [0.0, 60.0]
+"""
 
 
 @dataclass
@@ -239,3 +248,39 @@ def test_an_undamaged_result_has_tables_too(tmp_path):
     assert found.watch.empty
     assert found.weld_resonance.empty
     assert len(found.resonance) == 9
+
+
+def test_costs_with_cycles_across_events(tmp_path):
+    """In a loop of events the cycles across them are counted again as well: the life of a second assessment."""
+    case = swinging_case()
+    case.extra = '[[mission.sequence]]\norder = ["worn", "load and unload", "calm"]\nper_1000_km = 300\n'
+    for event in case.events:
+        event.pop("share", None)
+        event["per_1000_km"] = 400.0
+    found = run(case, tmp_path / "first")
+    first = found.watch.sort_values("rank").iloc[0]
+    assert (first["event"], first["mode"]) == ("worn", 1)
+    q = case.histories["worn"]["q_1"].to_numpy().copy()
+    kept = slice(round(2.0 / STEP), None)
+    q[kept] = quasi_static(q[None, kept], STEP, np.array([5.0]), np.array([ZETA]))[0]
+    case.histories["worn"]["q_1"] = q
+    assert life_of(case, tmp_path / "second", first) == pytest.approx(first["life_km_without"], rel=1e-6)
+
+
+def test_a_unit_load_is_its_own_quasi_static_part(tmp_path):
+    """A load has no mode to watch and no row among the modes; a static load case follows entirely."""
+    case = swinging_case()
+    path = write_with_loads(case, tmp_path / "case", as_unit_load(case, 2, "pull"))
+    path.write_text(path.read_text(encoding="utf-8") + STATIC, encoding="utf-8")
+    assess(load_case(path), tmp_path / "result", threads=1, report=False)
+    said = diagnose(tmp_path / "result")
+    modes, welds, watch = (pd.read_parquet(tmp_path / "result" / f"{name}.parquet") for name in TABLES)
+    assert set(modes["mode"]) == {1, 7}
+    assert set(watch["mode"]) == {1}
+    lift = welds[welds["event"] == "lift"]
+    assert (lift["damage_per_km"] > 0.0).any()
+    assert lift["damage_per_km_quasi_static"].to_numpy() == pytest.approx(lift["damage_per_km"].to_numpy())
+    assert (lift["damage_per_km_dynamic"] == 0.0).all()
+    assert lift["reason"].str.contains("static load case").all()
+    assert (modes[modes["event"] == "lift"]["class"] == "not_assessed").all()
+    assert "lift: not available, a static load case has no time" in " ".join(said.as_text().split())
