@@ -27,6 +27,7 @@ name = "lift"
 per_1000_km = 3
 [[mission.event.unit_load]]
 name = "pull"
+unit = "kN"
 values = [0.0, 60.0]
 """
 
@@ -255,7 +256,8 @@ def test_costs_with_cycles_across_events(tmp_path):
     case = swinging_case()
     case.extra = '[[mission.sequence]]\norder = ["worn", "load and unload", "calm"]\nper_1000_km = 300\n'
     for event in case.events:
-        event.pop("share", None)
+        for key in ("share", "speed_km_h"):
+            event.pop(key, None)
         event["per_1000_km"] = 400.0
     found = run(case, tmp_path / "first")
     first = found.watch.sort_values("rank").iloc[0]
