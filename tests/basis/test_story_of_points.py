@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from fatigue.basis.story import basis
+from fatigue.errors import DataError
 from fatigue.results.dictionary.basis import BASIS
 from tests.basis.loaded_beam import POINTS, flexibility_table, loaded_beam, shapes_table
 from tests.free_beam import free_beam
@@ -76,17 +77,14 @@ def test_every_question_of_two_cases(cases, tmp_path):
 
 
 def test_a_mistake_in_either_file_is_refused_with_its_place(cases, tmp_path):
-    """Exit code 3 and one line; nothing is written."""
+    """One line, and nothing is written."""
     folder = cases[0].parent
     table = pd.read_csv(folder / "static.csv")
-    bad = folder / "bad.csv"
-    table.assign(direction="up").to_csv(bad, index=False)
+    table.assign(direction="up").to_csv(folder / "bad.csv", index=False)
     case = cases[0].read_text(encoding="utf-8").replace("static.csv", "bad.csv")
     (folder / "bad.toml").write_text(case, encoding="utf-8")
-    done = fatigue("basis", folder / "bad.toml", "-o", tmp_path / "out")
-    assert done.returncode == 3
-    assert "bad.csv" in done.stderr
-    assert "'up' is not one of x, y, z, rx, ry, rz" in done.stderr
+    with pytest.raises(DataError, match=r"bad\.csv.*'up' is not one of x, y, z, rx, ry, rz"):
+        basis(folder / "bad.toml", into=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
