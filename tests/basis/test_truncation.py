@@ -122,6 +122,7 @@ def test_a_mode_that_carries_all_and_one_that_carries_nothing(tmp_path):
     assert all(row.moves and "no end" in row.reason for row in normal)
     assert any("no life moves" in line for line in found.said)
     assert any("local" in note for note in found.notes)
+    assert any("counted once" in note for note in found.notes)  # the highest of three modes is all interface modes
 
 
 def test_a_large_case_counts_the_worst_points_only(tmp_path, monkeypatch):
