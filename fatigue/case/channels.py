@@ -2,7 +2,7 @@
 
 import difflib
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from os.path import normpath
 from typing import Annotated, Any, Literal
 
@@ -209,13 +209,19 @@ def _rules_of_no_channel(ride: Mapping[str, Any], known: Mapping[str, Mapping[st
         if isinstance(name, str) and known.get(name, {}).get("unit") == "-":
             what = f"channel {name!r} has the unit '-', and the limits of equipment are those of accelerations"
             yield clash(f"{where}.channel", what, "Give its unit, 'm/s2' or 'g', or remove the table")
-    for tables, key in ((modes, "name"), (equipment, "channel")):
-        seen: set[str] = set()
-        for where, table in tables:
-            named = table.get(key)
-            if isinstance(named, str) and named in seen:
-                yield Problem("duplicate", f"{where}.{key}", f"{named!r} is there already", "Keep one of them")
-            seen |= {named} if isinstance(named, str) else set()
+    yield from _twice(modes, ("name",))
+    yield from _twice(equipment, ("channel", "class"))
+
+
+def _twice(tables: Iterable[tuple[str, Mapping[str, Any]]], keys: tuple[str, ...]) -> Iterator[Problem]:
+    """Refusal of tables that have the same texts under some keys as one before."""
+    seen: set[tuple[str, ...]] = set()
+    for where, table in tables:
+        named = tuple(text for key in keys if isinstance(text := table.get(key), str))
+        if named in seen:
+            what = f"{', '.join(map(repr, named))} is there already"
+            yield Problem("duplicate", f"{where}.{keys[0]}", what, "Keep one of them")
+        seen |= {named} if len(named) == len(keys) else set()
 
 
 def _unknown(where: str, name: str, known: Mapping[str, object]) -> Iterator[Problem]:

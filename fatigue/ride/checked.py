@@ -8,6 +8,7 @@ from fatigue.case import Case
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.ride.bands import band_problems
 from fatigue.ride.records import channel_records
+from fatigue.ride.standards.equipment import limits_of
 from fatigue.shown import shortened, visible
 
 
@@ -43,6 +44,7 @@ def checked_channels(case: Case) -> tuple[tuple[ChannelLine, ...], list[Problem]
     """
     if not any(event.channel for event in case.mission.event):
         return (), []
+    limits_of(case)
     records, warnings = channel_records(case)
     refuse(DataError, band_problems(case, records))
     lines = (

@@ -43,10 +43,14 @@ from fatigue.ride.example import no_channels
 from fatigue.ride.flutter import Tracked, flutter_rows, flutter_track_rows, tracked
 from fatigue.ride.hot_damage import HotDamageRow, hot_damage_rows, told, worst_of_welds, worst_row
 from fatigue.ride.records import channel_records
+from fatigue.ride.standards.comfort import comfort_rows
+from fatigue.ride.standards.equipment import equipment_rows, limits_of
+from fatigue.ride.standards.running import running_rows
 from fatigue.ride.stationarity import stationarity_row
 from fatigue.ride.summary import RideSummary
 from fatigue.ride.tables import Rows, write_tables
 from fatigue.stages import stage
+from fatigue.vibration.environment import VibrationTable
 from fatigue.why.points import Points, gather_points
 
 log = logging.getLogger(__name__)
@@ -88,6 +92,7 @@ def ride(
     case = body.case
     if not any(event.channel for event in case.mission.event):
         raise CaseError(no_channels(case))
+    limits = limits_of(case)
     channels, warnings = channel_records(case)
     refuse(DataError, band_problems(case, channels))
     for problem in warnings:
@@ -104,7 +109,7 @@ def ride(
             raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
         stage("tracking the hunting of the channels (%d)", len(channels))
         of_channel = [tracked(one, case.ride) for one in channels]
-        tables = tables_of_channels(case, channels, of_channel)
+        tables = tables_of_channels(case, channels, of_channel, limits)
 
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
@@ -126,7 +131,9 @@ def ride(
     return RideSummary(case.title, _events(channels), chosen.what, tables, worst, tuple(warnings))
 
 
-def tables_of_channels(case: Case, channels: Sequence[ChannelRecord], of_channel: Sequence[Tracked]) -> dict[str, Rows]:
+def tables_of_channels(
+    case: Case, channels: Sequence[ChannelRecord], of_channel: Sequence[Tracked], limits: VibrationTable
+) -> dict[str, Rows]:
     """Rows of every table that follows from the channels alone, event by event."""
     rules = case.ride
     tables: dict[str, list[Any]] = {
@@ -135,6 +142,9 @@ def tables_of_channels(case: Case, channels: Sequence[ChannelRecord], of_channel
         "stationarity": [stationarity_row(one) for one in channels],
         "coincidence": [],
         "alarm": alarm_rows(of_channel, rules),
+        "comfort": comfort_rows(channels, rules),
+        "equipment": equipment_rows(channels, rules, limits),
+        "running": running_rows(channels, rules),
     }
     for event in _events(channels):
         by_name = {one.name: one for one in channels if one.event == event}

@@ -12,9 +12,10 @@ _FIELD = {"class": "vibration_class"}  # a word of the language
 
 
 def column_values(table: str, rows: Rows) -> dict[str, list[Any]]:
-    """Values of every column of a table, row after row."""
+    """Values of every column of a table, row after row; None of an empty text."""
     names = [column.name for column in RIDDEN[table]]
-    return {name: [getattr(row, _FIELD.get(name, name)) for row in rows] for name in names}
+    values = {name: [getattr(row, _FIELD.get(name, name)) for row in rows] for name in names}
+    return {name: [None if value == "" else value for value in of_column] for name, of_column in values.items()}
 
 
 def write_tables(folder: Path, tables: Mapping[str, Rows], result: str) -> None:

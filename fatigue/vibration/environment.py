@@ -123,8 +123,7 @@ def density_ratios(
     centres = third_octaves(*band)
     lower, upper = np.maximum(centres / 10**0.05, band[0]), np.minimum(centres * 10**0.05, band[1])
     resolved = (upper - lower) * values.size * step >= LINES_OF_A_BAND
-    ratios = []
-    for a, b in zip(lower[resolved], upper[resolved], strict=True):
-        of_table = level * shape.integral(a, b)
-        ratios.append(float(mean_square(values, step, np.array([a, b]))[0]) / of_table if of_table > 0 else np.nan)
-    return centres[resolved], np.array(ratios), centres[~resolved]
+    measured = mean_square(values, step, np.append(lower, upper[-1:]))
+    of_table = level * np.array([shape.integral(a, b) for a, b in zip(lower, upper, strict=True)])
+    ratios = np.divide(measured, of_table, out=np.full(centres.size, np.nan), where=of_table > 0)
+    return centres[resolved], ratios[resolved], centres[~resolved]

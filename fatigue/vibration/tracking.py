@@ -15,6 +15,7 @@ from scipy import signal
 from fatigue.quotient import quotient
 from fatigue.vibration.band_pass import band_passed
 from fatigue.vibration.decimated import decimated
+from fatigue.vibration.levelled import levelled
 
 WINDOW_S = 2.0
 HOP_S = 0.25
@@ -109,15 +110,12 @@ def track(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]
     slow, step = decimated(values - np.mean(values), step, band_hz[1])
     size = round(WINDOW_S / step)
     window = np.asarray(signal.windows.hann(size, sym=False))
-    line, _ = np.linalg.qr(np.stack([np.ones(size), np.arange(size)], axis=1))
     f = np.fft.rfftfreq(PADDING * size, step).astype(np.float64)
     starts = np.rint(np.arange(int((slow.size - size) * step / HOP_S + 1e-9) + 1) * HOP_S / step).astype(np.int64)
     windows = np.lib.stride_tricks.sliding_window_view(slow, size)
     found, total = [], np.zeros(f.size)
     for chunk in np.split(starts, range(SLICES_AT_ONCE, starts.size, SLICES_AT_ONCE)):
-        level = windows[chunk]
-        level = level - (level @ line) @ line.T
-        transform = np.abs(np.fft.rfft(window * level, PADDING * size))
+        transform = np.abs(np.fft.rfft(window * levelled(windows[chunk]), PADDING * size))
         density = transform**2 * (2 * step / np.sum(window**2))
         found.append(_ridge(f, density, band_hz))
         total += np.sum(density, axis=0)

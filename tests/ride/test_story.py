@@ -18,7 +18,7 @@ from fatigue.pipeline.mission import events
 from fatigue.results import RIDDEN, read_provenance
 from fatigue.ride.story import ride
 from fatigue.spectra import spectra
-from fatigue.verify.check import verify_result
+from fatigue.verify.recount import recount
 from tests.ride.ride_case import CHANNEL, HOT, ride_case, with_channels
 
 
@@ -76,7 +76,7 @@ def test_damage_in_the_hot_stretches_is_that_of_a_naive_count(own):
     np.testing.assert_allclose(rows["share_inside"], expected, rtol=1e-12)
     assert 0.9 < expected < 1.0
     damage = pd.read_parquet(own / "result" / "damage.parquet")
-    both = rows.merge(damage, on=["weld", "part", "order", "surface", "event"])
+    both = rows.merge(damage, on=["weld", "part", "order", "surface", "event"], suffixes=("", "_d"))
     np.testing.assert_allclose(both["damage_per_km"], both["damage_per_pass"] / 5.9, rtol=1e-12)
     length = (spans[0][1] - spans[0][0]) / 59.0
     np.testing.assert_allclose(rows["length_share_inside"], length, rtol=1e-9)
@@ -95,7 +95,7 @@ def test_the_parts_add_up_however_cycles_are_counted(tmp_path, monkeypatch, resi
     ride(tmp_path / "result", threads=1)
     rows = tables_in(tmp_path / "result")["hot_damage"]
     damage = pd.read_parquet(tmp_path / "result" / "damage.parquet")
-    both = rows.merge(damage, on=["weld", "part", "order", "surface", "event"])
+    both = rows.merge(damage, on=["weld", "part", "order", "surface", "event"], suffixes=("", "_d"))
     np.testing.assert_allclose(both["damage_per_km"], both["damage_per_pass"] / 5.9, rtol=1e-12)
     before = {name: (tmp_path / "result" / f"{name}.parquet").read_bytes() for name in RIDDEN}
     monkeypatch.setattr(events, "HELD_BYTES", 0.0)
@@ -152,7 +152,7 @@ def test_a_case_may_get_channels_after_its_assessment(own):
     assert "ride" in read_provenance(own / "result")
     write_documents(own / "result", ["report.html"])
     assert "so mesh, stress histories" not in (own / "result" / "report.html").read_text(encoding="utf-8")
-    assert check_result(own / "result").passed
+    assert recount(own / "result").passed
     case_file.write_text(elsewhere.read_text())
     with pytest.raises(CaseError, match="no event has a channel"):
         ride(own / "result")
@@ -183,7 +183,9 @@ def test_a_channel_of_a_file_of_its_own(own):
     hunts = np.sin(2 * np.pi * 9.0 * t) * ((t >= 25.0) & (t < 37.0))
     noise = 0.02 * np.random.default_rng(0).standard_normal(len(t))
     pd.DataFrame({"time_s": t, "acc": 3.5 * (hunts + noise) / 9.80665}).to_parquet(own / "case" / "acc.parquet")
-    channel = CHANNEL.replace('column = "a_bogie", unit = "m/s2"', 'column = "acc", unit = "g", scale = 2.0, shift_s = -5.0')
+    channel = CHANNEL.replace(
+        'column = "a_bogie", unit = "m/s2"', 'column = "acc", unit = "g", scale = 2.0, shift_s = -5.0'
+    )
     with_channels(own / "case" / "case.toml", channel.replace("{ ", '{ history = "acc.parquet", '))
     summary = ride(own / "result", threads=1)
     hot = tables_in(own / "result")["flutter"].query("hot")

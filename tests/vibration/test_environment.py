@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy import signal
 
 from fatigue.errors import DataError
 from fatigue.vibration import environment_file
@@ -70,6 +71,15 @@ def test_the_rms_of_a_band():
     assert band_rms(values, 1 / 250, (2.0, 60.0)) == pytest.approx(3.0, rel=5e-3)
     assert band_rms(values, 1 / 250, (5.0, 100.0)) == pytest.approx(5.0, rel=5e-3)
     assert np.isnan(band_rms(values, 1 / 250, (5.0, 150.0)))
+
+
+def test_the_rms_of_a_band_is_that_of_welch():
+    """Stationary noise, by segments of 4 s with a Hann window."""
+    values = signal.lfilter([1.0], [1.0, -0.6], np.random.default_rng(7).standard_normal(60_000))
+    f, density = signal.welch(values, 250.0, nperseg=1000)
+    inside = (f >= 2.0) & (f <= 60.0)
+    by_segments = np.sqrt(np.trapezoid(density[inside], f[inside]))
+    assert band_rms(values, 1 / 250, (2.0, 60.0)) == pytest.approx(by_segments, rel=0.01)
 
 
 def test_third_octaves_of_a_band():

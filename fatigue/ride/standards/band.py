@@ -25,6 +25,13 @@ def joined(reasons: Iterable[str]) -> str:
     return "; ".join(reason for reason in reasons if reason)
 
 
+def too_short(record: ChannelRecord, low: float) -> str:
+    """Why a record tells nothing of a band from ``low`` [Hz] on: it has no period of it; empty: it has."""
+    if record.duration * low >= 1 - 1e-9:
+        return ""
+    return f"the record of {record.duration:.4g} s is shorter than a period of {low:g} Hz"
+
+
 def no_acceleration(record: ChannelRecord) -> str:
     """Why limits and indices of accelerations mean nothing to a channel; empty: they do."""
     return "" if record.is_acceleration else "its unit is '-': it is no acceleration"

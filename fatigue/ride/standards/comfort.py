@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.case.channels import Ride
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.band import heard, joined, no_acceleration, written
+from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
 from fatigue.vibration.comfort_data import comfort_data, standing
 from fatigue.vibration.en12299 import BAND_HZ, WEIGHTING, block_rms, mean_comfort, section_percentiles
 from fatigue.vibration.mirrored import Floats
@@ -59,9 +59,11 @@ def _sperling(record: ChannelRecord, ride: Ride) -> list[ComfortRow]:
     ]
     rows = []
     for index, form, origin, block_s in forms:
-        why = no_acceleration(record)
+        why = no_acceleration(record) or too_short(record, ride.comfort_band_hz[0])
         if record.direction == "x":
-            why = why or "Sperling's index has weightings across the track only, lateral and vertical"
+            why = "Sperling's index has weightings across the track only, lateral and vertical"
+        elif form == "line" and block_s * ride.comfort_band_hz[0] < 1 - 1e-9:
+            why = f"a block of {block_s:g} s is shorter than a period of {ride.comfort_band_hz[0]:g} Hz"
         value = highest = np.nan
         if band is not None and not why:
             direction = cast(Literal["y", "z"], record.direction)
@@ -103,13 +105,14 @@ class _Weighed:
 
 def _weighed(record: ChannelRecord) -> _Weighed:
     data = comfort_data()["en12299"]
-    if why := no_acceleration(record):
-        return _Weighed(record, np.array([]), why, "")
+    band, about = heard(BAND_HZ, record)
+    of_section = f"{record.duration:.4g} s of a section of {data['section_s']:g} s" if _is_short(record) else ""
+    if why := no_acceleration(record) or (about if band is None else ""):
+        return _Weighed(record, np.array([]), why, of_section)
     blocks = block_rms(record.values, record.step, WEIGHTING[record.direction])
     if not blocks.size:
         why = f"the record of {record.duration:g} s is shorter than a block of {data['block_s']:g} s"
-    of_section = f"{record.duration:.4g} s of a section of {data['section_s']:g} s" if _is_short(record) else ""
-    return _Weighed(record, section_percentiles(blocks), why, joined((of_section, heard(BAND_HZ, record)[1])))
+    return _Weighed(record, section_percentiles(blocks), why, joined((of_section, about)))
 
 
 def _is_short(record: ChannelRecord) -> bool:

@@ -13,7 +13,7 @@ from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.files.mishaps import refusal
 from fatigue.files.naming import missing_file
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.band import heard, joined, no_acceleration, written
+from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
 from fatigue.vibration.environment import (
     PEAK_OF_RMS,
     DensityShape,
@@ -128,8 +128,8 @@ def _row(record: ChannelRecord, equipment: Equipment | None, table: VibrationTab
             band, about = heard(category.shape.band(equipment.mass_kg), record)
             if equipment.mass_kg is None:
                 whys.append(f"no mass_kg: the band of a piece up to {category.shape.light_kg:g} kg")
-            whys.append(about)
-            if band is not None:
+            whys += [about, short := "" if band is None else too_short(record, band[0])]
+            if band is not None and not short:
                 rms = band_rms(record.values, record.step, band)
                 band_limit, ratio, ratio_hz, about = _beside_density(record, category, category.shape, band)
                 whys.append(about)

@@ -7,7 +7,7 @@ import numpy as np
 
 from fatigue.case.channels import Ride
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.band import heard, joined, no_acceleration, written
+from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
 from fatigue.vibration.mirrored import Floats, band_pass, filtered
 from fatigue.vibration.running import (
     body_band,
@@ -135,9 +135,9 @@ def _without(record: ChannelRecord, quantity: str, why: str) -> RunningRow:
 
 
 def _no_band(record: ChannelRecord, band: Sequence[float]) -> str:
-    """Why a record cannot be filtered to a band: it is no acceleration, or sampled too slowly; empty: it can."""
+    """Why a record cannot be filtered to a band: it is no acceleration, slow or short; empty: it can."""
     left, about = heard(tuple(band), record)
-    return no_acceleration(record) or ("" if left == tuple(band) else about)
+    return no_acceleration(record) or ("" if left == tuple(band) else about) or too_short(record, band[0])
 
 
 def _no_length(record: ChannelRecord, length_m: float, what: str) -> str:

@@ -137,6 +137,9 @@ def test_a_slow_sampling_rate_ends_the_band():
     row = rows_of([channel(noise(rate=0.8), rate=0.8)])["mid z", "sperling_wz", "filter"]
     assert (row.band_hz, np.isnan(row.value)) == ("", True)
     assert row.reason
+    row = rows_of([channel(noise(rate=0.8), rate=0.8)])["mid z", "en12299_rms_p95", "Wb"]
+    assert (row.band_hz, np.isnan(row.value)) == ("", True)
+    assert row.reason == "sampled at 0.8 Hz: nothing is known above 0.4 Hz; 60 s of a section of 300 s"
 
 
 def test_what_has_no_index_says_why():
@@ -161,6 +164,15 @@ def test_no_number_is_empty_without_a_reason(duration, values):
     for row in comfort_rows([channel(made, f"mid {d}", direction=d) for d in "xyz"], Ride()):
         assert np.isfinite(row.value) or row.reason
         assert values == "noise" or np.isnan(row.value) or row.value < 0.02
+
+
+def test_a_block_holds_a_period_of_the_lower_edge():
+    """Blocks of 1 s have no line at 0.5 Hz; a record of 1 s has no period of it: both say so."""
+    row = rows_of([channel(noise())], Ride(comfort_block_s=1.0))["mid z", "sperling_wz", "line"]
+    assert (np.isnan(row.value), row.reason) == (True, "a block of 1 s is shorter than a period of 0.5 Hz")
+    row = rows_of([channel(noise(duration=1.0))])["mid z", "sperling_wz", "filter"]
+    assert (np.isnan(row.value), row.reason) == (True, "the record of 1 s is shorter than a period of 0.5 Hz")
+    assert np.isfinite(rows_of([channel(noise(duration=2.0))])["mid z", "sperling_wz", "filter"].value)
 
 
 def test_events_are_apart():

@@ -139,6 +139,13 @@ def test_a_short_record_names_what_it_does_not_resolve():
     assert row.asd_ratio_hz == pytest.approx(10.0)
 
 
+def test_a_record_without_a_period_of_its_band_has_no_rms():
+    """0.4 s from 2 Hz on."""
+    (row,) = rows_of(noise(duration=0.4), converter())
+    assert np.isnan([row.rms_m_s2, row.asd_ratio]).all()
+    assert row.reason == "the record of 0.4 s is shorter than a period of 2 Hz"
+
+
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("duration", [0.02, 0.1, 1.0, 30.0])
 @pytest.mark.parametrize("values", ["zeros", "constant", "noise"])

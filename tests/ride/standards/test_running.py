@@ -91,6 +91,12 @@ def test_a_short_event_has_no_section():
     assert row.reason == "the record covers 50 m, a window is 100 m"
 
 
+def test_a_record_without_a_period_of_the_band_has_no_peak():
+    """2 s from 0.4 Hz on."""
+    row = rows_of(bogie(noise(duration=2.0)))["bogie_peak"]
+    assert (np.isnan(row.value), row.reason) == (True, "the record of 2 s is shorter than a period of 0.4 Hz")
+
+
 def test_directions_without_a_limit():
     """Along the track the body has no limit; instability is looked at in y; other roles have no rows."""
     row = rows_of(channel(noise(), direction="x"))["body_rms"]
