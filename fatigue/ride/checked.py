@@ -7,8 +7,8 @@ import numpy as np
 from fatigue.case import Case
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.ride.bands import band_problems
-from fatigue.ride.equipment import limits_of
 from fatigue.ride.records import channel_records
+from fatigue.ride.standards.equipment import limits_of
 from fatigue.shown import shortened, visible
 
 

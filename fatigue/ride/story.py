@@ -39,13 +39,13 @@ from fatigue.ride.alarm import alarm_rows
 from fatigue.ride.bands import band_problems
 from fatigue.ride.channel import ChannelRecord
 from fatigue.ride.coincidence import coincidence_rows
-from fatigue.ride.comfort import comfort_rows
-from fatigue.ride.equipment import equipment_rows, limits_of
 from fatigue.ride.example import no_channels
 from fatigue.ride.flutter import Tracked, flutter_rows, flutter_track_rows, tracked
 from fatigue.ride.hot_damage import HotDamageRow, hot_damage_rows, told, worst_of_welds, worst_row
 from fatigue.ride.records import channel_records
-from fatigue.ride.running import running_rows
+from fatigue.ride.standards.comfort import comfort_rows
+from fatigue.ride.standards.equipment import equipment_rows, limits_of
+from fatigue.ride.standards.running import running_rows
 from fatigue.ride.stationarity import stationarity_row
 from fatigue.ride.summary import RideSummary
 from fatigue.ride.tables import Rows, write_tables
