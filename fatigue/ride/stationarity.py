@@ -8,6 +8,7 @@ from fatigue.vibration.dispersion import FEWEST_SEGMENTS, dispersion, peakedness
 
 REJECTED = 0.01  # probability below which a ratio is not put down to chance
 MOST_KURTOSIS = 4.0
+LEAST_KURTOSIS = 2.0  # a sine has 1.5
 MOST_CREST = 1.3  # times the expected one
 
 
@@ -31,7 +32,7 @@ class StationarityRow:
 
 def stationarity_row(record: ChannelRecord) -> StationarityRow:
     """Dispersion test, kurtosis and crest of a channel, and whether they violate what the frequency domain assumes."""
-    scatter, reach = dispersion(record.values, record.step), peakedness(record.values, record.step)
+    scatter, reach = dispersion(record.values, record.step), peakedness(record.values)
     said = []
     if reach is None:
         said.append("the channel is silent")
@@ -44,6 +45,9 @@ def stationarity_row(record: ChannelRecord) -> StationarityRow:
     if reach is not None and reach.kurtosis > MOST_KURTOSIS:
         violated = True
         said.append(f"kurtosis {reach.kurtosis:.2g} above {MOST_KURTOSIS:g}")
+    if reach is not None and reach.kurtosis < LEAST_KURTOSIS:
+        violated = True
+        said.append(f"kurtosis {reach.kurtosis:.2g} below {LEAST_KURTOSIS:g}: more of a sine, 1.5, than of noise")
     if reach is not None and reach.crest > MOST_CREST * reach.expected_crest:
         violated = True
         said.append(

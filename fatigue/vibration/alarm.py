@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from fatigue.vibration.band_pass import ORDER, band_passed
+
 Filter = Literal["offline", "on_board"]
-ORDER = 4
 SAMPLES_PER_PERIOD = 20  # at the upper edge of the band: a peak between samples is then read 1.2 % low at most
 PERIODS = 2.0  # of the lower edge of the band that a record must last: the filter settles in about one
 
@@ -48,7 +49,7 @@ def filtered(
 ) -> tuple[NDArray[np.float64], float]:
     """Samples and step [s] of a record behind a Butterworth band-pass filter of the order 4.
 
-    ``offline`` runs it forward and backward, so nothing is delayed and the edges of the band lie at half the amplitude.
+    ``offline`` runs it forward and backward, see ``band_passed``: nothing is delayed, the first and last second fade.
     ``on_board`` runs it forward only, as a unit does while the train runs: peaks come later and lower at the edges of
     the band. It starts as if the first value had stood there for long. Records with few samples per period are made
     finer after the filter, as their peaks lie between samples. Raises ``ValueError`` where ``cannot_be_filtered`` gives
@@ -57,19 +58,15 @@ def filtered(
     reason = cannot_be_filtered(values.size, step, band_hz)
     if reason is not None:
         raise ValueError(f"the record cannot be filtered: {reason}")
-    sos = signal.butter(ORDER, band_hz, "bandpass", fs=1 / step, output="sos")
-    if how == "on_board":
-        inside, _ = signal.sosfilt(sos, values, zi=signal.sosfilt_zi(sos) * values[0])
+    if how == "offline":
+        inside = band_passed(values, step, band_hz)
     else:
-        inside = signal.sosfiltfilt(
-            sos, values - np.mean(values), padlen=min(values.size - 1, round(1 / (band_hz[0] * step)))
-        )
+        sos = signal.butter(ORDER, band_hz, "bandpass", fs=1 / step, output="sos")
+        inside = np.asarray(signal.sosfilt(sos, values, zi=signal.sosfilt_zi(sos) * values[0])[0])
     finer = int(np.ceil(SAMPLES_PER_PERIOD * band_hz[1] * step - 1e-9))
-    return (
-        (np.asarray(signal.resample_poly(inside, finer, 1, padtype="line")), step / finer)
-        if finer > 1
-        else (inside, step)
-    )
+    if finer < 2:
+        return inside, step
+    return np.asarray(signal.resample_poly(inside, finer, 1, padtype="line")), step / finer
 
 
 def count_alarms(values: NDArray[np.float64], step: float, threshold: float, cycles: int) -> AlarmCount:

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from fatigue.quotient import quotient
 from fatigue.vibration.decimated import decimated
+from fatigue.vibration.levelled import levelled
 
 Flag = Literal["red", "amber", "green"]
 CLOSE_HZ = 1.0  # the ridge of hunting is half as wide to either side, and its frequency wanders as much
@@ -136,7 +137,7 @@ def _transmission(f_hunt: float, frequency: float, damping_ratio: float) -> comp
 def _moving(record: NDArray[np.float64], starts: list[int], size: int) -> NDArray[np.float64]:
     """Segments (segments, size) less the straight line through each; zeros where only rounding is left of one."""
     segments = np.stack([record[begin : begin + size] for begin in starts])
-    moving = signal.detrend(segments, axis=1)
+    moving = levelled(segments)
     return np.where(np.abs(moving) > ROUNDING * np.max(np.abs(segments)), moving, 0.0)
 
 

@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from fatigue.quotient import quotient
+from fatigue.vibration.band_pass import band_passed
 from fatigue.vibration.decimated import decimated
+from fatigue.vibration.levelled import levelled
 
 WINDOW_S = 2.0
 HOP_S = 0.25
@@ -108,15 +110,12 @@ def track(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]
     slow, step = decimated(values - np.mean(values), step, band_hz[1])
     size = round(WINDOW_S / step)
     window = np.asarray(signal.windows.hann(size, sym=False))
-    line, _ = np.linalg.qr(np.stack([np.ones(size), np.arange(size)], axis=1))
     f = np.fft.rfftfreq(PADDING * size, step).astype(np.float64)
     starts = np.rint(np.arange(int((slow.size - size) * step / HOP_S + 1e-9) + 1) * HOP_S / step).astype(np.int64)
     windows = np.lib.stride_tricks.sliding_window_view(slow, size)
     found, total = [], np.zeros(f.size)
     for chunk in np.split(starts, range(SLICES_AT_ONCE, starts.size, SLICES_AT_ONCE)):
-        level = windows[chunk]
-        level = level - (level @ line) @ line.T
-        transform = np.abs(np.fft.rfft(window * level, PADDING * size))
+        transform = np.abs(np.fft.rfft(window * levelled(windows[chunk]), PADDING * size))
         density = transform**2 * (2 * step / np.sum(window**2))
         found.append(_ridge(f, density, band_hz))
         total += np.sum(density, axis=0)
@@ -147,11 +146,10 @@ def stretches(
     A slice stands for the time from halfway to the slice before it to halfway to the next one, not for its window of
     2 s: a slice whose window is half filled by a burst is centred at its start, so this is where stretches begin and
     end, a third of a second early and late for a burst of some ten times what surrounds it. The first and the last
-    slice reach to the ends of the record. The peak is that of the record between forward and backward Butterworth
-    filters of the order 4.
+    slice reach to the ends of the record. The peak is that of ``band_passed``, which fades the ends of the record.
     """
     edges, found = track.edges, []
-    inside = np.abs(_in_band(values, step, band_hz))
+    inside = np.abs(band_passed(values, step, band_hz))
     for start, end in _runs(hot):
         samples = slice(round(edges[start] / step), max(round(edges[end] / step), 1))
         vibrates = track.rms[start:end] > 0
@@ -194,17 +192,6 @@ def _covered(
     """Part of the bin at each frequency that lies between two edges, which need not fall on a bin."""
     reach = np.minimum(high, f + spacing / 2) - np.maximum(low, f - spacing / 2)
     return np.asarray(np.clip(reach / spacing, 0.0, 1.0))
-
-
-def _in_band(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]) -> NDArray[np.float64]:
-    """The record with what is outside the band filtered off, without delay."""
-    low, high = band_hz
-    below_nyquist = high * step < 0.5 * (1 - 1e-9)
-    sos = signal.butter(
-        4, band_hz if below_nyquist else low, "bandpass" if below_nyquist else "highpass", fs=1 / step, output="sos"
-    )
-    pad = min(values.size - 1, round(2 / (low * step)))
-    return np.asarray(signal.sosfiltfilt(sos, values - np.mean(values), padlen=pad))
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -47,7 +47,7 @@ STATIONARITY = (
         "assumptions",
         "text",
         "-",
-        "of the frequency domain: hold, violated (p < 0.01, kurtosis > 4 or crest > 1.3 of the expected one)",
+        "of the frequency domain: hold, violated (p < 0.01, kurtosis > 4 or < 2, crest > 1.3 of the expected one)",
     ),
     Column("reason", "text", "-", "what violates them, or why a number is empty"),
 )
