@@ -59,10 +59,11 @@ class Tracked:
 
     @property
     def hunting_hz(self) -> float:
-        """Dominant frequency of the hot slices, their median, or of the whole event where none is hot [Hz]."""
+        """Dominant frequency [Hz]: median of the hot slices or, where none is hot, of all; NaN where nothing vibrates."""
         if self.track is None:
             return NAN
-        return float(np.median(self.track.frequency[self.hot])) if self.hot.any() else self.track.dominant
+        counts = self.hot if self.hot.any() else self.track.rms > 0
+        return float(np.median(self.track.frequency[counts])) if counts.any() else NAN
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +177,7 @@ def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
     """What the stretches of a channel are to be read with; None where nothing is in doubt."""
     low, high = ride.hunting_band_hz
     said = []
-    if np.isnan(found.dominant):
+    if np.isnan(of.hunting_hz):
         return f"nothing vibrates between {low:g} and {high:g} Hz"
     remedy = f'give its rms of a sound event: reference_rms = {{ "{of.record.name}" = ... }} in [ride]'
     dominated = float(np.mean(found.share > ride.hot_share))
