@@ -59,7 +59,7 @@ class Tracked:
 
     @property
     def hunting_hz(self) -> float:
-        """Dominant frequency [Hz]: median of the hot slices or, where none is hot, of all; NaN where nothing vibrates."""
+        """Dominant frequency [Hz]: median of the hot slices or, where none is hot, of all; NaN where all is still."""
         if self.track is None:
             return NAN
         counts = self.hot if self.hot.any() else self.track.rms > 0
