@@ -108,6 +108,7 @@ def _record(case: Case, event: Event, channel: Channel, kept: Kept, where: str) 
         )
         remedy = "Correct shift_s or start_s, or give a longer record"
         raise DataError(Problem("short_channel", where, what, remedy))
+    start = samples.grid.start + channel.shift_s + part.start * samples.grid.step
     return ChannelRecord(
         event=event.name,
         name=channel.name,
@@ -116,9 +117,10 @@ def _record(case: Case, event: Event, channel: Channel, kept: Kept, where: str) 
         is_acceleration=channel.is_acceleration,
         values=channel.factor * samples.values[part],
         step=samples.grid.step,
-        start=samples.grid.start + channel.shift_s + part.start * samples.grid.step,
+        start=start,
         km_per_s=kept.km_per_s,
         place=channel.place,
+        ahead_s=start - kept.start,
     )
 
 
