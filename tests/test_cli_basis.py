@@ -1,59 +1,65 @@
-"""The command ``fatigue basis`` as a user gives it."""
+"""What the command line says of a modal basis, and what it refuses."""
 
 import json
 
+import pandas as pd
 import pytest
-from click.testing import CliRunner
 
-from fatigue.__main__ import cli
 from tests.chain_case import by_factors, by_matrix
 from tests.small_case import small_case
+from tests.test_cli import fatigue
 
 
-def run(*arguments):
-    """Result of the command."""
-    return CliRunner().invoke(cli, ["-q", "basis", *map(str, arguments)])
-
-
-def test_text_says_what_the_modes_carry(tmp_path):
-    """One line for each direction, and why there is no dynamic mass."""
-    result = run(by_factors(tmp_path).write(tmp_path))
-    assert result.exit_code == 0
-    assert "Effective modal mass" in result.output
-    assert "20 % on the boundary" in result.output
-    assert "no damping ratio" in result.output
-    assert "written" not in result.output
-
-
-def test_json_holds_rows_and_notes(tmp_path):
-    """The record of machines has null where a number cannot be had."""
-    result = run(by_matrix(tmp_path).write(tmp_path), "--json", "--damping", "0.02")
-    assert result.exit_code == 0
-    record = json.loads(result.output)
-    rows = {row["direction"]: row for row in record["findings"]["mass_sum"]["rows"]}
-    assert rows["x"]["share_in_band"] == pytest.approx(0.79, abs=0.02)
-    assert rows["rx"]["share_in_band"] is None
-    assert record["findings"]["dynamic_mass"]["rows"]
-
-
-def test_files_are_written_and_named(tmp_path):
-    """With a folder, tables and page are there; a second run replaces them."""
+def test_basis_is_told_and_written(tmp_path):
+    """Words for people, JSON for machines, tables and a page; a second run replaces them, nothing foreign."""
     case = by_factors(tmp_path / "case").write(tmp_path / "case")
+    done = fatigue("basis", case)
+    assert done.returncode == 0, done.stderr
+    assert "20 % on the boundary" in done.stdout
+    assert "no damping ratio" in done.stdout
+    assert "written" not in done.stdout
     for _ in range(2):
-        result = run(case, "-o", tmp_path / "out", "--csv")
-        assert result.exit_code == 0
-        assert "basis.html" in result.output
-    assert (tmp_path / "out" / "mass_sum.csv").exists()
+        done = fatigue("basis", case, "-o", tmp_path / "out", "--csv", "--damping", "0.02", "--json")
+        assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    rows = {row["direction"]: row for row in found["findings"]["mass_sum"]["rows"]}
+    assert rows["x"]["summed_mass"] == pytest.approx(6.0)
+    assert rows["rx"]["share_in_band"] is None
+    assert str(tmp_path / "out" / "basis.html") in found["written"]
+    assert len(pd.read_csv(tmp_path / "out" / "mass_sum.csv")) == 6
+    (tmp_path / "out" / "basis.html").write_text("mine", encoding="utf-8")
+    done = fatigue("basis", case, "-o", tmp_path / "out")
+    assert done.returncode == 3
+    assert "basis.html: is there already" in done.stderr
+    assert fatigue("basis", case, "-o", tmp_path / "out", "--force").returncode == 0
 
 
-def test_exit_codes(tmp_path):
-    """2: wrong usage; 3: a case that is not there, a file that is not there, a file in the way."""
-    case = small_case().write(tmp_path)
-    assert run(case, "--csv").exit_code == 2
-    assert run(case, "--band-hz", "-1").exit_code == 2
-    assert run(tmp_path / "none.toml").exit_code == 2 or run(tmp_path / "none.toml").exception
-    body = small_case()
-    body.body["participation"] = "none.csv"
-    result = run(body.write(tmp_path))
-    assert result.exception.exit_code == 3
-    assert "none.csv" in str(result.exception)
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--csv",), "name their folder with -o"),
+        (("--force",), "name their folder with -o"),
+        (("--band-hz", "-1"), "Invalid value for '--band-hz'"),
+        (("--damping", "nan"), "Invalid value for '--damping'"),
+    ],
+)
+def test_wrong_usage(tmp_path, options, words):
+    """Exit code 2, before anything is read."""
+    done = fatigue("basis", small_case().write(tmp_path), *options)
+    assert done.returncode == 2
+    assert words in done.stderr
+
+
+def test_bad_cases(tmp_path):
+    """Exit code 3: a case or a file that is not there, keys that need each other."""
+    assert fatigue("basis", tmp_path / "none.toml").returncode == 3
+    case = small_case()
+    case.body["participation"] = "none.csv"
+    done = fatigue("basis", case.write(tmp_path))
+    assert (done.returncode, "none.csv" in done.stderr) == (3, True)
+    case = by_matrix(tmp_path)
+    case.body.pop("mass_rows")
+    done = fatigue("basis", case.write(tmp_path))
+    assert done.returncode == 3
+    assert "body.mass_rows" in done.stderr
+    assert "Give mass_rows too" in done.stderr

@@ -90,7 +90,7 @@ class CountedGroup:
         return np.searchsorted(self.weld, np.arange(len(self.welds) + 1))
 
     def worst(self, utilisation: Floats) -> Iterator[tuple[int, int]]:
-        """Station and face of the highest utilisation (n, 2) among the toe points of every weld, the first of equals."""
+        """Station and face of the highest utilisation (n, 2) at the toes of every weld, the first of equals."""
         at_toes = np.where(self.toe, utilisation, -1.0)
         for first, end in pairwise(self.first.tolist()):
             of_weld = at_toes[first:end]

@@ -4,7 +4,6 @@ Nothing here simulates and nothing is a verdict about the design: a basis is a c
 error of truncation. Each question is a ``Finding`` with its reasons where the case cannot answer it.
 """
 
-import logging
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,7 +24,7 @@ from fatigue.errors import given_path
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.stages import stage
 
-log = logging.getLogger(__name__)
+ABOUT_MODES = ("no_interface_mode", "unusual_damping", "unusual_frequency")  # warnings of a body that matter here
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +74,8 @@ def basis(
     body = read_body(case, strict=strict)
     against = None if compared is None else read_body(compared, strict=strict)
     findings = list(_findings(body, against, Asked(band_hz, damping)))
-    warnings = tuple(problem for finding in findings for problem in finding.warnings)
+    of_modes = [problem for problem in body.warnings if problem.code in ABOUT_MODES]
+    warnings = (*of_modes, *(problem for finding in findings for problem in finding.warnings))
     found = Basis(case.title, tuple(findings), warnings)
     if folder is not None:
         stage("writing tables and page")

@@ -41,7 +41,7 @@ class Basis:
         """Text for people; rows are in the tables."""
         parts = [f"{visible(self.title)}: modal basis"]
         for finding in self.findings:
-            lines = [finding.heading, *(_indented(one, "  ") for one in finding.said)]
+            lines = [finding.heading, *(_indented(one, "  ", "    ") for one in finding.said)]
             lines += [_indented(f"- {one}", "  ", "    ") for one in finding.notes]
             parts.append("\n".join(lines))
         if self.written:
@@ -49,10 +49,6 @@ class Basis:
         return "\n\n".join(parts)
 
 
-def _indented(sentence: str, first: str, then: str | None = None) -> str:
-    """A sentence broken into lines; one that is laid out in columns, which has double blanks, stays as it is."""
-    if "  " in sentence:
-        return first + visible(sentence)
-    return textwrap.fill(
-        visible(sentence), WIDTH, initial_indent=first, subsequent_indent=first if then is None else then
-    )
+def _indented(sentence: str, first: str, then: str) -> str:
+    """A sentence broken into lines."""
+    return textwrap.fill(visible(sentence), WIDTH, initial_indent=first, subsequent_indent=then)

@@ -124,7 +124,7 @@ def shift(
         static = _static_events(loads, moving, every, plan, moved_in)
 
         stage("counting %d points at %d settings", len(points), len(every))
-        at = [name in moved_in for name in plan.names]
+        at = [one.event in moved_in for one in plan.passes]
         damage, moved = np.zeros((len(every), len(points))), []
         as_they_are: dict[int, Floats] = {}
         for number, setting in enumerate(every):

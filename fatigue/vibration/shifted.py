@@ -47,6 +47,8 @@ def shifted(q: Floats, step: float, before: Setting, after: Setting) -> Floats:
         return q.astype(np.float64)
     ratio = transfer(np.fft.rfftfreq(q.size, step), before, after)
     response = np.fft.irfft(ratio * np.fft.rfft(q), q.size)
+    if q.size < max(_start(before, step), _start(after, step)):
+        return response  # too short to tell a free vibration: taken to recur
     start = _explained(before, after) @ _free_state(q, step, before)
     start -= _free_state(response, step, after)
     return np.asarray(response + _free_vibration(start, q.size, step, after))
@@ -72,11 +74,16 @@ def _free_state(q: Floats, step: float, of: Setting) -> Floats:
     A least-squares fit beside a constant and a slope, which are quasi-static; what is faster than the mode averages
     out, which a derivative at the first sample would amplify.
     """
-    samples = min(q.size, max(FEWEST_SAMPLES, round(START_PERIODS / (of.frequency_hz * step))))
+    samples = _start(of, step)
     along = np.linspace(-1.0, 1.0, samples)
     free = (_free_vibration(np.array(state), samples, step, of) for state in ((1.0, 0.0), (0.0, 1.0)))
     fitted, *_ = np.linalg.lstsq(np.stack([*free, np.ones(samples), along], axis=1), q[:samples], rcond=None)
     return np.asarray(fitted[:2])
+
+
+def _start(of: Setting, step: float) -> int:
+    """Samples from which the free vibration at the start is read."""
+    return max(FEWEST_SAMPLES, round(START_PERIODS / (of.frequency_hz * step)))
 
 
 def _explained(before: Setting, after: Setting) -> Floats:

@@ -42,8 +42,8 @@ class FlexibilityRow:
 def flexibility(loaded: Loaded) -> Finding:
     """The flexibility index of every direction that the case gives shapes or a static solution of."""
     rows = tuple(_row(loaded, key) for key in loaded.keys)
-    notes = [note for note, lacks in ((NO_SHAPES, loaded.shapes is None), (NO_STATIC, not loaded.static)) if lacks]
-    notes = [f"No flexibility index: {note}" if note is NO_SHAPES else f"No ratio: {note}" for note in notes]
+    notes = [f"No flexibility index: {NO_SHAPES}."] if loaded.shapes is None else []
+    notes += [] if loaded.static else [f"No ratio: {NO_STATIC}."]
     if rows:
         notes += [
             OF_FREE_BODY,

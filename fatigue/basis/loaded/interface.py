@@ -38,7 +38,7 @@ class InterfaceRow:
 def interface(loaded: Loaded) -> Finding:
     """Interface modes of every loaded point, and of all points together."""
     if loaded.shapes is None:
-        return Finding("interface", HEADING, notes=(f"No interface modes per loaded point: {NO_SHAPES}",))
+        return Finding("interface", HEADING, notes=(f"No interface modes per loaded point: {NO_SHAPES}.",))
     rows = tuple(_rows(loaded))
     notes = [
         "Loads of several points share the modes: a point that is complete alone may not be together with the others.",

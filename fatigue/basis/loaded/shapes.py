@@ -16,8 +16,10 @@ from fatigue.shown import few
 Floats = NDArray[np.float64]
 Key = tuple[str, str]  # point and direction
 
-NO_SHAPES = "the case gives no shapes of the modes at loaded points ([body] interface_shapes)"
-NO_STATIC = "the case gives no static solution at loaded points ([body] flexibility)"
+NO_SHAPES = (
+    "the case gives no shapes of the modes at loaded points ([body] interface_shapes: point, direction, mode, value)"
+)
+NO_STATIC = "the case gives no static solution at loaded points ([body] flexibility: point, direction, value_mm_per_N)"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

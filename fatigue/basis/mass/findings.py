@@ -12,14 +12,15 @@ from fatigue.basis.rules import EFFECTIVE_MASS
 from fatigue.errors import Problem
 from fatigue.flexbody.mass import FREE, elastic_mass, frequencies_to_look_at, summed_up_to
 from fatigue.pipeline.solve.body import Body
+from fatigue.report.wording import share as in_percent
 
 Floats = NDArray[np.float64]
 
 NO_MASS = 1e-9  # t: what rounding leaves of the participation of free-free modes where the mass is not known
 TOO_LARGE = 1.01  # of the mass: it is written with two digits or more
 TOO_SMALL = 1e-2  # of the mass, in all directions: kg beside t give a thousandth
-CARRIERS = 5  # modes named
-WORTH_NAMING = 0.005  # of the mass
+CARRIERS = 3  # modes named
+WORTH_NAMING = 0.01  # of the mass
 BEYOND = 2.0  # bands of frequencies at which the dynamic mass is told
 HEADING, BY_MODE, DYNAMIC = "Effective modal mass", "Effective mass, mode by mode", "Dynamic mass"
 NOT_GIVEN = (
@@ -154,35 +155,37 @@ def _carriers(found: Carried, number: int) -> str:
     if np.isnan(of):
         unit = unit_of(DIRECTIONS[number])
         return ", ".join(f"{found.mode[i]} ({found.frequency[i]:.4g} Hz) {effective[i]:.3g} {unit}" for i in largest)
-    return ", ".join(f"{found.mode[i]} ({found.frequency[i]:.4g} Hz) {_percent(effective[i] / of)}" for i in largest)
+    return ", ".join(f"{found.mode[i]} ({found.frequency[i]:.4g} Hz) {in_percent(effective[i] / of)}" for i in largest)
 
 
 def _said(found: Carried, sums: tuple[MassSum, ...], band: float) -> Iterator[str]:
     """Sentences about the sums: one about the band, one for each direction, one about interface modes."""
     rule = EFFECTIVE_MASS
     yield (
-        f"What the modes up to {band:.4g} Hz carry of the body. {_percent(rule.share)} are taken for enough: "
+        f"What the modes up to {band:.4g} Hz carry of the body. {in_percent(rule.share)} are taken for enough: "
         f"{rule.source} ({rule.status})."
     )
     for one in sums:
         if np.isnan(one.mass_in_band):
             continue
-        by = f"carried by mode {one.carried_by}" if one.carried_by else "no mode carries much of it"
+        by = f"most by mode {one.carried_by}" if one.carried_by else "no mode carries much of it"
         if np.isnan(one.share_in_band):
-            yield f"{one.direction:2}  {one.mass_in_band:.4g} {one.unit} in the band ({one.reason}); {by}"
+            yield f"{one.direction}: {one.mass_in_band:.4g} {one.unit} in the band ({one.reason}); {by}."
             continue
         above = (one.summed_mass - one.mass_in_band) / one.body_mass
-        held = "" if np.isnan(one.boundary_mass) else f", {_percent(one.boundary_mass / one.body_mass)} on the boundary"
+        held = (
+            "" if np.isnan(one.boundary_mass) else f", {in_percent(one.boundary_mass / one.body_mass)} on the boundary"
+        )
         yield (
-            f"{one.direction:2}  {_percent(one.share_in_band)} in the band{'' if one.enough else ' (not enough)'}, "
-            f"{_percent(above)} above it{held}, {_percent(max(0.0, one.missing_share))} in no mode; {by}"
+            f"{one.direction}: {in_percent(one.share_in_band)} in the band{'' if one.enough else ' (not enough)'}, "
+            f"{in_percent(above)} above it{held}, {in_percent(max(0.0, one.missing_share))} in no mode; {by}."
         )
     interface = np.array([kind == "interface" for kind in found.kind])
     if interface.any() and not interface.all():
         summed = np.nansum(found.effective, axis=0)
         there = summed > 0.0
         share = np.nansum(found.effective[interface], axis=0) / np.where(there, summed, 1.0)
-        told = ", ".join(f"{d} {_percent(s)}" for d, s in zip(np.array(DIRECTIONS)[there], share[there], strict=True))
+        told = ", ".join(f"{d} {in_percent(s)}" for d, s in zip(np.array(DIRECTIONS)[there], share[there], strict=True))
         yield f"Of what all modes carry, interface modes have: {told}."
 
 
@@ -239,14 +242,10 @@ def _dynamic(found: Carried, band: float, damping: float | None) -> Finding:
         top = int(np.abs(m_e[:, column]).argmax())
         rigid = f"{found.body[number]:.4g} {unit} at 0 Hz, " if np.isfinite(found.body[number]) else ""
         elastic = f"elastic part largest at {f[top]:.4g} Hz with {abs(m_e[top, column]):.4g} {unit}"
-        said.append(f"{DIRECTIONS[number]:2}  {rigid}{elastic}")
+        said.append(f"{DIRECTIONS[number]}: {rigid}{elastic}.")
     notes = [
         "Force (moment) at the base over its acceleration: rigid mass + sum of m_eff r^2 / (1 - r^2 + 2 i zeta r)."
     ]
     if damping is not None and not (found.damping_ratio > 0.0).all():
         notes.append(f"The damping ratio of the modes without one was given as {damping:g}.")
     return Finding("dynamic_mass", DYNAMIC, tuple(said), tuple(rows), tuple(notes))
-
-
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.3g} %"

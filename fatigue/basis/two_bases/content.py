@@ -63,9 +63,8 @@ def rms_above(signal: Floats, step: float, above_hz: float = ABOVE_HZ) -> tuple[
     whole = signal.std(axis=1)
     n = min(signal.shape[1], max(4, round(SEGMENT_S / step)))
     frequency, psd = welch(signal, 1.0 / step, nperseg=n, axis=1)
-    total = psd.sum(axis=1)
-    share = np.divide(psd[:, frequency > above_hz].sum(axis=1), total, out=np.zeros(len(psd)), where=total > 0.0)
-    return whole, np.asarray(whole * np.sqrt(share))
+    above = psd[:, frequency > above_hz].sum(axis=1) * (frequency[1] - frequency[0])
+    return whole, np.minimum(np.sqrt(above), whole)
 
 
 def _rows(load: EventLoad, of_other: EventLoad | None, matches: Sequence[Match]) -> Iterator[ContentRow]:

@@ -57,7 +57,8 @@ def read_mass_matrix(path: Path) -> sparse.csc_array:
         remedy = "Give a .mtx file of Matrix Market or a .npz file that scipy.sparse.save_npz wrote"
         raise DataError(Problem("unknown_format", str(path), what, remedy))
     try:
-        read = reader(path)
+        with path.open("rb") as file:
+            read = reader(file)
         matrix = sparse.csc_array(read, dtype=np.float64) if np.isrealobj(getattr(read, "data", read)) else None
     except (ValueError, OSError, LookupError, TypeError, OverflowError, EOFError, BadZipFile) as error:
         detail = str(error).splitlines()[0] if str(error) else type(error).__name__
@@ -86,7 +87,7 @@ def _refuse_no_mass_matrix(path: Path, M: sparse.csc_array) -> None:
     difference = abs(M - M.T).tocoo()
     if difference.nnz and difference.data.max() > UNEQUAL * largest:
         at = int(difference.data.argmax())
-        row, column = int(difference.coords[0][at]), int(difference.coords[1][at])
+        row, column = sorted((int(difference.coords[0][at]), int(difference.coords[1][at])))
         one_sided = sparse.triu(M, 1).nnz == 0 or sparse.tril(M, -1).nnz == 0
         what = f"the matrix is not symmetric: {M[row, column]:g}, and {M[column, row]:g} in row {column + 1}"
         what += "; only one of its triangles is there" if one_sided else ""
@@ -127,7 +128,8 @@ def read_mass_rows(
     table.refuse()
     if table.rows < rows:
         absent = np.setdiff1d(np.arange(1, rows + 1), row)
-        what = f"row {absent[0]} of {matrix} has no line here, and {absent.size - 1} more"
+        also = f" (and {absent.size - 1} more)" if absent.size > 1 else ""
+        what = f"row {absent[0]} of {matrix} has no line here{also}"
         remedy = "Say of every row of the matrix which node and direction it is"
         raise DataError(Problem("missing_id", f"{path.name}: column row", what, remedy))
     order = np.argsort(row)
@@ -197,5 +199,6 @@ def _missing_node(
     """Refusal of shapes that lack nodes of the matrix."""
     mode, node = np.argwhere(~there)[0]
     more = int(np.count_nonzero(~there)) - 1
-    what = f"mode {modes[mode]} has no row of node {nodes[node]}, which the mass matrix has (and {more} more)"
+    also = f" (and {more} more)" if more else ""
+    what = f"mode {modes[mode]} has no row of node {nodes[node]}, which the mass matrix has{also}"
     return Problem("missing_id", f"{table.path.name}: column node", what, "Give every mode at every node of the matrix")
