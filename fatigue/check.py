@@ -35,6 +35,7 @@ from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings.summary import WarningSummary
+from fatigue.ride.checked import ChannelLine, checked_channels
 from fatigue.shown import few, visible
 from fatigue.stages import stage
 from fatigue.weld.load_extent import LoadExtent
@@ -53,7 +54,7 @@ class CheckedCase:
     ``estimated_scratch_MB`` are files that are gone at its end, ``estimated_result_MB`` those that stay.
     ``sequences`` say which orders of events are counted; ``stress_points`` is the number of points beside welds and in
     parent metal, which the estimates leave out.
-    ``warnings`` are summed up as in an assessment.
+    ``channels`` are those of the events, which no assessment reads; ``warnings`` are summed up as in an assessment.
     """
 
     title: str
@@ -78,6 +79,7 @@ class CheckedCase:
     sequences: tuple[str, ...]
     warnings: tuple[Problem, ...]
     stress_points: int = 0
+    channels: tuple[ChannelLine, ...] = ()
 
     @property
     def has_left_out(self) -> bool:
@@ -86,12 +88,13 @@ class CheckedCase:
 
     def as_record(self) -> dict[str, Any]:
         """The sizes for machines."""
-        nested = ("warnings", "estimate", "counts", "gravity")
+        nested = ("warnings", "estimate", "counts", "gravity", "channels")
         plain = {name: getattr(self, name) for name in self.__slots__ if name not in nested}
         return plain | {
             "counts": [asdict(one) | {"counts": one.counts} for one in self.counts],
             "estimate": asdict(self.estimate),
             "gravity": [one.as_record() for one in self.gravity],
+            "channels": [asdict(one) for one in self.channels],
             "warnings": [str(problem) for problem in self.warnings],
         }
 
@@ -117,6 +120,7 @@ class CheckedCase:
                 f"  events           {self.events}, {self.distance_km:.4g} km simulated",
                 *(f"    {line}" for line in listed(self.counts)),
                 *(f"  {'' if i else 'sequences':16} {text}" for i, text in enumerate(self.sequences)),
+                *(f"  {'' if i else 'channels':16} {one.as_text()}" for i, one in enumerate(self.channels)),
                 f"  stress samples   {2 * self.samples:.3g}",
                 f"  upsampling       {upsampling_text(self.estimate.upsample)}",
                 *(f"  {label:<16} {line}" for label, line in _gravity_lines(self.gravity)),
@@ -141,8 +145,9 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     begin = time.process_time()
     body = read_body(case, strict=strict)
     plan, record_warnings = mission_plan(body)
+    channels, of_channels = checked_channels(case)
     warnings = WarningSummary()
-    warnings.add((*body.warnings, *point_stress(body)[1], *record_warnings))
+    warnings.add((*body.warnings, *point_stress(body)[1], *record_warnings, *of_channels))
     extents: list[LoadExtent] = []
     parts = stations = 0
     stage("solving the weld lines")
@@ -195,6 +200,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
         sequences=tuple(sequence_texts(plan)),
         warnings=warnings.listed(),
         stress_points=0 if body.points is None else len(body.points),
+        channels=channels,
     )
 
 

@@ -8,6 +8,7 @@ see why Dirlik and rainflow differ.
 
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,8 @@ from fatigue.why.across_events import attribute_loops
 from fatigue.why.attribute import Attribution, Bins, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.evidence import Evidence
 from fatigue.why.findings import Diagnosis, findings
+from fatigue.why.formation.damping import damping_of
+from fatigue.why.formation.formation import formation
 from fatigue.why.levers import best_levers
 from fatigue.why.points import choose_points, gather_points
 from fatigue.why.rows import rows_of_tables
@@ -66,6 +69,7 @@ def diagnose(
     share_of_limit: float = SHARE_OF_LIMIT,
     edges_hz: Sequence[float] | None = None,
     bin_km: float = BIN_KM,
+    damping: float | None = None,
     no_lock: bool = False,
     progress: Progress = lambda label, done, total: None,
 ) -> Diagnosis:
@@ -78,15 +82,16 @@ def diagnose(
     share_of_limit : utilisation from which a point is included when there are too many for all of them
     edges_hz : ascending edges between frequency bands [Hz]; by default one-third octaves from 1 to 80 Hz
     bin_km : length of a bin of the track [km]
+    damping : damping ratio of the modes whose table has none; None: they have none
     no_lock : for a file system without locks, see ``fatigue.assess``
     progress : called with a label, events done and events in all
 
     Raises
     ------
     DataError : no finished result in the folder, or its inputs are gone or have changed
-    CaseError : band edges or bins that make no sense
+    CaseError : band edges, bins or a damping ratio that make no sense
     """
-    refuse(CaseError, _senseless(edges_hz, bin_km, share_of_limit))
+    refuse(CaseError, [*_senseless(edges_hz, bin_km, share_of_limit), *_no_damping(damping)])
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
@@ -99,6 +104,7 @@ def diagnose(
     needed = diagnosis_memory(job_size(body, plan, factors=factors))
     for problem in memory_warnings("the diagnosis", needed, "Use a machine with more memory, or shorter records"):
         log.warning("%s", problem)
+    modes = replace(body.modes, damping_ratio=damping_of(body.modes, damping).ratio)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
     with (
         locked(folder, no_lock=no_lock),
@@ -121,14 +127,17 @@ def diagnose(
         events: list[EventAttribution] = []
         for load, one_pass in zip(loads, plan.passes, strict=True):
             progress("diagnosis", len(events), len(loads))
-            events.append(attribute_event(points, load, one_pass, body.modes, bins))
+            events.append(attribute_event(points, load, one_pass, modes, bins))
         attribution = Attribution(points, (*events, *attribute_loops(points, loads, plan)))
         governing = attribution.event_share[worst, : len(events)].argmax(axis=1)
         verdicts: list[EventVerdicts] = []
         for number, (load, event, said) in enumerate(zip(loads, events, assessed, strict=True)):
             verdicts.append(event_verdicts(body, load, points, event, said, worst[governing == number]))
-        levers = best_levers(attribution, loads, plan, worst[attribution.damage[worst] > 0.0])
-        evidence = Evidence(body, plan, attribution, levers, tuple(verdicts))
+        damaged = worst[attribution.damage[worst] > 0.0]
+        levers = best_levers(attribution, loads, plan, damaged)
+        stage("splitting the records of the events into what follows and what swings (%d)", len(plan.passes))
+        formed = formation(body, attribution, loads, plan, damaged, damping)
+        evidence = Evidence(body, plan, attribution, levers, tuple(verdicts), formed)
         progress("diagnosis", len(loads), len(loads))
 
         stage("writing tables")
@@ -138,7 +147,7 @@ def diagnose(
             with table_writer(finished, name, record.get("result", "")) as table:
                 for rows in blocks:
                     table.write(rows)
-        relist(folder, finished, sorted(finished.iterdir()))
+        relist(folder, finished, sorted(finished.iterdir()), {"diagnosis": formed.on_record()})
         publish(finished, folder)
     return findings(evidence, chosen.what)
 
@@ -154,6 +163,12 @@ def _senseless(edges_hz: Sequence[float] | None, bin_km: float, share_of_limit: 
     if not (isinstance(share_of_limit, Real) and 0.0 <= share_of_limit < np.inf):
         what = f"{share_of_limit} is no share of the damage limit"
         yield Problem("bad_share", "share_of_limit", what, "Give 0 or more, for instance 0.1")
+
+
+def _no_damping(damping: float | None) -> Iterator[Problem]:
+    if damping is not None and not (isinstance(damping, Real) and 0.0 <= damping < 1.0):
+        what = f"{damping} is no damping ratio of a mode that swings"
+        yield Problem("bad_damping", "damping", what, "Give the ratio to critical damping: 1.5 % are 0.015")
 
 
 def _ascends(edges_hz: Sequence[float]) -> bool:

@@ -13,6 +13,7 @@ import click
 from fatigue.case import case_schema
 from fatigue.cli import cli
 from fatigue.results.columns import TABLES
+from fatigue.results.dictionary.basis import BASIS
 from tests.problem_codes import codes
 
 ROOT = Path(__file__).parents[1]
@@ -139,7 +140,7 @@ def key_text() -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in TABLES.items():
+    for table, its in (TABLES | BASIS).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from fatigue.case.channels import Alarm, Channel, Equipment, EquipmentMode, Ride
+from fatigue.case.channels import Alarm, Channel, Equipment, EquipmentMode, Ride, channel_problems
 from fatigue.case.check_problems import counts_problems, shear_problems
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
@@ -74,6 +74,7 @@ def load_case(path: Path | str) -> Case:
         problems += sequence_problems(raw)
         problems += counts_problems(raw)
         problems += unit_load_problems(raw)
+        problems += channel_problems(raw)
         problems += shear_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
     except tomllib.TOMLDecodeError as error:

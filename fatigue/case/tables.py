@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, field_validator
 
-from fatigue.case.channels import Channel, Ride
+from fatigue.case.channels import Channel, Ride, no_channel_of_static_loads
 from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
@@ -33,6 +33,16 @@ BODY_FILES = (
     "stress_points",
     "modal_stresses",
 )
+BASIS_FILES = (
+    "participation",
+    "mass_matrix",
+    "mass_rows",
+    "mode_shapes",
+    "interface_shapes",
+    "flexibility",
+)
+"""Files that only `fatigue basis` reads: an assessment neither reads nor hashes them."""
+MASS_FILES = ("mass_matrix", "mass_rows", "mode_shapes")
 MeanOfQ = Literal["keep", "remove"]
 LARGEST_UPSAMPLE = 64  # peaks come at half the sampling rate at most: 128 samples per peak, of the damage 1e-4 k lost
 
@@ -69,10 +79,27 @@ class Body(Table):
     )
     participation: Text | None = Field(
         default=None,
-        description="the file of the participation factors of the modes (l_x, l_y, l_z [t], l_rx, l_ry, l_rz [t mm])",
+        description="the file of the participation factors of the modes (l_x, l_y, l_z [t], l_rx, l_ry, l_rz [t mm]), "
+        "rotations about the centre of mass; of the shapes that modal_mass belongs to",
+    )
+    mass_matrix: Text | None = Field(
+        default=None,
+        description="instead of participation: the mass matrix [t, t mm, t mm2] (.mtx of Matrix Market or .npz of "
+        "scipy.sparse), with mass_rows and mode_shapes",
+    )
+    mass_rows: Text | None = Field(
+        default=None,
+        description="the file that says what a row of the mass matrix is (row from 1, node, direction x to rz, held)",
+    )
+    mode_shapes: Text | None = Field(
+        default=None, description="the file of the mode shapes at the nodes of the mass matrix (mode, node, ux_mm ...)"
     )
     total_mass_t: Positive | None = Field(
         default=None, description="the mass [t] of the body, which effective modal masses sum up to, above 0"
+    )
+    boundary_mass_t: NotNegative | None = Field(
+        default=None,
+        description="the part [t] of the mass that is lumped on the fixed boundary and moves with no mode, at least 0",
     )
     inertia_t_mm2: Annotated[tuple[Positive, ...], Field(strict=False, min_length=3, max_length=3)] | None = Field(
         default=None, description="a list of the three moments of inertia [t mm2] of the body about its centre of mass"
@@ -118,8 +145,29 @@ class Body(Table):
         if (self.stress_points is None) != (self.modal_stresses is None):
             without = "stress_points" if self.stress_points is None else "modal_stresses"
             yield absent(without, "stress_points and modal_stresses need each other", "Give both or neither")
+        yield from self._of_masses()
         yield from forms_of_forces(self.unit_load, by_elements=self.element_forces is not None)
         yield from one_gravity(self.unit_load)
+
+    def _of_masses(self) -> Iterator[Problem]:
+        """Refusals of keys about the mass of the body that do not fit together."""
+        yield from path_problems({key: getattr(self, key) for key in BASIS_FILES})
+        given = [key for key in MASS_FILES if getattr(self, key) is not None]
+        if self.participation and given:
+            what = f"participation and {given[0]} are both given: either says what the modes carry"
+            yield clash("participation", what, "Keep one of them")
+        elif given and len(given) < len(MASS_FILES):
+            without = next(key for key in MASS_FILES if key not in given)
+            what = f"{', '.join(MASS_FILES)} need each other, and {' and '.join(given)} {_is(given)} given alone"
+            yield absent(without, what, f"Give {without} too, or none of them")
+        total, lumped = self.total_mass_t, self.boundary_mass_t
+        if total is not None and lumped is not None and lumped >= total:
+            what = f"{lumped:g} t are not less than total_mass_t = {total:g}"
+            yield clash("boundary_mass_t", what, "Give the part of the mass that is on the fixed boundary")
+
+
+def _is(several: list[str]) -> str:
+    return "are" if len(several) > 1 else "is"
 
 
 class Counting(Table):
@@ -249,6 +297,7 @@ class Event(Table):
         if self.start_s > 0.0:
             what = f"{self.start_s:g} is given for a static load case, which has no start-up"
             yield clash("start_s", what, "Remove it")
+        yield from no_channel_of_static_loads(self.channel)
 
 
 class Mission(Table):

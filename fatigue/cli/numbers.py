@@ -20,3 +20,4 @@ class FiniteRange(click.FloatRange):
 ABOVE_ZERO = FiniteRange(0.0, min_open=True)
 FROM_ZERO = FiniteRange(0.0)
 SHARE = FiniteRange(0.0, 1.0, min_open=True)
+DAMPING = FiniteRange(0.0, 1.0, max_open=True)

@@ -20,7 +20,7 @@ from fatigue.readers.neutral.event.event_record import EventFiles, read_event
 from fatigue.readers.neutral.event.load_units import column_names
 from fatigue.readers.neutral.long_history import is_long
 from fatigue.readers.neutral.register.weld_register import REGISTER
-from fatigue.results import case_of
+from fatigue.results import case_of, is_assessed_case
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,7 +106,7 @@ class FoundInputs:
 def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None) -> FoundInputs:
     """Inputs of the result with this provenance record, as far as they are found.
 
-    The case file is where ``case_path`` says, by default where the record says. It counts as found when its text is the
+    The case file is where ``case_path`` says, by default where the record says. It counts as found when its case is the
     one that was assessed.
 
     Raises
@@ -121,10 +121,9 @@ def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None)
             Problem("damaged_result", "provenance.json", f"holds no valid case ({error})", "Run the assessment again")
         ) from None
     path = case_path or case_of(record, folder)
-    found = _text(path)
-    root = path.parent if found == text else None
+    root = path.parent if is_assessed_case(record, path) else None
     hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
-    lost, modes = _lost(record, moved=found is None), tuple(record["modes"]["used"])
+    lost, modes = _lost(record, moved=not path.is_file()), tuple(record["modes"]["used"])
     return FoundInputs(case, root, lost, hashes, modes, () if root is None else tuple(_outdated(case, root, hashes)))
 
 
@@ -141,13 +140,6 @@ def _outdated(case: Case, root: Path, hashes: Mapping[str, str]) -> Iterator[Pro
     if what:
         what += ", and the welds are shown as they were assessed"
         yield Problem("changed_input", path.name, what, "Assess the case again")
-
-
-def _text(path: Path) -> str | None:
-    try:
-        return path.read_bytes().decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError):
-        return None
 
 
 def _lost(record: Mapping[str, Any], *, moved: bool) -> Problem:

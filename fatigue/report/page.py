@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import jinja2
 import numpy as np
 import pandas as pd
 from markupsafe import Markup
@@ -13,8 +12,9 @@ from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.mishaps import refused_writing
-from fatigue.report import figures, wording
+from fatigue.report import figures
 from fatigue.report.checks import read_checks
+from fatigue.report.environment import environment
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.result import ShownResult, read_result
@@ -33,7 +33,6 @@ from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
 from fatigue.results import PAGE, enlist
-from fatigue.shown import visible
 
 log = logging.getLogger(__name__)
 
@@ -41,7 +40,6 @@ MOST_DETAILED = 40  # welds with their own figures; the others have their rows a
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
 LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
-LONGEST_NAME = 120  # letters of a name in a sentence or a heading
 WORST_POINTS = 50
 
 
@@ -145,41 +143,7 @@ def report_page(
         "template": embedded(figures.TEMPLATE.to_plotly_json()),
         "plotly": Markup(get_plotlyjs()),
     }
-    return _environment().get_template("report.html").render(context)
-
-
-def _environment() -> jinja2.Environment:
-    loader = jinja2.PackageLoader("fatigue.report")
-    environment = jinja2.Environment(
-        loader=loader,
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        finalize=_shown,
-    )
-    environment.filters |= {
-        "number": wording.number,
-        "km": wording.km,
-        "years": wording.years,
-        "share": wording.share,
-        "whole": wording.whole,
-        "short": lambda name: wording.short(str(name), LONGEST_NAME),
-    }
-
-    def source(name: str) -> Markup:
-        """Style sheet or script of the page, as it is."""
-        return Markup(loader.get_source(environment, name)[0])
-
-    environment.globals["source"] = source
-    return environment
-
-
-def _shown(value: Any) -> Any:
-    """What the page says of a value: in a text of somebody else, as a name, what cannot be seen is spelled out."""
-    return (
-        visible(value, keep="\n\t\u2028\u2029") if isinstance(value, str) and not isinstance(value, Markup) else value
-    )
+    return environment().get_template("report.html").render(context)
 
 
 def _details(

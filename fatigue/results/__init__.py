@@ -47,7 +47,15 @@ from fatigue.results.dictionary.shift import SHIFTED
 from fatigue.results.dictionary.welds import WELDS
 from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
-from fatigue.results.origin import case_of, changed_inputs, is_same_case, named_case, new_inputs, way_to_case
+from fatigue.results.origin import (
+    case_of,
+    changed_inputs,
+    is_assessed_case,
+    is_same_case,
+    named_case,
+    new_inputs,
+    way_to_case,
+)
 from fatigue.results.outputs import recorded
 from fatigue.results.provenance import (
     JOURNAL,
@@ -106,6 +114,7 @@ __all__ = [
     "coded",
     "enlist",
     "input_register",
+    "is_assessed_case",
     "is_derived",
     "is_same_case",
     "is_same_result",

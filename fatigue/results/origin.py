@@ -1,13 +1,29 @@
-"""Where a result came from: the way to its case file, and whether case and inputs are still what they were."""
+"""Where a result came from: the way to its case file, and whether case and inputs are still what they were.
 
+A case holds keys that no assessment reads: the channels of its events, how a ride is judged, what a modal basis is
+compared with. They may come, change and go: the case is the one that was assessed all the same.
+"""
+
+import json
 import os
-from collections.abc import Iterable, Mapping
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem
 from fatigue.files.hashes import sha256
 from fatigue.files.naming import missing_case_of_result
+
+NOT_ASSESSED = (
+    "ride",
+    "mission.event.channel",
+    "body.participation",
+    "body.total_mass_t",
+    "body.inertia_t_mm2",
+    "body.interface_shapes",
+    "body.flexibility",
+)
 
 
 def way_to_case(case_file: Path, folder: Path) -> str:
@@ -32,13 +48,41 @@ def is_same_case(case_file: Path, record: Mapping[str, Any], folder: Path) -> bo
     """Whether a case file is the one of a result, perhaps edited since.
 
     It is if it is the file that the provenance leads to, however either is spelled. Where that file is gone, the case
-    or the folder was moved: then the text of the case file has to be the one that was assessed.
+    or the folder was moved: then the case in the file has to be the one that was assessed.
     """
     known = case_of(record, folder)
     if known.exists():
         return known == _placed(case_file) or known.samefile(case_file)
+    return is_assessed_case(record, case_file)
+
+
+def is_assessed_case(record: Mapping[str, Any], case_file: Path) -> bool:
+    """Whether a file has the text that was assessed, or a case that differs from it only in ``NOT_ASSESSED`` keys."""
     text: str = record["case_text"]
-    return _text(case_file) == text
+    found = _text(case_file)
+    return found is not None and (found == text or _assessed_keys(found) == _assessed_keys(text) is not None)
+
+
+def _assessed_keys(text: str) -> str | None:
+    """Keys and values of a case that an assessment reads, each with its type, in one order; None of what is no case."""
+    try:
+        case = tomllib.loads(text)
+        for path in NOT_ASSESSED:
+            *tables, key = path.split(".")
+            for table in _tables(case, tables):
+                table.pop(key, None)
+        return json.dumps(case, sort_keys=True, default=repr)
+    except (ValueError, RecursionError):
+        return None
+
+
+def _tables(value: object, keys: Sequence[str]) -> Iterator[dict[str, Any]]:
+    """Tables at a place of a case, each of a list of them."""
+    for item in value if isinstance(value, list) else [value]:
+        if isinstance(item, dict) and keys:
+            yield from _tables(item.get(keys[0]), keys[1:])
+        elif isinstance(item, dict):
+            yield item
 
 
 def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
@@ -50,7 +94,7 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
     """
     if not case_file.is_file():
         raise DataError(missing_case_of_result(case_file))
-    if _text(case_file) != record["case_text"]:
+    if not is_assessed_case(record, case_file):
         what = f"is not the case of this result: its text differs from that of {record['case_file']} as it was assessed"
         remedy = "Name the case as it was assessed, or assess again"
         raise DataError(Problem("other_case", str(case_file), what, remedy))
@@ -58,12 +102,15 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
 
 
 def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:
-    """Refusal of every input of a result that is gone or has changed; the paths start at the case file."""
+    """Refusal of every input of a result that is gone or has changed; the paths start at the case file.
+
+    Of the case itself it is what an assessment reads of it that counts.
+    """
     problems = []
     for known in record["inputs"]:
         is_case = known["file"] == record["case_file"]
         path = case_file if is_case else case_file.parent / known["file"]
-        if path.is_file() and sha256(path) == known["sha256"]:
+        if path.is_file() and (sha256(path) == known["sha256"] or (is_case and is_assessed_case(record, path))):
             continue
         what = "has changed since the assessment" if path.is_file() else "is not there any more"
         remedy = "Run the assessment again" + (", or name the case as it was with --case" if is_case else "")

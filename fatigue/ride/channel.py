@@ -1,5 +1,6 @@
 """One channel of one event as it is looked at: its samples on a uniform grid, and where on the track they lie."""
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ class ChannelRecord:
     step : time step [s]
     start : file time of the first sample on the clock of the event's history [s]
     km_per_s : distance per time [km/s]; NaN of an event counted by number
+    place : the place that channels of several directions share; None: as its name says
     """
 
     event: str
@@ -31,8 +33,20 @@ class ChannelRecord:
     step: float
     start: float
     km_per_s: float
+    place: str | None = None
 
     @property
     def duration(self) -> float:
         """Duration [s]: samples times step."""
         return self.values.size * self.step
+
+    @property
+    def position(self) -> str:
+        """The place it is at: as given, else its name without a last word that is its direction.
+
+        ``floor mid y``, ``floor_mid_y`` and ``floor mid, y`` are at ``floor mid`` and ``floor_mid``.
+        """
+        if self.place is not None:
+            return self.place
+        stem = re.sub(rf"[\s_,.:/-]+{self.direction}$", "", self.name, flags=re.IGNORECASE)
+        return stem or self.name

@@ -9,6 +9,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.solve.body import Body
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.why.attribute import Attribution
+from fatigue.why.formation.formation import Formation
 from fatigue.why.levers import Levers
 from fatigue.why.verdicts import EventVerdicts
 
@@ -23,6 +24,7 @@ class Evidence:
     attribution : the damage of the points, shared out
     levers : what smaller modes would buy at the worst points
     verdicts : whether the frequency domain may be trusted, of every event
+    formation : how resonances form, at the points of the levers
     """
 
     body: Body
@@ -30,6 +32,7 @@ class Evidence:
     attribution: Attribution
     levers: Levers
     verdicts: tuple[EventVerdicts, ...]
+    formation: Formation
 
 
 def ids(coordinates: Coordinates) -> tuple[NDArray[np.object_], NDArray[np.object_]]:

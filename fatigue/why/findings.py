@@ -14,6 +14,8 @@ from fatigue.pipeline.tables.rows import FACES
 from fatigue.shown import shortened, visible
 from fatigue.why.attribute import Attribution
 from fatigue.why.evidence import Evidence, ids
+from fatigue.why.formation.told import ModesFinding, WatchFinding, modes_findings, watch_findings, watch_text
+from fatigue.why.formation.told import notes as formation_notes
 from fatigue.why.levers import SMALLER
 
 LONGEST_LIFE_KM = 1e12
@@ -67,7 +69,9 @@ class Finding:
     enough for a spectrum; ``relieving_share`` is what all relieving ones take off; ``half_damage_part`` is the smallest
     part of the governing event that holds half of its damage, and its worst bin begins at ``place_km`` (None for an
     event counted by number) and ``place_s``; ``verdict`` and the split of the Dirlik ratio into errors of formula and
-    process, None where it was not made, belong to the governing event. ``with_loads``: whether the body has unit loads.
+    process, None where it was not made, belong to the governing event, as does ``dominant_hz`` of the stress.
+    ``watch`` are the costliest swings of modes, ``watch_text`` says the first of them, or why there is none.
+    ``with_loads``: whether the body has unit loads.
     """
 
     weld: str
@@ -92,6 +96,9 @@ class Finding:
     reason: str
     formula_error: float | None
     process_error: float | None
+    dominant_hz: float | None
+    watch: tuple[WatchFinding, ...]
+    watch_text: str
 
     def as_text(self) -> str:
         """Text for people: a heading and a line for each question."""
@@ -109,6 +116,7 @@ class Finding:
             "place": f"half of the damage of {event} on {_percent(self.half_damage_part)} of it, most at {place}, "
             f"{self.place_intensity:.1f} times the average",
             "lever": f"{called(best)} {_percent(1 - SMALLER)} smaller: {_km(best.life_km_counted)} ({gain:+.0f} %)",
+            "watch": self.watch_text,
             "Dirlik": f"{self.verdict}: {self.reason}",
         }
         if self.formula_error is not None and self.process_error is not None:
@@ -131,12 +139,16 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """What makes the damage of a result: a finding per damaged weld, worst first, and what could not be had."""
+    """What makes the damage of a result: a finding per damaged weld, worst first, and what could not be had.
+
+    ``modes`` are classes of the modes, event by event.
+    """
 
     title: str
     points: str
     findings: tuple[Finding, ...]
     notes: tuple[str, ...]
+    modes: tuple[ModesFinding, ...]
 
     def as_record(self) -> dict[str, Any]:
         """Record for machines."""
@@ -145,10 +157,12 @@ class Diagnosis:
     def as_text(self) -> str:
         """Text for people."""
         notes = [_wrapped("  ", note) for note in self.notes]
+        modes = [_wrapped("  ", event.as_text()) for event in self.modes]
         return "\n\n".join(
             [
                 f"{visible(self.title)}: what makes the damage, of {self.points}",
                 *(finding.as_text() for finding in self.findings),
+                "\n".join(["Which modes swing, which follow their loads:", *modes]),
                 *(["\n".join(["Not available, or to be read with care:", *notes])] if notes else []),
             ]
         )
@@ -157,11 +171,16 @@ class Diagnosis:
 def findings(evidence: Evidence, points: str) -> Diagnosis:
     """Summary of a diagnosis, with a finding for every point the levers were sought at; ``points`` says which."""
     found = [_finding(evidence, row) for row in range(len(evidence.levers.point))]
+    modes = evidence.body.modes
     return Diagnosis(
         title=evidence.body.case.title,
         points=points,
         findings=tuple(sorted(found, key=lambda finding: finding.life_km)),
-        notes=tuple(_notes(evidence.body, evidence.attribution)),
+        notes=(
+            *_notes(evidence.body, evidence.attribution, evidence.formation.damping.ratio),
+            *formation_notes(evidence.formation, modes),
+        ),
+        modes=modes_findings(evidence.formation, modes),
     )
 
 
@@ -178,6 +197,7 @@ def _finding(evidence: Evidence, row: int) -> Finding:
     damage = event.damage[0]  # none where a sequence has all of it
     intensity = event.place[0] / damage / event.place_length if damage > 0.0 else np.zeros_like(event.place[0])
     hottest = int(intensity.argmax())
+    watch = watch_findings(evidence.formation, row, coordinates.modes, evidence.attribution)
     return Finding(
         weld=str(points.weld[0]),
         part=int(points.part[0]),
@@ -217,6 +237,9 @@ def _finding(evidence: Evidence, row: int) -> Finding:
         reason=str(verdict.reason[point]),
         formula_error=_or_none(verdict.formula[point]),
         process_error=_or_none(verdict.process[point]),
+        dominant_hz=_or_none(evidence.formation.welds[governing].dominant_hz[row]),
+        watch=watch,
+        watch_text=watch_text(watch, evidence.formation, row, governing),
     )
 
 
@@ -247,8 +270,7 @@ def _part_that_holds(share: float, intensity: NDArray[np.float64], length: NDArr
     return float(np.interp(share, np.append(0.0, held), np.append(0.0, covered)))
 
 
-def _notes(body: Body, attribution: Attribution) -> Iterator[str]:
-    damping = body.modes.damping_ratio
+def _notes(body: Body, attribution: Attribution, damping: NDArray[np.float64]) -> Iterator[str]:
     if np.isnan(damping).any():
         without = (
             "no mode has" if np.isnan(damping).all() else f"{np.count_nonzero(np.isnan(damping))} modes do not have"

@@ -40,7 +40,7 @@ class Row(NamedTuple):
     offset: float
 
 
-class _Sums(NamedTuple):
+class PointSums(NamedTuple):
     """What the cycles of a point add up to, as in ``fatigue.why.attribute.EventAttribution``, in one pass."""
 
     damage: float
@@ -87,7 +87,7 @@ def long_blocks(
         modal_s = modal_m + some.side[:, None] * modal_b
         of_points = zip(some.side, some.size, some.rule, modal_s @ load.offset, strict=True)
         rows = [Row(2 * i, *of) for i, of in enumerate(of_points)]
-        sums = [_lay(stress, row, load, laid, 3 * i, place_s) for i, row in enumerate(rows)]
+        sums = [lay_damage(stress, row, load, laid, 3 * i, place_s) for i, row in enumerate(rows)]
         _transform(laid, laid, residue)
         products, resonant = _products(laid, Q, bands, resonance)
         owed = modal_s[:, :, None] * products[0::3]
@@ -131,7 +131,7 @@ def _credits(stress: Samples, row: Row, residue: Residue, *, vertex: bool) -> It
         yield piece, cycle_credit(piece.membrane.T, piece.bending.T, piece.weight, *own)
 
 
-def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, place_s: Floats) -> _Sums:
+def lay_damage(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, place_s: Floats) -> PointSums:
     """Lay the damage of a point on three rows of samples: share, derivatives by membrane and by bending stress."""
     damage = top_cycle = load_slope = thickness_slope = by_offset = 0.0
     place = np.zeros(len(place_s) - 1)
@@ -152,7 +152,7 @@ def _lay(stress: Samples, row: Row, load: EventLoad, laid: Spool, first: int, pl
         load_slope += float(of.slope.sum())
         by_offset += float(of.by_peak.sum())
         thickness_slope -= float(np.sum(by_membrane * piece.membrane) + 2.0 * np.sum(by_bending * piece.bending))
-    return _Sums(damage, top_cycle, load_slope, thickness_slope, by_offset, place)
+    return PointSums(damage, top_cycle, load_slope, thickness_slope, by_offset, place)
 
 
 def _add_reversals(laid: Spool, rows: slice, piece: Piece, values: Floats, *, vertex: bool) -> None:

@@ -10,6 +10,7 @@ from fatigue.pipeline.tables.rows import FACES
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.why.attribute import Attribution, EventAttribution
 from fatigue.why.evidence import Evidence, ids
+from fatigue.why.formation.rows import formation_rows
 from fatigue.why.points import Points
 from fatigue.why.verdicts import EventVerdicts
 
@@ -29,6 +30,7 @@ def rows_of_tables(evidence: Evidence) -> dict[str, Iterator[dict[str, Any]]]:
         "track": (track_rows(block.points, block.events[e]) for e in events for block, _ in blocks),
         "diagnosis": (diagnosis_rows(block.points, judged[e]) for e in events for block, judged in blocks),
         "levers": iter([lever_rows(evidence)]),
+        **formation_rows(evidence.body.modes, attribution, evidence.formation),
     }
 
 

@@ -32,13 +32,15 @@ def test_no_false_alarm(tmp_path, name):
 @pytest.fixture(scope="module")
 def ordinary(tmp_path_factory):
     """Result with ordinary stress, about a static part as of the dead load, without hashes that would tell all."""
-    return without_hashes(result_of("static 1e3", tmp_path_factory.mktemp("ordinary")))
+    return without_hashes(result_of("static 1e3, by path moment", tmp_path_factory.mktemp("ordinary")))
 
 
 COLUMNS = {
     "nodes": [
         *("damage_per_km", "life_km", "life_years", "utilisation", "load_factor", "life_km_dirlik", "life_km_tb"),
         *("life_km_same_ratio", "dirlik_ratio", "max_range_MPa", "equivalent_range_2e6_MPa", "life_km_raw_end"),
+        *("path_factor_largest", "path_moment_largest", "multiaxial_bound", "utilisation_asme"),
+        *("utilisation_path_range", "utilisation_path_length", "utilisation_path_mlp"),
     ],
     "damage": [
         *(
@@ -50,6 +52,10 @@ COLUMNS = {
             "kurtosis",
         ),
         *("damage_same_ratio_per_pass", "peaks_per_s", "samples_per_peak", "max_equivalent_range_dS"),
+    ],
+    "path_cycles": [
+        *("range_MPa", "path_factor", "path_moment", "normal_range_MPa", "shear_range_MPa", "equivalent_range_dS"),
+        *("damage", "end_s"),
     ],
     "cycles": ["range_MPa", "membrane_range_MPa", "equivalent_range_dS", "damage"],
     "structural_stress": ["membrane_MPa", "bending_raw_MPa"],

@@ -88,6 +88,20 @@ def _two_samples(made: SmallCase) -> None:
     made.events[1].pop("start_s")
 
 
+def _multiaxial(text: str) -> Callable[[SmallCase], None]:
+    def change(made: SmallCase) -> None:
+        made.extra = f"[multiaxial]\n{text}\n"
+
+    return change
+
+
+def _cancelling_faces_in_shear(made: SmallCase) -> None:
+    """The bottom face has no stress normal to the weld, and shear."""
+    along = made.nodal_forces["fx_N"].copy()
+    _cancelling_faces(made)
+    made.nodal_forces["fx_N"] = along
+
+
 def _set(table: str, **values: object) -> Callable[[SmallCase], None]:
     def change(made: SmallCase) -> None:
         setattr(made, table, {**getattr(made, table), **values})
@@ -97,6 +111,7 @@ def _set(table: str, **values: object) -> Callable[[SmallCase], None]:
 
 _UP, _AUTO, _HALF = _set("counting", upsample=4), _set("counting", upsample="auto"), _set("counting", residue="half")
 _BENT = _set("curve", name="master-steel", extension="haibach", mean_stress="asme", yield_MPa=200.0)
+_MLP, _ASME = _multiaxial('method = "mlp"\nalpha = 1.0'), _multiaxial('method = "asme"')
 _CUT = _set("curve", name="master-steel", extension="cutoff")
 
 CASES: dict[str, SmallCase] = {
@@ -112,14 +127,19 @@ CASES: dict[str, SmallCase] = {
     "cancelling faces, cut-off": case(_cancelling_faces, _CUT),
     "cancelling faces, upsampled": case(_cancelling_faces, _UP),
     "cancelling faces, auto upsampled": case(_cancelling_faces, _AUTO),
+    "cancelling faces in shear": case(_cancelling_faces_in_shear),
+    "cancelling faces in shear, curve bends": case(_cancelling_faces_in_shear, _BENT, _MLP),
+    "cancelling faces in shear, by the ASME factor": case(_cancelling_faces_in_shear, _ASME),
     "cancelling modes": case(_cancelling_modes),
     "cancelling modes, upsampled half": case(_cancelling_modes, _UP, _HALF),
     "static 1e3": case(_of_record(_static(1e3))),
+    "static 1e3, by path moment": case(_of_record(_static(1e3)), _MLP),
     "static 1e6": case(_of_record(_static(1e6))),
     "static 1e9": case(_of_record(_static(1e9))),
     "static 1e12": case(_of_record(_static(1e12))),
     "static 1e12, curve bends": case(_of_record(_static(1e12)), _BENT),
     "static 1e12, upsampled": case(_of_record(_static(1e12)), _UP),
+    "static 1e12, by path moment": case(_of_record(_static(1e12)), _MLP),
     "static 1e15": case(_of_record(_static(1e15))),
     "static 1e12 of one event": case(_of_record(_static(1e12), "sine")),
     "single precision, static 1e6": case(_of_record(_static(1e6)), _of_record(_single_precision)),

@@ -9,7 +9,7 @@ from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
-from fatigue.cli.numbers import ABOVE_ZERO, FROM_ZERO
+from fatigue.cli.numbers import ABOVE_ZERO, DAMPING, FROM_ZERO
 from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 from fatigue.errors import DataError, refuse
@@ -101,6 +101,12 @@ def report(
     "--edges", default=None, metavar="HZ,HZ,...", help="Edges between frequency bands [Hz]; default: third octaves."
 )
 @click.option("--bin-km", type=ABOVE_ZERO, default=0.1, show_default=True, help="Length of a piece of track [km].")
+@click.option(
+    "--damping",
+    type=DAMPING,
+    metavar="RATIO",
+    help="Damping ratio of modes whose table has none, for instance 0.015; without it no half-power band is known.",
+)
 @no_lock
 @as_json
 @click.pass_obj
@@ -111,17 +117,20 @@ def diagnose(
     share_of_limit: float,
     edges: str | None,
     bin_km: float,
+    damping: float | None,
     no_lock: bool,
     as_json: bool,
 ) -> None:
     """Say what makes the damage of a result: event, mode, frequency band, piece of track; and what would help.
 
-    Writes attribution, track, diagnosis and levers tables into DIR and shows them in its report. Of a large result:
-    worst points of welds and points above --share-of-limit, of very many those with the shortest lives.
+    Says as well which modes swing, which follow their loads, and which resonance to watch where. Writes attribution,
+    track, diagnosis, levers, resonance, weld_resonance and watch tables into DIR and shows them in its report. Of a
+    large result: worst points of welds and points above --share-of-limit, of very many those with the shortest lives.
 
     \b
-    Example:
+    Examples:
       fatigue diagnose result
+      fatigue diagnose result --damping 0.015
     """
     edges_hz = None if edges is None else _hertz(edges, "--edges")
     refuse_missing_result(folder, case_file, no_lock=no_lock)
@@ -137,6 +146,7 @@ def diagnose(
             share_of_limit=share_of_limit,
             edges_hz=edges_hz,
             bin_km=bin_km,
+            damping=damping,
             no_lock=no_lock,
             progress=progress,
         )

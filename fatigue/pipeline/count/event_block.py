@@ -98,7 +98,7 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate, *, joi
 
 
 def factor_with_shear(stress: ModalStress, load: EventLoad, estimate: Estimate) -> NDArray[np.float64]:
-    """ASME factor (n, 2) on the equivalent range if shear counted; NaN where the normal stress is constant."""
+    """ASME factor (n, 2) on the equivalent range if shear counted; 1 where the normal stress is constant."""
     return _with_shear(stress.rule, estimate, *_variances(stress, load))
 
 
@@ -152,7 +152,6 @@ def _counted(
     """
     n, ends, matters, f = len(stress), stress.raw_ends, stress.raw_end_matters, load.stress_factor
     rows = ends.rows[matters]
-    with_shear = np.nan_to_num(with_shear, nan=1.0)  # no stress, no cycles
     membrane, bending = f * stress.membrane, f * stress.bending
     offset = face_offset(membrane, bending, load)
     block = BlockStress(membrane, bending, stress.size, one_ratio, with_shear, offset)
@@ -183,9 +182,12 @@ def _with_shear(
     covar: NDArray[np.float64],
     shear_bending_ratio: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """``shear_factor`` of both faces, each stress over its own ``I(r)^(1/m)``."""
+    """``shear_factor`` of both faces, each stress over its own ``I(r)^(1/m)``.
+
+    A stress whose variance vanishes has no cycles but those of rounding, and no factor: 1 stands for it.
+    """
     I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
-    return shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t))
+    return np.nan_to_num(shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)), nan=1.0)
 
 
 def _variances(stress: ModalStress, load: EventLoad) -> tuple[NDArray[np.float64], ...]:

@@ -43,6 +43,7 @@ def event_files(body: Body, event: Event) -> EventFiles:
         residue=case.residue(event),
         loads=load_sources(body, event),
         strict=body.strict,
+        beside=[channel.column for channel in event.channel if channel.is_in(event.history)],
     )
 
 

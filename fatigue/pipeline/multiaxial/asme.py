@@ -25,7 +25,7 @@ def asme_bound(toes: Toes, rows: NDArray[np.intp], loads: Sequence[EventLoad], p
     total = toes.transitions[rows].copy()
     for number, (load, weight) in enumerate(zip(loads, passes, strict=True)):
         estimate = _estimate(toes, rows, load)
-        factor = np.nan_to_num(factor_with_shear(stress, load, estimate), nan=1.0)  # no stress, no cycles
+        factor = factor_with_shear(stress, load, estimate)
         damage = toes.of_events[number, rows] * factor ** float(law.slopes.max())
         if law.cutoff > 0.0:
             damage = np.where(toes.largest[number, rows] * factor < law.cutoff, 0.0, np.inf)

@@ -57,14 +57,18 @@ def _length(path: Floats, beta: float) -> Floats:
 def ranges(weights: Floats, q: Samples, limit: Floats) -> Floats:
     """Range (k,) of k stresses, ``weights`` (k, m) [MPa per unit coordinate].
 
-    In single precision, but where that leaves in doubt whether a range is above its ``limit`` (k,).
+    In single precision, but where that leaves in doubt whether a range is above its ``limit`` (k,), or is too coarse
+    for a stress that is very small or very large.
     """
-    single = [
-        _ranges(weights[first : first + STRESSES_AT_ONCE], q, np.dtype(np.float32))
-        for first in range(0, len(weights), STRESSES_AT_ONCE)
-    ]
-    found = np.concatenate(single)
-    doubt = np.flatnonzero(np.abs(found - limit) <= IN_DOUBT * _reach(weights, q))
+    reach, lost = _reach(weights, q)
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # these are in doubt
+        single = [
+            _ranges(weights[first : first + STRESSES_AT_ONCE], q, np.dtype(np.float32))
+            for first in range(0, len(weights), STRESSES_AT_ONCE)
+        ]
+        found = np.concatenate(single)
+        is_clear = np.abs(found - limit) > IN_DOUBT * reach + 2.0 * lost  # of both ends
+    doubt = np.flatnonzero(~is_clear)
     if doubt.size:
         found[doubt] = _ranges(weights[doubt], q, np.dtype(np.float64))
     return found
@@ -79,9 +83,13 @@ def _ranges(weights: Floats, q: Samples, precision: np.dtype[np.floating]) -> Fl
     return np.asarray(high - low, dtype=np.float64)
 
 
-def _reach(weights: Floats, q: Samples) -> Floats:
-    """Largest sum of the sizes of all terms of each stress."""
+def _reach(weights: Floats, q: Samples) -> tuple[Floats, Floats]:
+    """Largest sum of the sizes of all terms of each stress (k,), and how far off it is in single precision."""
     largest = np.zeros(q.shape[0])
     for chunk in cached_chunks(q):
         largest = np.maximum(largest, np.abs(chunk).max(axis=1))
-    return np.asarray(np.abs(weights) @ largest)
+    size = np.abs(weights)
+    reach = size @ largest
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        single = size.astype(np.float32) @ largest.astype(np.float32)
+        return reach, np.nan_to_num(np.abs(single - reach), nan=np.inf)

@@ -43,12 +43,13 @@ def read_history(
     scratch: Path | None = None,
     loads: Sequence[str | None] = (),
     single: bool = True,
+    beside: Collection[str] = (),
 ) -> tuple[ModalHistory, list[Problem]]:
     """Read the whole record of one event, (c, t) in the order of ``modes``; float32 where the file has float32.
 
     The step is (last time - first time) / (samples - 1). The samples go to the file ``scratch``, if one is given.
     Behind the modes comes a row for each of ``loads``: a column of the file, or zeros for None. Not ``single``: in
-    double precision whatever the file has.
+    double precision whatever the file has. Columns ``beside`` these are known, and not read here.
 
     Raises
     ------
@@ -58,10 +59,10 @@ def read_history(
     """
     if is_long(path):
         try:
-            return _read_long(path, event, modes, ignore_modes, strict, scratch, loads, single)
+            return _read_long(path, event, modes, ignore_modes, strict, scratch, loads, single, beside)
         except Irregular:
             pass  # what is wrong is told below
-    table, names, grid = _open(path, modes, ignore_modes, strict, _given(loads))
+    table, names, grid = _open(path, modes, ignore_modes, strict, _given(loads), beside)
     kind, shape = _precision(table, names, single), (modes.size + len(loads), grid.samples)
     q: Samples = np.zeros(shape, dtype=kind) if scratch is None else create_spool(scratch, shape, kind)
     for i, name in zip(_rows(modes.size, loads), names, strict=True):
@@ -78,16 +79,17 @@ def check_history(
     strict: bool,
     outline: RecordOutline,
     loads: Sequence[str | None] = (),
+    beside: Collection[str] = (),
 ) -> tuple[TimeGrid, list[Problem]]:
     """Times of a record that is read, checked and not kept; raises what ``read_history`` raises.
 
-    ``outline`` takes in the samples, all of a mode or some of all modes at a time; ``loads`` are as there, and of those
-    that are None nothing is taken in.
+    ``outline`` takes in the samples, all of a mode or some of all modes at a time; ``loads`` and ``beside`` are as
+    there, and of loads that are None nothing is taken in.
     """
     rows = _rows(modes.size, loads)
     if is_long(path):
         try:
-            table, names = _long(path, modes, ignore_modes, strict, _given(loads))
+            table, names = _long(path, modes, ignore_modes, strict, _given(loads), beside)
             times = Times()
             for block in blocks(table, names, _precision(table, names)):
                 times.add(block.time)
@@ -96,7 +98,7 @@ def check_history(
             return TimeGrid(times.samples, times.step(STEP_TOLERANCE), times.first), table.warnings
         except Irregular:
             outline.forget()  # what is wrong is told below
-    table, names, grid = _open(path, modes, ignore_modes, strict, _given(loads))
+    table, names, grid = _open(path, modes, ignore_modes, strict, _given(loads), beside)
     for i, name in zip(rows, names, strict=True):
         outline.add(i, table.numbers(name), grid.step)
     table.refuse()
@@ -112,9 +114,10 @@ def _read_long(
     scratch: Path | None,
     loads: Sequence[str | None],
     single: bool,
+    beside: Collection[str],
 ) -> tuple[ModalHistory, list[Problem]]:
     """Read a long record block by block."""
-    table, names = _long(path, modes, ignore_modes, strict, _given(loads))
+    table, names = _long(path, modes, ignore_modes, strict, _given(loads), beside)
     kind, times = _precision(table, names, single), Times()
     rows, count = _rows(modes.size, loads), modes.size + len(loads)
     if scratch is None:
@@ -158,11 +161,16 @@ def _spread(q: NDArray[np.floating], rows: Sequence[int], count: int) -> NDArray
 
 
 def _long(
-    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool, loads: Sequence[str]
+    path: Path,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    strict: bool,
+    loads: Sequence[str],
+    beside: Collection[str],
 ) -> tuple[Table, list[str]]:
     """Open a long table and match its columns with the modes; what is not right is left to ``_open``."""
     table = long_table(path)
-    names = _columns(table, modes, ignore_modes, strict, loads)
+    names = _columns(table, modes, ignore_modes, strict, loads, beside)
     if table.problems:
         raise Irregular
     return table, names
@@ -174,11 +182,16 @@ def _precision(table: Table, names: Collection[str], single: bool = True) -> np.
 
 
 def _open(
-    path: Path, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool, loads: Sequence[str]
+    path: Path,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    strict: bool,
+    loads: Sequence[str],
+    beside: Collection[str],
 ) -> tuple[Table, list[str], TimeGrid]:
     """Open a table, match its columns with the modes, and check its times."""
     table = open_table(path)
-    names = _columns(table, modes, ignore_modes, strict, loads)
+    names = _columns(table, modes, ignore_modes, strict, loads, beside)
     table.refuse()
     time = table.numbers("time_s").astype(np.float64)
     table.refuse()
@@ -186,13 +199,18 @@ def _open(
 
 
 def _columns(
-    table: Table, modes: NDArray[np.int64], ignore_modes: Collection[int], strict: bool, loads: Sequence[str]
+    table: Table,
+    modes: NDArray[np.int64],
+    ignore_modes: Collection[int],
+    strict: bool,
+    loads: Sequence[str],
+    beside: Collection[str],
 ) -> list[str]:
     """Names of the columns of modes and unit loads; what is wrong with the head of the table is noted."""
     _check_statements(table)
     names = [*_mode_columns(table, modes, ignore_modes), *loads]
     ignored = [name for name in table.position if (_mode_of(name) in ignore_modes)]
-    table.expect(("time_s", *names), ignored, strict=strict)
+    table.expect(("time_s", *names), (*ignored, *beside), strict=strict)
     return names
 
 

@@ -165,7 +165,7 @@ def _recount(
             of_few = values_of(inputs, few, passes, mission)
             rounding = bounds_of(inputs, few, passes, mission, of_few)
             sheared = shear_of(inputs, body, few, passes, mission, of_few, rounding, shear)
-            of_few = decided_by_method(inputs, few, of_few, sheared, shear)
+            of_few, rounding = decided_by_method(inputs, few, of_few, rounding, sheared, shear)
             steps = _steps(inputs, few.values())
             found += _compared(few, stored, of_few, rounding, passes, mission, raw_life_enough, steps, sheared)
             values |= {body.key(point): of_few[point] for point in few}

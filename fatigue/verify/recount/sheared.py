@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import Values
 from fatigue.verify.recount.anew.rounding import Bounds
-from fatigue.verify.recount.anew.shear.columns import NO_SHEAR, AtPoint, decided, shear_bounds, shear_values
+from fatigue.verify.recount.anew.shear.columns import (
+    NO_SHEAR,
+    AtPoint,
+    decided,
+    decided_bounds,
+    shear_bounds,
+    shear_values,
+)
 from fatigue.verify.recount.counted import Passes, mean_stress_of, treated_point
 from fatigue.verify.recount.inputs.case import RecountInputs
 from fatigue.verify.recount.layout import Layout
@@ -68,8 +75,9 @@ def shear_of(
             stored_bound=float(shear.bound[point]),
             has_sums=bool(shear.counted[point]),
         )
-        own = shear_values(at, values[point], events[: len(of.extents)], inputs.case["mission"], shear.rules.beta)
-        rounding = shear_bounds(at, values[point], bounds[point], own)
+        common = events[: len(of.extents)], inputs.case["mission"], shear.rules.beta
+        own = shear_values(at, values[point], *common)
+        rounding = shear_bounds(at, values[point], bounds[point], own, *common)
         found[point] = Sheared(own, rounding, exact_bound=at.paths is not None, toe=True)
     return found
 
@@ -78,24 +86,28 @@ def decided_by_method(
     inputs: RecountInputs,
     stations: Mapping[int, Station],
     values: Mapping[int, Values],
+    bounds: Mapping[int, Bounds],
     sheared: Mapping[int, Sheared],
     shear: StoredShear | None,
-) -> dict[int, Values]:
+) -> tuple[dict[int, Values], dict[int, Bounds]]:
     """Columns of some points by the larger one of two sums, where the case names the method of the other one.
+
+    With them what rounding may do to them.
 
     Where the paths of a point were not counted again the sum in the table is believed.
     """
     if shear is None or shear.rules.method not in DECIDING:
-        return dict(values)
-    method, f_M = shear.rules.method, mean_stress_of(inputs).counts
+        return dict(values), dict(bounds)
+    method, f_M, mission = shear.rules.method, mean_stress_of(inputs).counts, inputs.case["mission"]
     name = f"utilisation_{method}" if method == "asme" else f"utilisation_path_{method}"
-    found = {}
-    for point, of in values.items():
+    found, rounding = dict(values), dict(bounds)
+    for point in (point for point in values if sheared[point].toe):
         own, curve = sheared[point], stations[point].weld.curve
         by_method = float(own.values.get(name, np.nan))
         if np.isnan(by_method):
             by_method = float(shear.by_method[point])
         scales = curve.is_straight and not f_M
-        is_toe = own.toe
-        found[point] = decided(of, by_method, inputs.case["mission"], curve, scales=scales) if is_toe else of
-    return found
+        found[point] = decided(values[point], by_method, mission, curve, scales=scales)
+        used = found[point]["utilisation"]
+        rounding[point] = decided_bounds(bounds[point], used, own.bounds[name], mission, curve)
+    return found, rounding

@@ -16,7 +16,7 @@ from fatigue.verify.recount.anew.curve import curve_named
 from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values, one_pass, point_of
 from fatigue.verify.recount.anew.record import read_record, spectrum_rules
-from fatigue.verify.recount.anew.shear.columns import AtPoint, ShearExtent, shear_extent, shear_values
+from fatigue.verify.recount.anew.shear.columns import AtPoint, ShearExtent, shear_bounds, shear_extent, shear_values
 from fatigue.verify.recount.anew.shear.passes import ShearPass, ShearRules, shear_pass
 from fatigue.verify.recount.anew.varied import RAW_END, SAMPLING, SHEAR, expected_variants, limited, varied_case
 from fatigue.verify.recount.counted import loop_names, mean_stress_of
@@ -223,17 +223,18 @@ def _utilisation(of: Asked, job: Job, events: Sequence[RecountEvent]) -> tuple[f
     mean_stress = mean_stress_of(job.inputs)
     normal = point_values(of.passes, raw, events, mission, curve, mean_stress)
     of_raw = [one.bounds["damage_per_pass"] for one in of.passes]
-    rounding = bounds_of_point(of.passes, of_raw, events, mission, curve, normal)["utilisation"]
+    rounding = bounds_of_point(of.passes, of_raw, events, mission, curve, normal)
     used = float(normal["utilisation"])
     if not of.method:
-        return used, rounding
+        return used, rounding["utilisation"]
     normal["damage_per_km_transitions"] = float(
         sum(event.passes_per_km * damage for event, damage in zip(events[n:], raw[n:], strict=True))
     )
     at = AtPoint(of.point, of.passes[:n], of.extents, of.paths or None, mean_stress, np.nan, has_sums=False)
     by_method = shear_values(at, normal, events[:n], mission, job.rules.beta)
+    own = shear_bounds(at, normal, rounding, by_method, events[:n], mission, job.rules.beta)
     name = "utilisation_asme" if of.method == "asme" else f"utilisation_path_{of.method}"
-    return float(np.fmax(used, by_method[name])), rounding
+    return float(np.fmax(used, by_method[name])), max(rounding["utilisation"], own[name])
 
 
 def _row(weld: Weld, found: Mapping[Place, tuple[float, float]]) -> Row:

@@ -193,3 +193,27 @@ def test_a_curve_flatter_than_one_has_no_bound():
     found = of_curve(toes, nowhere(toes), loads, plan, shear_of(loads), "welds")
     assert np.isinf(found["bound"]).all()
     assert not np.isnan(found["range"]).any()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_normal_stress_that_rounding_alone_moves_passes(law):
+    """Modes that cancel leave no variance and cycles of rounding: the ASME sum is a number, and the point settled."""
+    rng = np.random.default_rng(12)
+    loads, passes = drawn_loads(rng, modes=2)
+    for load in loads:  # the second mode is a third of the first one, and three times as strong against it
+        load.counted.q[1] = -3.0 * load.counted.q[0]
+    loads = [replace(load, covariance=np.cov(load.counted.q, bias=True)) for load in loads]
+    stress = drawn_stress(rng, CycleRule(LAWS[law], True), points=200, modes=2)
+    parts = ("membrane", "bending", "in_plane_shear", "twist_shear")
+    stress = replace(
+        stress, **{name: np.outer(getattr(stress, name)[:, 0], np.array([1.0, 1.0 / 3.0])) for name in parts}
+    )
+    plan, toes = counted_toes(stress, loads, passes, limit=1.0)
+    assert (toes.normal > 0.0).any() == (law != "cut-off")
+    found = of_curve(toes, nowhere(toes), loads, plan, shear_of(loads), "welds")
+    assert np.isfinite(found["asme"]).all()
+    assert {STATUSES[code] for code in found["status"].ravel()} == {"settled_passes"}
+    rows = np.arange(200)
+    assert np.isfinite(asme_counted(toes, rows, loads, plan, "welds")).all()
+    bound = asme_bound(toes, rows, loads, passes_at_target(plan))
+    assert not np.isnan(bound).any()

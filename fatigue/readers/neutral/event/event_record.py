@@ -15,7 +15,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.life.records.history import ModalHistory, Residue, first_kept, kept, upsampled
 from fatigue.life.records.unit_load import LoadRecord, LoadSource, UniformGrid
 from fatigue.readers.neutral.event.load_file import read_load
-from fatigue.readers.neutral.event.load_units import load_unit_problems
+from fatigue.readers.neutral.event.load_units import load_unit_problems, without_units_of
 from fatigue.readers.neutral.history import TimeGrid, check_history, coordinate_numbers, read_history
 from fatigue.readers.neutral.record_outline import RecordOutline
 
@@ -39,6 +39,7 @@ class EventFiles:
     residue : whether the record repeats
     loads : where each unit load comes from
     strict : whether unknown columns are refused
+    beside : other columns of the file that are known, and not read here
     """
 
     event: str
@@ -49,6 +50,7 @@ class EventFiles:
     residue: Residue
     loads: tuple[LoadSource, ...]
     strict: bool
+    beside: Collection[str] = ()
 
     @property
     def columns(self) -> list[str | None]:
@@ -125,6 +127,7 @@ def read_event(files: EventFiles, scratch: Path | None = None) -> EventRecord:
         scratch=scratch,
         loads=files.columns,
         single=single,
+        beside=files.beside,
     )
     history = kept(whole, files.start_s)
     duration = history.duration
@@ -153,8 +156,16 @@ def check_event(files: EventFiles, outline: RecordOutline) -> CheckedRecord:
         return CheckedRecord(TimeGrid(q.shape[1], STATIC_STEP, 0.0), 0, [])
     refuse(DataError, load_unit_problems(files.path, files.loads))
     grid, warnings = check_history(
-        files.path, files.modes, files.ignore_modes, strict=files.strict, outline=outline, loads=files.columns
+        files.path,
+        files.modes,
+        files.ignore_modes,
+        strict=files.strict,
+        outline=outline,
+        loads=files.columns,
+        beside=files.beside,
     )
+    if files.beside:
+        warnings = without_units_of(files.path, files.beside, warnings)
     skipped = min(first_kept(grid.step, files.start_s), grid.samples)
     base = UniformGrid(grid.start + skipped * grid.step, grid.step, grid.samples - skipped)
     own = [(row, *_own(files, load)) for row, load in _with_files(files)]

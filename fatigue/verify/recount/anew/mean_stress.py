@@ -23,6 +23,7 @@ class MeanStress:
         factor = np.ones(len(a))
         if self.yield_MPa is not None:
             tension = ((low + high) / 2 >= self.yield_MPa / 2) & (low > 0) & (high - low <= 2 * self.yield_MPa)
+            tension &= low < high  # where rounding takes the range of a cycle about a high mean there is none
             factor[tension] = (1 - low[tension] / high[tension]) ** (1 / 3.6)
         return factor
 

@@ -163,7 +163,7 @@ def point_bounds(
     blocks = float(weights @ of["power_sum"]) * target / 2e6
     root = max(1.0 / slope for slope in curve.slopes), min(1.0 / slope for slope in curve.slopes)
     least = min([*curve.knees, *([curve.cutoff] if curve.cutoff else [])], default=np.inf)
-    factor = max(_root_bound(values["utilisation"], used, power) for power in root)
+    factor = max(root_bound(values["utilisation"], used, power) for power in root)
     factor = max(factor, float(of["max_equivalent_range_dS"].max()) / least)
     return {
         "damage_per_km": damage,
@@ -175,7 +175,7 @@ def point_bounds(
         **lives,
         "dirlik_ratio": _times(_lost(max(of_ratio) * 2.0), values["dirlik_ratio"]),
         "max_range_MPa": float(of["max_range_MPa"].max()),
-        "equivalent_range_2e6_MPa": _root_bound(values["equivalent_range_2e6_MPa"] ** k, blocks, 1.0 / k),
+        "equivalent_range_2e6_MPa": root_bound(values["equivalent_range_2e6_MPa"] ** k, blocks, 1.0 / k),
         "mean_stress_MPa": of_governing("mean_stress_MPa"),
         "R_largest_cycle": float(of["R_largest"].max()),
         "damage_factor_if_mean_stress": _times(2.0 * relative, values["damage_factor_if_mean_stress"]),
@@ -265,7 +265,7 @@ def ratio_bound(candidates: Floats, used: float, noise: float) -> float:
     return float(np.abs(candidates - used).max(initial=0.0) + 4.0 * noise * max(1.0, used**2))
 
 
-def _root_bound(value: float, bound: float, power: float) -> float:
+def root_bound(value: float, bound: float, power: float) -> float:
     """Bound on the power below 1 of a value that has a bound."""
     return float(max((value + bound) ** power - value**power, value**power - max(value - bound, 0.0) ** power))
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
-from fatigue.results import case_of, new_inputs
+from fatigue.results import case_of, is_assessed_case, new_inputs
 from fatigue.verify.recount.inputs.register import WeldEntries, weld_entries
 from fatigue.verify.recount.inputs.tables import read_frame
 
@@ -78,7 +78,7 @@ def _changes(record: Mapping[str, Any], case_file: Path) -> Iterator[Problem]:
             yield Problem(
                 "missing_input", str(path), "this input of the result is missing", "Put the file back, or assess again"
             )
-        elif sha256(path) != known["sha256"]:
+        elif sha256(path) != known["sha256"] and not (path == case_file and is_assessed_case(record, path)):
             what = "is not the file the result was computed from (its SHA-256 differs from the one in provenance.json)"
             case = ", or name the case as it was with --case" if path == case_file else ""
             yield Problem("changed_input", str(path), what, f"Assess again, or put the old file back{case}")

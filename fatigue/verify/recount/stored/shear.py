@@ -145,4 +145,5 @@ def half_cycle_row(key: Key, event: RecountEvent, path: ShearPass, one: OnePass,
             expected[name], stored[name] = float(a[worst]), float(b[worst])
             scale[name] = 1.0 if name in RATIOS else float(np.abs(a).max())
     bounds = dict.fromkeys(("start_s", "end_s"), one.cycle_bounds["instant"])
+    bounds |= dict.fromkeys(("normal_range_MPa", "shear_range_MPa"), 2.0 * one.cycle_bounds["delta"])
     return Row(f"{place(key)}, event '{event.name}'", stored, expected, scale, bounds=bounds)

@@ -1,8 +1,8 @@
 """Columns of shear at a toe point: the passes of all events weighted with the mission, and what they amount to."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 
@@ -11,9 +11,13 @@ from fatigue.verify.recount.anew.mean_stress import MeanStress
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values
 from fatigue.verify.recount.anew.record import RecountRecord
-from fatigue.verify.recount.anew.shear.passes import ShearPass
+from fatigue.verify.recount.anew.rounding import Bounds, root_bound
+from fatigue.verify.recount.anew.shear.passes import ShearPass, path_rounding
+from fatigue.verify.recount.anew.shear.rounding import spread_of_largest
 
 PATHS = ("range", "length", "mlp")
+SUMS = tuple(f"utilisation_path_{one}" for one in PATHS)
+DECIDING = ("multiaxial_bound", "utilisation_asme", *SUMS)  # about status and verdict
 NO_SHEAR: Values = {
     "shear_required": None,
     "multiaxial_status": "",
@@ -28,11 +32,21 @@ CLOSE = 1e-6  # to a limit: rounding decides on which side
 
 @dataclass(frozen=True, slots=True)
 class ShearExtent:
-    """One pass at a point: range of the normal stress and of the shear [MPa], and the length of their path [MPa]."""
+    """One pass at a point: range of the normal stress and of the shear [MPa], and the length of their path [MPa].
+
+    ``rounding`` is how far a point of the path may be from where it is [MPa], ``steps`` how many there are.
+    """
 
     normal: float
     shear: float
     length: float
+    rounding: float
+    steps: int
+
+    def grown(self) -> Self:
+        """The largest that rounding may make of it."""
+        by = 2.0 * self.rounding
+        return replace(self, normal=self.normal + by, shear=self.shear + by, length=self.length + self.steps * by)
 
 
 def shear_extent(point: RecountPoint, record: RecountRecord, beta: float) -> ShearExtent:
@@ -42,20 +56,21 @@ def shear_extent(point: RecountPoint, record: RecountRecord, beta: float) -> She
         for parts in (point.membrane + point.bending, point.in_plane + point.twist)
     )
     steps = [np.diff(np.append(x, x[0]) if record.recurs else x) for x in (s, tau)]
-    return ShearExtent(float(np.ptp(s)), float(np.ptp(tau)), float(np.sqrt(steps[0] ** 2 + beta * steps[1] ** 2).sum()))
+    length = float(np.sqrt(steps[0] ** 2 + beta * steps[1] ** 2).sum())
+    return ShearExtent(float(np.ptp(s)), float(np.ptp(tau)), length, path_rounding(point, record, beta), len(steps[0]))
 
 
 def path_bound(extent: ShearExtent, curve: RecountCurve, size: float, beta: float) -> float:
     """Damage of a pass that half cycles by range cannot exceed: all of its length in cycles of the largest range.
 
-    Infinite on slopes below 1, where nothing is proven.
+    Damage and largest range are raised by ``ROUNDING``. Infinite on slopes below 1, where nothing is proven.
     """
     if min(curve.slopes) < 1.0:
         return np.inf
     c = size / float(curve.bending_factor(np.zeros(1))[0])
-    largest = c * float(np.hypot(extent.normal, np.sqrt(beta) * extent.shear))
+    largest = (1.0 + ROUNDING) * c * float(np.hypot(extent.normal, np.sqrt(beta) * extent.shear))
     damage = float(curve.damage(np.array([largest]))[0])
-    return float(0.5 * c * extent.length * damage / largest) if largest > 0.0 else 0.0
+    return float(0.5 * (1.0 + ROUNDING) * c * extent.length * damage / largest) if largest > 0.0 else 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,20 +150,66 @@ def _may_need_mean_stress(of: AtPoint) -> bool:
     return bool(2.0 * highest * (1.0 + ROUNDING) >= of.mean_stress.yield_MPa)
 
 
-def shear_bounds(of: AtPoint, normal: Values, normal_bounds: Mapping[str, float], values: Values) -> dict[str, float]:
+def shear_bounds(
+    of: AtPoint,
+    normal: Values,
+    normal_bounds: Mapping[str, float],
+    values: Values,
+    events: Sequence[RecountEvent],
+    mission: Mapping[str, Any],
+    beta: float,
+) -> dict[str, float]:
     """What rounding may do to the columns of shear: what is close to a limit, or nothing but rounding, says nothing."""
-    names = ("multiaxial_bound", "utilisation_asme", *(f"utilisation_path_{one}" for one in PATHS))
-    sums = [normal["utilisation"], of.stored_bound, *(values[name] for name in names)]
-    is_close = any(abs(value - 1.0) <= CLOSE for value in sums if np.isfinite(value))
+    weights = mission["target_km"] / of.point.curve.limit(mission) * np.array([one.passes_per_km for one in events])
+    of_normal = normal_bounds["utilisation"]
+
+    def summed(of_events: Sequence[float]) -> float:
+        with np.errstate(invalid="ignore"):
+            return of_normal + float(np.nansum(weights * np.array(of_events)))
+
+    curve, size = of.point.curve, of.point.size
+    of_bound = [path_bound(one.grown(), curve, size, beta) - path_bound(one, curve, size, beta) for one in of.extents]
+    bounds = {
+        "multiaxial_bound": summed(of_bound) if np.isfinite(values["multiaxial_bound"]) else of_normal,
+        "utilisation_asme": summed([one.bounds["with_shear"] for one in of.passes]),
+        **_path_bounds(of.paths or (), values, summed),
+    }
+    stands_still = values["multiaxial_bound"] <= bounds["multiaxial_bound"]  # rounding is not close to a limit
+    sums = [(normal["utilisation"], of_normal), (of.stored_bound, 0.0)]
+    sums += [(values[name], 0.0 if stands_still else bounds[name]) for name in DECIDING]
+    is_close = any(abs(value - 1.0) <= max(CLOSE, bound) for value, bound in sums if np.isfinite(value))
     is_open = of.paths is None and of.has_sums and values["multiaxial_status"] in ("fails", "counted")
-    unsure = np.inf if is_close or is_open else 0.0
+    is_settled = normal["utilisation"] - of_normal > 1.0 + CLOSE  # by normal stress, whatever else
+    unsure = np.inf if (is_close or is_open) and not is_settled else 0.0
     of_shear = abs(max(extent.shear for extent in of.extents) * 3.0 / (normal["max_range_MPa"] or 1.0) - 1.0)
     return {
-        **dict.fromkeys(names, normal_bounds["utilisation"]),
+        **bounds,
         "shear_required": np.inf if of_shear <= CLOSE or normal_bounds["shear_ratio"] == np.inf else 0.0,
         "multiaxial_status": unsure,
         "multiaxial_verdict": unsure,
     }
+
+
+def _path_bounds(
+    paths: Sequence[ShearPass], values: Values, summed: Callable[[Sequence[float]], float]
+) -> dict[str, float]:
+    """What rounding may do to what is said of the paths of all events, nothing where they were not counted."""
+    bounds = {
+        name: summed([one.bounds[key] for one in paths]) if paths else 0.0
+        for name, key in zip(SUMS, ("by_range", "by_length", "by_moment"), strict=True)
+    }
+    ranges = np.array([one.range for one in paths])
+    rho = max((one.bounds["range"] for one in paths), default=0.0)
+    for name in ("factor", "moment"):
+        of_largest = np.inf if rho > 0.0 else 0.0
+        if ranges.max(initial=0.0) > 0.0:
+            of_each, own = (
+                np.array(each) for each in ([getattr(one, name) for one in paths], [one.bounds[name] for one in paths])
+            )
+            value, pairs = values[f"path_{name}_largest"], np.arange(len(ranges))
+            of_largest = spread_of_largest(value, of_each, own, ranges, pairs, rho)
+        bounds[f"path_{name}_largest"] = of_largest
+    return bounds
 
 
 def decided(
@@ -169,6 +230,26 @@ def decided(
     if scales:
         load_factor = used ** (-1.0 / curve.slopes[0]) if used > 0.0 else np.inf
     return values | changed | {"utilisation": used, "fulfilled": used <= 1.0, "load_factor": load_factor}
+
+
+def decided_bounds(
+    bounds: Bounds, used: float, by_method: float, mission: Mapping[str, Any], curve: RecountCurve
+) -> Bounds:
+    """What rounding may do to the columns of a toe point of the utilisation ``used`` that the larger sum decides.
+
+    ``bounds`` are those by normal stress, ``by_method`` that of the sum by the method that the case names.
+    """
+    of_used = max(bounds["utilisation"], by_method)
+    of_life = of_used / mission["target_km"]
+    root = root_bound(used, of_used, 1.0 / curve.slopes[0]) if np.isfinite(of_used) else np.inf
+    return bounds | {
+        "utilisation": of_used,
+        "damage_per_km": of_life * curve.limit(mission),
+        "life_km": of_life,
+        "life_years": of_life * mission["km_per_year"],
+        "fulfilled": np.inf if abs(used - 1.0) <= of_used else 0.0,
+        "load_factor": max(bounds["load_factor"], root),
+    }
 
 
 def _status(normal: float, bound: float, asme: float, top: float) -> str:

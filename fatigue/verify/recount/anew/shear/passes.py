@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 from fatigue.verify.recount.anew.mean_stress import MeanStress
 from fatigue.verify.recount.anew.point import RecountPoint
 from fatigue.verify.recount.anew.record import RecountRecord
+from fatigue.verify.recount.anew.rounding import Bounds, equivalent_bound, stress_bound
 from fatigue.verify.recount.anew.shear.path import HalfCycles, half_cycles
+from fatigue.verify.recount.anew.shear.rounding import bound_of_largest, sums_bounds
 
 Floats = NDArray[np.float64]
 
@@ -34,6 +36,7 @@ class ShearPass:
     top_pair : damage of the most distant pair alone: one cycle of what recurs, else half a cycle
     range : of the largest half cycle [MPa], and its ``factor`` and ``moment``; of equal ones the largest
     rows : the half cycles by the columns of their table
+    bounds : what rounding may do to the numbers, by their names
     """
 
     by_range: float
@@ -44,6 +47,7 @@ class ShearPass:
     factor: float
     moment: float
     rows: dict[str, Floats]
+    bounds: Bounds
 
 
 def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, mean_stress: MeanStress) -> ShearPass:
@@ -51,7 +55,8 @@ def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, me
     curve = point.curve
     parts = record.factor * np.stack([point.membrane, point.bending, point.in_plane, point.twist]) @ record.counted
     s, tau = parts[0] + parts[1], parts[2] + parts[3]
-    path = half_cycles(np.stack([s, np.sqrt(rules.beta) * tau], axis=1), recurs=record.recurs)
+    e = path_rounding(point, record, rules.beta)
+    path = half_cycles(np.stack([s, np.sqrt(rules.beta) * tau], axis=1), recurs=record.recurs, rounding=e)
     a, b = (_at(parts, t) for t in (path.start, path.end))
     d = b - a
     normal, shear = np.abs(d[0] + d[1]), np.abs(d[2] + d[3])
@@ -67,14 +72,25 @@ def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, me
     p, g = np.maximum(path.length / path.range, 1.0), path.moment
     damage = curve.damage(x)
     top = path.range >= EQUAL * path.range.max(initial=0.0)
+    rho, level_bound = 2.0 * e, stress_bound(point.largest, np.abs(record.offset), record.factor)
+    highest = float(np.maximum(*ends).max(initial=0.0)) if mean_stress.counts else 0.0
+    d_x = equivalent_bound(point.size, rho, rho + 2.0 * level_bound, highest)
+    factor, moment = float(p[top].max(initial=0.0)), float(g[top].max(initial=0.0))
+    bounds = {
+        "range": rho,
+        "factor": bound_of_largest(factor, p, (path.length_bound + rho * p) / path.range, path, rho),
+        "moment": bound_of_largest(moment, g, path.moment_bound, path, rho),
+        **sums_bounds(path, x, d_x, rho, len(s), rules.alpha, curve),
+    }
     return ShearPass(
         by_range=float(damage.sum()) / 2.0,
         by_length=float(curve.damage(p * x).sum()) / 2.0,
         by_moment=np.nan if rules.alpha is None else float(curve.damage((1.0 + rules.alpha * g) * x).sum()) / 2.0,
         top_pair=float(damage[top].max(initial=0.0)) * (1.0 if record.recurs else 0.5),
         range=float(path.range.max(initial=0.0)),
-        factor=float(p[top].max(initial=0.0)),
-        moment=float(g[top].max(initial=0.0)),
+        factor=factor,
+        moment=moment,
+        bounds=bounds,
         rows=_rows(path, record)
         | {
             "path_factor": p,
@@ -86,6 +102,11 @@ def shear_pass(point: RecountPoint, record: RecountRecord, rules: ShearRules, me
             "damage": damage / 2.0,
         },
     )
+
+
+def path_rounding(point: RecountPoint, record: RecountRecord, beta: float) -> float:
+    """How far a point of the path may be from where it is, in the plane of normal stress and weighted shear [MPa]."""
+    return float(np.sqrt(1.0 + beta)) * stress_bound(point.largest, record.peak, record.factor)
 
 
 def _rows(path: HalfCycles, record: RecountRecord) -> dict[str, Floats]:

@@ -1,0 +1,1 @@
+"""What the basis gives to the points where forces enter the body: local flexibility and interface modes."""

@@ -1,0 +1,37 @@
+"""The band of frequencies that a record leaves of the one that is asked for, and how bands and reasons are written."""
+
+from collections.abc import Iterable
+
+from fatigue.ride.channel import ChannelRecord
+
+
+def heard(band: tuple[float, ...], record: ChannelRecord) -> tuple[tuple[float, float] | None, str]:
+    """Band [Hz] up to half the sampling rate, None if nothing is left of it; and what is to be said about it."""
+    low, high = band
+    half = 0.5 / record.step
+    if high <= half * (1 + 1e-9):
+        return (low, high), ""
+    said = f"sampled at {1 / record.step:g} Hz: nothing is known above {half:g} Hz"
+    return ((low, half) if low < half else None), said
+
+
+def written(band: tuple[float, ...] | None) -> str:
+    """Band as a text, as in ``0.5-40``; empty for none."""
+    return "" if band is None else f"{band[0]:.4g}-{band[1]:.4g}"
+
+
+def joined(reasons: Iterable[str]) -> str:
+    """Reasons in one text; empty ones are left out."""
+    return "; ".join(reason for reason in reasons if reason)
+
+
+def too_short(record: ChannelRecord, low: float) -> str:
+    """Why a record tells nothing of a band from ``low`` [Hz] on: it has no period of it; empty: it has."""
+    if record.duration * low >= 1 - 1e-9:
+        return ""
+    return f"the record of {record.duration:.4g} s is shorter than a period of {low:g} Hz"
+
+
+def no_acceleration(record: ChannelRecord) -> str:
+    """Why limits and indices of accelerations mean nothing to a channel; empty: they do."""
+    return "" if record.is_acceleration else "its unit is '-': it is no acceleration"
