@@ -143,6 +143,7 @@ def shift(
                 table.write(_rows(points, moving, setting, of_setting, lives, life[every.index(moving.setting)]))
         said = {
             "method": SCREENING,
+            "limits": LIMITS,
             "mode": moving.mode,
             "frequency_hz": moving.setting.frequency_hz,
             "damping_ratio": moving.setting.damping,
