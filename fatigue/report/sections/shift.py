@@ -16,10 +16,10 @@ _COLUMNS = ["weld", "frequency_hz", "damping_ratio", "life_km", "is_as_assessed"
 
 
 def shift_study(folder: Path, result: ShownResult, figs: Figures) -> dict[str, Any]:
-    """Figure and words of a shift study; nothing where there is none."""
+    """Figure and words of a shift study; None where there is none."""
     said = result.record.get("shift_study")
     if not said or not (folder / "shift.parquet").is_file():
-        return {}
+        return {"shift": None}
     table = read_table(folder, "shift", _COLUMNS).to_pandas()
     table = table[table["is_worst_of_weld"]]
     lives = table.groupby("weld", sort=False)["life_km"].agg(["min", "max"])
