@@ -73,11 +73,29 @@ def test_band_and_rule_of_thumb(tmp_path):
     row = sums(found(case, band_hz=float(f[0])))["x"]
     assert row.mass_in_band == pytest.approx(first, rel=1e-12)
     assert row.share_in_band == pytest.approx(first / TOTAL, rel=1e-12)
-    assert row.enough is False
+    assert row.enough is True  # 73 % of the body are 91 % of what is not on the boundary
     said = " ".join(found(case, band_hz=float(f[0]))["mass_sum"].said)
     assert "rule of thumb" in said
+    case.write_text(case.read_text(encoding="utf-8").replace(f"boundary_mass_t = {HELD}\n", ""), encoding="utf-8")
+    row = sums(found(case, band_hz=float(f[0])))["x"]
+    assert np.isnan(row.boundary_mass)
+    assert (row.enough, row.share_in_band) == (False, pytest.approx(first / TOTAL, rel=1e-12))
     assert "recalled" in said
     assert f"mode 1 ({f[0]:.4g} Hz)" in said
+
+
+def test_a_body_that_is_all_boundary(tmp_path):
+    """A direction in which everything is on the boundary is no lack of the modes: nothing is said to be short."""
+    case = by_matrix(tmp_path).write(tmp_path)
+    rows = pd.read_csv(tmp_path / "mass_rows.csv")
+    rows.loc[rows["direction"] == "y", "held"] = True
+    rows.to_csv(tmp_path / "mass_rows.csv", index=False)
+    findings = found(case)
+    row = sums(findings)["y"]
+    assert (row.enough, row.reason) == (None, "all of it is on the boundary")
+    assert row.boundary_mass == pytest.approx(TOTAL, rel=1e-12)
+    assert row.missing_share == pytest.approx(0.0, abs=1e-12)
+    assert not warnings_of(case)
 
 
 def test_normalisation_does_not_count(tmp_path):
