@@ -9,11 +9,11 @@ from typing import Any
 from fatigue.errors import Problem
 from fatigue.ride.alarm import AlarmRow
 from fatigue.ride.coincidence import CoincidenceRow
-from fatigue.ride.comfort import ComfortRow
-from fatigue.ride.equipment import EquipmentRow
 from fatigue.ride.flutter import FlutterRow
 from fatigue.ride.hot_damage import HotDamageRow
-from fatigue.ride.running import RunningRow
+from fatigue.ride.standards.comfort import ComfortRow
+from fatigue.ride.standards.equipment import EquipmentRow
+from fatigue.ride.standards.running import RunningRow
 from fatigue.ride.tables import Rows, column_values
 from fatigue.shown import few, shortened, visible
 

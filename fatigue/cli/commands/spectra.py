@@ -1,19 +1,16 @@
 """The command that takes a result folder and lists the load spectra of its points."""
 
-import logging
 from pathlib import Path
 
 import click
 
+from fatigue.cli.again import write_again
 from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
 from fatigue.cli.early import missing_tables, refuse_all, refuse_missing_result
-from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
-
-log = logging.getLogger(__name__)
 
 FILE = click.Path(path_type=Path)
 WORST = "worst"
@@ -70,8 +67,7 @@ def spectra(
     listed = None if points == WORST else Path(points)
     refuse_missing_result(folder, case_file, no_lock=no_lock)
     refuse_all(missing_tables(listed, edges, compare))
-    from fatigue.documents import CSV, write_documents
-    from fatigue.results import LOAD_SPECTRA, PAGE, is_derived, read_provenance
+    from fatigue.results import LOAD_SPECTRA
     from fatigue.results.outputs import damage_told
     from fatigue.spectra import spectra as run
 
@@ -89,17 +85,7 @@ def spectra(
             no_lock=no_lock,
             progress=progress,
         )
-        record = read_provenance(folder)
-        again = [PAGE] if is_derived(folder, PAGE, record) else []
-        if not again and (folder / PAGE).exists():
-            log.warning("%s was not written by fatigue, or was changed since: it stays as it is", folder / PAGE)
-        old = [f"{table}.csv" for table in LOAD_SPECTRA if (folder / f"{table}.csv").exists()]
-        if old and all(is_derived(folder, name, record) for name in CSV if (folder / name).exists()):
-            again += CSV
-        elif old:
-            log.warning("%s holds the spectra before: some CSV file was changed by hand, none is replaced", folder)
-        if again:
-            write_documents(folder, again, case_file=case_file, verification=known_values, force=True, no_lock=no_lock)
+        write_again(folder, LOAD_SPECTRA, case_file=case_file, no_lock=no_lock)
     if as_json:
         print_json(found.as_record())
     else:
