@@ -12,6 +12,7 @@ from fatigue.report.figures.overview import damage_by_event, shares, weld_lives,
 from fatigue.report.figures.records import stress_history, stress_spectrum
 from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.shear import shear_path
+from fatigue.report.figures.shift import life_against_setting
 from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
 from fatigue.report.figures.why import bands_of_welds, damage_by_band, damage_on_track
 
@@ -30,6 +31,7 @@ __all__ = [
     "drawn_points",
     "event_colours",
     "exceedance",
+    "life_against_setting",
     "line_rows",
     "projections",
     "rainflow_matrices",
