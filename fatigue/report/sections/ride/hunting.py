@@ -21,10 +21,9 @@ MOST_ROWS = 100
 
 def hunting_table(ride: ShownRide, links: Mapping[str, str]) -> PageTable:
     """Every channel: its hot stretches, their frequency, and the weld that the event damages most."""
-    stationary = {(row.event, row.channel): row for row in ride.tables["stationarity"].itertuples()}
     rows = []
     for of in ride.channels[:MOST_ROWS]:
-        worst, about = of.worst, stationary.get((of.event, of.channel))
+        worst = of.worst
         rows.append(
             (
                 text(of.event),
@@ -42,8 +41,7 @@ def hunting_table(ride: ShownRide, links: Mapping[str, str]) -> PageTable:
                         num(worst["intensity"]),
                     )
                 ),
-                text(None if about is None else about.assumptions),
-                text(_notes(of, about)),
+                text(of.reason),
             )
         )
     headings = (
@@ -56,16 +54,9 @@ def hunting_table(ride: ShownRide, links: Mapping[str, str]) -> PageTable:
         Heading("damage there", "1/km"),
         Heading("of it in hot stretches", "%"),
         Heading("times as dense as outside", "-"),
-        Heading("assumptions of the frequency domain", numeric=False),
         Heading("note", numeric=False),
     )
     return PageTable("ride-hunting", headings, tuple(rows))
-
-
-def _notes(of: HeardChannel, about: object) -> str:
-    """What the stretches of a channel are to be read with, and why it is not stationary."""
-    reason = getattr(about, "reason", None)
-    return "; ".join(filter(None, [of.reason, reason if isinstance(reason, str) else ""]))
 
 
 def track_figures(ride: ShownRide, figs: Figures) -> tuple[list[Shown], str]:
