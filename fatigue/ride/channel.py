@@ -21,6 +21,7 @@ class ChannelRecord:
     step : time step [s]
     start : file time of the first sample on the clock of the event's history [s]
     km_per_s : distance per time [km/s]; NaN of an event counted by number
+    ahead_s : time from the first kept sample of the event to its first sample [s]
     place : the place that channels of several directions share; None: as its name says
     """
 
@@ -34,11 +35,16 @@ class ChannelRecord:
     start: float
     km_per_s: float
     place: str | None = None
+    ahead_s: float = 0.0
 
     @property
     def duration(self) -> float:
         """Duration [s]: samples times step."""
         return self.values.size * self.step
+
+    def km(self, seconds: float) -> float:
+        """Distance from the first kept sample of the event to so many seconds behind the first sample [km]."""
+        return (self.ahead_s + seconds) * self.km_per_s
 
     @property
     def position(self) -> str:

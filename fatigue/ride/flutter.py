@@ -59,10 +59,11 @@ class Tracked:
 
     @property
     def hunting_hz(self) -> float:
-        """Dominant frequency of the hot slices, their median, or of the whole event where none is hot [Hz]."""
+        """Dominant frequency [Hz]: median of the hot slices or, where none is hot, of all; NaN where all is still."""
         if self.track is None:
             return NAN
-        return float(np.median(self.track.frequency[self.hot])) if self.hot.any() else self.track.dominant
+        counts = self.hot if self.hot.any() else self.track.rms > 0
+        return float(np.median(self.track.frequency[counts])) if counts.any() else NAN
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,8 +130,8 @@ def flutter_rows(of: Tracked) -> list[FlutterRow]:
         FlutterRow(
             event=record.event,
             channel=record.name,
-            start_km=part.start_s * record.km_per_s,
-            end_km=part.end_s * record.km_per_s,
+            start_km=record.km(part.start_s),
+            end_km=record.km(part.end_s),
             start_s=record.start + part.start_s,
             end_s=record.start + part.end_s,
             frequency_hz=part.frequency,
@@ -154,7 +155,7 @@ def flutter_track_rows(of: Tracked) -> list[FlutterTrackRow]:
             event=record.event,
             channel=record.name,
             time_s=record.start + time,
-            km=time * record.km_per_s,
+            km=record.km(time),
             frequency_hz=frequency,
             share=share,
             rms=rms,
@@ -176,7 +177,7 @@ def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
     """What the stretches of a channel are to be read with; None where nothing is in doubt."""
     low, high = ride.hunting_band_hz
     said = []
-    if np.isnan(found.dominant):
+    if np.isnan(of.hunting_hz):
         return f"nothing vibrates between {low:g} and {high:g} Hz"
     remedy = f'give its rms of a sound event: reference_rms = {{ "{of.record.name}" = ... }} in [ride]'
     dominated = float(np.mean(found.share > ride.hot_share))

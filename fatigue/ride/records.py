@@ -74,7 +74,7 @@ def channel_records(case: Case) -> tuple[list[ChannelRecord], list[Problem]]:
             except FatigueError as error:
                 problems += error.problems
     refuse(DataError, problems)
-    return read, [*_short(case, read), *_still(case, read), *_modal(case)]
+    return read, [*_short_warnings(case, read), *_still_warnings(case, read), *_modal_warnings(case)]
 
 
 def missing_channel_files(case: Case) -> Iterator[Problem]:
@@ -107,7 +107,8 @@ def _record(case: Case, event: Event, channel: Channel, kept: Kept, where: str) 
             f"in the kept part of the event, which lasts from {kept.start:.9g} to {kept.start + kept.duration:.9g} s"
         )
         remedy = "Correct shift_s or start_s, or give a longer record"
-        raise DataError(Problem("short_channel", where, what, remedy))
+        raise DataError(Problem("no_overlap", where, what, remedy))
+    start = samples.grid.start + channel.shift_s + part.start * samples.grid.step
     return ChannelRecord(
         event=event.name,
         name=channel.name,
@@ -116,9 +117,10 @@ def _record(case: Case, event: Event, channel: Channel, kept: Kept, where: str) 
         is_acceleration=channel.is_acceleration,
         values=channel.factor * samples.values[part],
         step=samples.grid.step,
-        start=samples.grid.start + channel.shift_s + part.start * samples.grid.step,
+        start=start,
         km_per_s=kept.km_per_s,
         place=channel.place,
+        ahead_s=start - kept.start,
     )
 
 
@@ -133,7 +135,7 @@ def within(grid: UniformGrid, shift_s: float, kept: Kept) -> slice:
     return slice(first, max(first, last))
 
 
-def _short(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
+def _short_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
     """Warning about channels that leave out some of the kept part of their event."""
     lasts = {kept.event: kept.duration for kept in kept_parts(case)}
     short = [(one.duration / lasts[one.event], one) for one in records if one.duration < LEAST_COVER * lasts[one.event]]
@@ -149,7 +151,7 @@ def _short(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
     yield Problem("short_channel", f"{case.path.name}: channel '{worst.name}'", what, remedy, len(short))
 
 
-def _still(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
+def _still_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
     """Warning about channels that do not vary."""
     still = [one for one in records if float(np.ptp(one.values)) == 0.0]
     if still:
@@ -159,7 +161,7 @@ def _still(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
         yield Problem("still_channel", f"{case.path.name}: channel '{still[0].name}'", what, remedy, len(still))
 
 
-def _modal(case: Case) -> Iterator[Problem]:
+def _modal_warnings(case: Case) -> Iterator[Problem]:
     """Warning about modal coordinates that are said to be accelerations."""
     found = [
         (event, channel)

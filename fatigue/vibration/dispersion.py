@@ -89,7 +89,7 @@ def dispersion(values: NDArray[np.float64], step: float) -> Dispersion | None:
         squared_cov = min(squared_cov, _squared_cov_of_oscillator(narrowest * size * step))
     ratio = float(np.var(mean_square, ddof=1)) / (squared_cov * variance**2)
     freedom = (segments - 1) / (1 + 3 * squared_cov * (segments - 1) / segments)
-    return Dispersion(ratio, float(stats.chi2.sf(freedom * ratio, freedom)), segments, size * step, bandwidth)
+    return Dispersion(ratio, float(stats.chi2.sf(freedom * ratio, freedom)), segments, size * step, float(bandwidth))
 
 
 def peakedness(values: NDArray[np.float64]) -> Peakedness | None:

@@ -38,7 +38,6 @@ class Track:
     frequency : of the largest density in the band [Hz]
     share : power within 0.5 Hz of it over the power in the band
     rms : in the band [unit of the record]
-    dominant : frequency of the largest mean density of all slices [Hz]; NaN where nothing vibrates
     duration : of the record [s]
     """
 
@@ -46,7 +45,6 @@ class Track:
     frequency: NDArray[np.float64]
     share: NDArray[np.float64]
     rms: NDArray[np.float64]
-    dominant: float
     duration: float
 
     @property
@@ -113,17 +111,14 @@ def track(values: NDArray[np.float64], step: float, band_hz: tuple[float, float]
     f = np.fft.rfftfreq(PADDING * size, step).astype(np.float64)
     starts = np.rint(np.arange(int((slow.size - size) * step / HOP_S + 1e-9) + 1) * HOP_S / step).astype(np.int64)
     windows = np.lib.stride_tricks.sliding_window_view(slow, size)
-    found, total = [], np.zeros(f.size)
+    found = []
     for chunk in np.split(starts, range(SLICES_AT_ONCE, starts.size, SLICES_AT_ONCE)):
         transform = np.abs(np.fft.rfft(window * levelled(windows[chunk]), PADDING * size))
-        density = transform**2 * (2 * step / np.sum(window**2))
-        found.append(_ridge(f, density, band_hz))
-        total += np.sum(density, axis=0)
+        found.append(_ridge(f, transform**2 * (2 * step / np.sum(window**2)), band_hz))
     frequency, share, rms = np.concatenate(found, axis=1)
     still = rms <= ROUNDING * np.max(np.abs(values))
     frequency[still], share[still], rms[still] = np.nan, np.nan, 0.0
-    dominant = np.nan if still.all() else float(_ridge(f, total[np.newaxis], band_hz)[0, 0])
-    return Track((starts + size / 2) * step, frequency, share, rms, dominant, duration)
+    return Track((starts + size / 2) * step, frequency, share, rms, duration)
 
 
 def hot_slices(track: Track, hot_factor: float, hot_share: float, reference_rms: float) -> NDArray[np.bool_]:

@@ -217,3 +217,18 @@ def test_bands_that_no_channel_reaches(own):
         ride(own / "result")
     with pytest.raises(DataError, match=words):
         check_case(load_case(case_file))
+
+
+def test_distance_of_a_channel_that_begins_later_than_its_event(own):
+    """Kilometres count from the first kept sample of the event, and not from that of the channel."""
+    history = pd.read_csv(own / "case" / "tangent.csv")
+    late = history[history["time_s"] >= 11.0 - 1e-9][["time_s", "a_bogie"]]
+    late.to_csv(own / "case" / "late.csv", index=False)
+    with_channels(own / "case" / "case.toml", CHANNEL.replace("{ ", '{ history = "late.csv", '))
+    summary = ride(own / "result", threads=1)
+    table = tables_in(own / "result")
+    np.testing.assert_allclose(table["flutter"]["start_km"], 0.1 * (table["flutter"]["start_s"] - 1.0), atol=1e-9)
+    np.testing.assert_allclose(table["flutter_track"]["km"], 0.1 * (table["flutter_track"]["time_s"] - 1.0), atol=1e-9)
+    assert table["flutter"]["start_s"].iloc[0] == pytest.approx(11.0)
+    assert [problem.code for problem in summary.warnings] == ["short_channel"]
+    assert read_provenance(own / "result")["ride"]["warnings"][0]["code"] == "short_channel"

@@ -77,7 +77,7 @@ def test_rms_of_a_sine():
     values = 2.5 * np.sin(2 * np.pi * 8.37 * t)
     of = track(values, 0.005, BAND)
     assert of.rms == pytest.approx(2.5 / np.sqrt(2), rel=1e-3)
-    assert of.dominant == pytest.approx(8.37, abs=0.002)
+    assert of.frequency == pytest.approx(8.37, abs=0.002)
     (whole,) = found(values)
     assert (whole.start_s, whole.end_s) == (0.0, 30.0)
     assert whole.peak == pytest.approx(2.5, rel=0.02)
@@ -184,7 +184,7 @@ def test_fewer_than_four_slices_are_not_hot():
     rms = np.ones(20)
     rms[3:6] = 9.0
     rms[10 : 10 + FEWEST_HOT] = 9.0
-    of = Track(time, np.full(20, 8.0), np.full(20, 0.9), rms, 8.0, 7.0)
+    of = Track(time, np.full(20, 8.0), np.full(20, 0.9), rms, 7.0)
     assert np.flatnonzero(hot_slices(of, 3.0, 0.5, of.median_rms)).tolist() == [10, 11, 12, 13]
     assert not hot_slices(of, 3.0, 0.95, of.median_rms).any()
     assert not hot_slices(of, 3.0, 0.5, 3.0).any()
@@ -213,7 +213,6 @@ def test_silence(value):
     of = track(values, 0.005, BAND)
     assert np.all(of.rms == 0)
     assert np.all(np.isnan(of.frequency))
-    assert np.isnan(of.dominant)
     (whole,) = found(values)
     assert not whole.hot
     assert (whole.rms, whole.peak) == (0.0, 0.0)
