@@ -28,6 +28,8 @@ from fatigue.report.sections.curves import curve_sections, figure_mark, marked, 
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.ride.read import read_ride
+from fatigue.report.sections.ride.section import ride_section, ride_warnings
 from fatigue.report.sections.shift import shift_study, shift_warnings
 from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
@@ -91,6 +93,7 @@ def report_page(
     details, steps = _details(result, inputs, missing)
     body = _body(inputs, missing)
     why, spectra, checks = read_why(folder, result), read_load_spectra(folder, result), read_checks(folder)
+    ridden = read_ride(folder, result)
     for problem in missing:
         log.warning("the report lacks something: %s", problem)
     for problem in inputs.outdated:
@@ -106,7 +109,9 @@ def report_page(
         "outdated": inputs.outdated,
         "head": _head(result),
         "assumptions": method.assumptions(record),
-        "warnings": _warnings([*record["warnings"], *spectra_warnings(spectra), *shift_warnings(record)]),
+        "warnings": _warnings(
+            [*record["warnings"], *spectra_warnings(spectra), *ride_warnings(ridden), *shift_warnings(record)]
+        ),
         **curve_sections(result),
         "worst_welds": marked(tables.weld_table(result.assessed, links), unverified),
         **sensitivity(result, links),
@@ -116,6 +121,7 @@ def report_page(
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
         **transitions(result, links),
+        **ride_section(ridden, links, figs),
         **shift_study(folder, result, figs),
         "pages": [
             weld_page(result, weld, details.get(weld), why, spectra, checks, figs, links[weld])

@@ -10,6 +10,7 @@ from fatigue.report.figures.lines import along_weld
 from fatigue.report.figures.load_spectra import class_matrices, crossings_by_level, spectrum_exceedance
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
 from fatigue.report.figures.records import stress_history, stress_spectrum
+from fatigue.report.figures.ride import damage_in_hot_stretches, hunting_along_event
 from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.shear import shear_path
 from fatigue.report.figures.shift import life_against_setting
@@ -27,10 +28,12 @@ __all__ = [
     "crossings_by_level",
     "damage_by_band",
     "damage_by_event",
+    "damage_in_hot_stretches",
     "damage_on_track",
     "drawn_points",
     "event_colours",
     "exceedance",
+    "hunting_along_event",
     "life_against_setting",
     "line_rows",
     "projections",
