@@ -37,7 +37,7 @@ def formation_section(why: Why | None, result: ShownResult, links: Mapping[str, 
             "unsplit": _unsplit(of),
             "modes": _mode_table(rows, modes, events, shares, result),
             "left_out": _left_out(of, modes, events),
-            "reasons": _reasons(rows),
+            "reasons": _reasons(rows, len(events)),
             "classes": _classes(result.record),
             "damping": of.damping,
         }
@@ -189,8 +189,9 @@ def _left_out(of: ShownFormation, modes: Sequence[int], events: Sequence[str]) -
     return f"Left out: {listed(said)}; see resonance.parquet." if said else ""
 
 
-def _reasons(rows: pd.DataFrame) -> list[str]:
-    """Why numbers of the table are empty, or what is special: modes and events of each reason."""
+def _reasons(rows: pd.DataFrame, in_all: int) -> list[str]:
+    """Why numbers of the table are empty: modes and events of each reason."""
+    rows = rows[rows[["dynamic_share", "excitation_hz", "response_hz"]].isna().any(axis=1)]
     events: dict[tuple[int, str], list[str]] = {}
     for mode, event, reason in rows[["mode", "event", "reason"]].itertuples(index=False):
         if reason_of(reason):
@@ -198,7 +199,6 @@ def _reasons(rows: pd.DataFrame) -> list[str]:
     modes: dict[tuple[str, tuple[str, ...]], list[str]] = {}
     for (mode, reason), where in events.items():
         modes.setdefault((reason, tuple(where)), []).append(str(mode))
-    in_all = rows["event"].nunique()
     return [
         f"Mode{'s' * (len(of) > 1)} {_some(of)} in {'all these events' if 1 < in_all == len(where) else listed(where)}"
         f": {reason}."
