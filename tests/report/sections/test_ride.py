@@ -392,6 +392,18 @@ def test_a_result_where_nothing_damages_has_its_tracks(tmp_path):
     assert ride["hunting"].rows[0][5].text == "–"
 
 
+def test_the_worst_weld_is_that_by_what_it_may_bear(tmp_path):
+    """A weld with less damage and a smaller limit; older results have one limit for all."""
+    folder = write_ride(write_result(tmp_path), channels_of("tangent"))
+    result = read_result(folder, 5, 1000, 50)
+    damage = pd.read_parquet(folder / "hot_damage.parquet").groupby("weld")["damage_per_km"].first()
+    least = 0.5 * damage["W2 hanger"] / damage["W1 bracket"]
+    for limits, worst in (((1.0, least), "W2 hanger"), ((None, None), "W1 bracket")):
+        by_weld = result.assessed["weld"].map(dict(zip(("W1 bracket", "W2 hanger"), limits, strict=True)))
+        ride = read_ride(folder, replace(result, assessed=result.assessed.assign(damage_limit=by_weld)))
+        assert ride.channels[0].worst["weld"] == worst
+
+
 def test_a_long_track_is_thinned_and_keeps_what_is_clear():
     """Of equal parts the clearest slice each; many short stretches are no thousand shapes."""
     n = 40 * MOST_SLICES
