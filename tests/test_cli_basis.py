@@ -15,7 +15,7 @@ def test_basis_is_told_and_written(tmp_path):
     case = by_factors(tmp_path / "case").write(tmp_path / "case")
     done = fatigue("basis", case)
     assert done.returncode == 0, done.stderr
-    assert "20 % on the boundary" in done.stdout
+    assert "20.0 % on the boundary" in done.stdout
     assert "no damping ratio" in done.stdout
     assert "written" not in done.stdout
     for _ in range(2):

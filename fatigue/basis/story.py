@@ -29,10 +29,11 @@ ABOUT_MODES = ("no_interface_mode", "unusual_damping", "unusual_frequency")  # w
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What is asked of the modes: up to which frequency, and the damping of those that have none."""
+    """What is asked of the modes: up to which frequency, damping of those that have none, and damage without some."""
 
     band_hz: float | None = None
     damping: float | None = None
+    damage: bool = True
 
 
 def basis(
@@ -44,6 +45,7 @@ def basis(
     csv: bool = False,
     band_hz: float | None = None,
     damping: float | None = None,
+    damage: bool = True,
     strict: bool = False,
 ) -> Basis:
     """What is found about the modal basis of a case, written into a folder where one is given.
@@ -58,6 +60,7 @@ def basis(
     band_hz : upper end of the band that has to be complete [Hz]; by default ``upper_hz`` of the case, else the highest
         frequency of its normal modes
     damping : damping ratio of the modes without one; None: they stay without dynamic mass
+    damage : count damage without the highest modes, which takes as long as an assessment
     strict : take unknown columns for errors
 
     Raises
@@ -73,7 +76,7 @@ def basis(
     stage("reading the body")
     body = read_body(case, strict=strict)
     against = None if compared is None else read_body(compared, strict=strict)
-    findings = list(_findings(body, against, Asked(band_hz, damping)))
+    findings = list(_findings(body, against, Asked(band_hz, damping, damage)))
     of_modes = [problem for problem in body.warnings if problem.code in ABOUT_MODES]
     warnings = (*of_modes, *(problem for finding in findings for problem in finding.warnings))
     found = Basis(case.title, tuple(findings), warnings)
@@ -91,8 +94,11 @@ def _findings(body: Body, other: Body | None, asked: Asked) -> Iterator[Finding]
     loaded = loaded_points(body)
     yield flexibility(loaded)
     yield interface(loaded)
+    if not asked.damage and other is None:
+        return
     with opened(body) as case:
-        yield truncation(case)
+        if asked.damage:
+            yield truncation(case)
         if other is not None:
             with opened(other) as compared:
                 yield from two_bases(case, compared)

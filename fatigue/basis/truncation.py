@@ -84,7 +84,7 @@ def truncation(case: OpenCase, shares: Sequence[float] = SHARES) -> Finding:
     groups = counted(case, [choice.mask for choice in choices])
     rows = tuple(row for v, choice in enumerate(choices) for group in groups for row in _rows(group, v, choice, modes))
     said = [line for choice in choices for line in _said(choice, [r for r in rows if _is_of(r, choice)], modes)]
-    return Finding("truncation", HEADING, tuple(said), rows, tuple(_notes(case, choices)))
+    return Finding("truncation", HEADING, tuple(said), rows, tuple(_notes(case, choices, len(shares))))
 
 
 def left_out(modes: Modes, shares: Sequence[float] = SHARES) -> list[LeftOut]:
@@ -189,11 +189,14 @@ def _size(row: TruncationRow) -> float:
     return abs(float(np.log(row.shortest_life_ratio)))
 
 
-def _notes(case: OpenCase, choices: Sequence[LeftOut]) -> Iterator[str]:
+def _notes(case: OpenCase, choices: Sequence[LeftOut], shares: int) -> Iterator[str]:
+    """What the numbers assume, of so many shares that were asked for."""
     kind = np.array(case.body.modes.kind)
     if not choices:
         yield "Nothing can be left out: the body has a single elastic mode."
         return
+    if len(choices) < (2 * shares + 1 if INTERFACE in kind else shares):
+        yield "Of so few modes some shares are the same modes, or all of them: each choice was counted once."
     yield (
         f"A life moves where it is longer or shorter by more than a factor of {MOVES:g}; records of 5 km that differ "
         "by chance alone scatter the damage by 17 % (standard deviation)."

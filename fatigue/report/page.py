@@ -30,6 +30,7 @@ from fatigue.report.sections.embed import Figures, embedded
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
 from fatigue.report.sections.ride.read import read_ride
 from fatigue.report.sections.ride.section import ride_section, ride_warnings
+from fatigue.report.sections.shift import shift_study, shift_warnings
 from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
@@ -108,7 +109,9 @@ def report_page(
         "outdated": inputs.outdated,
         "head": _head(result),
         "assumptions": method.assumptions(record),
-        "warnings": _warnings([*record["warnings"], *spectra_warnings(spectra), *ride_warnings(ridden)]),
+        "warnings": _warnings(
+            [*record["warnings"], *spectra_warnings(spectra), *ride_warnings(ridden), *shift_warnings(record)]
+        ),
         **curve_sections(result),
         "worst_welds": marked(tables.weld_table(result.assessed, links), unverified),
         **sensitivity(result, links),
@@ -119,6 +122,7 @@ def report_page(
         **body_sections.causes(result, why, figs),
         **transitions(result, links),
         **ride_section(ridden, links, figs),
+        **shift_study(folder, result, figs),
         "pages": [
             weld_page(result, weld, details.get(weld), why, spectra, checks, figs, links[weld])
             for weld in result.detailed

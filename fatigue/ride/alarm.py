@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from fatigue.case.channels import Alarm, Ride
 from fatigue.ride.channel import ChannelRecord
 from fatigue.ride.flutter import NAN, Tracked
-from fatigue.vibration.alarm import PERIODS, cannot_be_filtered, count_alarms, filtered
+from fatigue.vibration.alarm import PERIODS, cannot_be_filtered, count_alarms, filtered, passed
+
+LEAST_PASSED = 0.9  # of the amplitude, below which peaks are to be read with it
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +46,7 @@ def _row(of: Tracked, rule: Alarm) -> AlarmRow:
         count = count_alarms(values, step, rule.threshold_m_s2, rule.cycles)
         alarms, peak, longest = count.times.size, count.peak, count.longest_run
         first = record.start + float(count.times[0]) if alarms else NAN
+        reason = _lowered(of, rule)
     return AlarmRow(
         event=record.event,
         channel=record.name,
@@ -58,6 +61,20 @@ def _row(of: Tracked, rule: Alarm) -> AlarmRow:
         told=None,
         reason=reason,
     )
+
+
+def _lowered(of: Tracked, rule: Alarm) -> str | None:
+    """What the filter takes off hunting that lies near the edge of its band; None where there is none to speak of."""
+    if not of.hot.any():
+        return None
+    low, high = rule.band_hz
+    share = passed(of.hunting_hz, of.record.step, (low, high), rule.filter)
+    if share >= LEAST_PASSED:
+        return None
+    said = f"of hunting at {of.hunting_hz:.3g} Hz the filter of {low:g} to {high:g} Hz passes {share:.0%}"
+    if rule.filter == "on_board":
+        return said
+    return f"{said}, on board {passed(of.hunting_hz, of.record.step, (low, high), 'on_board'):.0%}"
 
 
 def _has_none(record: ChannelRecord, band_hz: tuple[float, float]) -> str | None:

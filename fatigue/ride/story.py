@@ -50,7 +50,7 @@ from fatigue.ride.stationarity import stationarity_row
 from fatigue.ride.summary import RideSummary
 from fatigue.ride.tables import Rows, write_tables
 from fatigue.stages import stage
-from fatigue.vibration.environment import VibrationTable
+from fatigue.vibration.standards.environment import VibrationTable
 from fatigue.why.points import Points, gather_points
 
 log = logging.getLogger(__name__)

@@ -82,7 +82,7 @@ def _hunting_text(channel: str, rows: Sequence[FlutterRow], hot_hz: Sequence[flo
     """Hot stretches of a channel, with the median of the frequencies of their slices."""
     hot = [row for row in rows if row.hot]
     length = sum(row.end_s - row.start_s for row in hot) / sum(row.end_s - row.start_s for row in rows)
-    if isnan(rows[0].rms):
+    if all(isnan(row.frequency_hz) for row in rows):
         return
     text = f"hunting of '{channel}': "
     if hot:
@@ -124,6 +124,7 @@ def _coincidence_text(row: CoincidenceRow) -> str:
 def _alarm_text(row: AlarmRow) -> str:
     rule = f"{row.cycles} cycles at {_number(row.threshold_m_s2)} m/s2"
     text = f"alarm of '{row.channel}' ({rule}): {row.alarms or 'none'}, largest peak {_number(row.peak_m_s2)} m/s2"
+    text += _beside(row.reason)
     if isnan(row.damage_share_inside_hot) or row.hot_km_share == 0.0:
         return text
     text += f"; {row.damage_share_inside_hot:.0%} of the damage of '{row.event}' lies in hot stretches, "
@@ -169,7 +170,8 @@ def _not_had(of: Mapping[str, Rows]) -> Iterator[str]:
 
 def _numbers(of: Mapping[str, Rows]) -> Iterator[tuple[str, Any, bool]]:
     """Each number that a ride has in words, the row that holds it, and whether it is empty."""
-    yield from ((f"hunting of '{row.channel}'", row, isnan(row.rms)) for row in of["flutter"])
+    tracked = {row.channel for row in of["flutter"] if not isnan(row.frequency_hz)}
+    yield from ((f"hunting of '{row.channel}'", row, row.channel not in tracked) for row in of["flutter"])
     for row in of["coincidence"]:
         yield f"coincidence with '{row.equipment}'", row, isnan(row.amplification)
         of_both = f"coherence and phase with '{row.equipment}'"

@@ -52,7 +52,7 @@ Floats = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
 
 SHARE_OF_LIMIT = 0.1  # utilisation from which a point is counted again when not all points are
-_FEWER_SAMPLES = 3  # counting again costs about a third of sharing out the damage, whose budget is used
+_CHEAPER = 10  # at least so much quicker is counting than sharing out the damage, whose budget is taken
 
 
 def shift(
@@ -113,10 +113,7 @@ def shift(
         if not is_same_result(read_provenance(folder), record):
             what = "the result was replaced by another run just now"
             raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
-        samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
-        chosen = _toes(
-            folder, choose_points(folder, samples * len(every) // _FEWER_SAMPLES, SHARE_OF_LIMIT, len(every))
-        )
+        chosen = _affordable(folder, plan, factors, moved_in, len(every))
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         points = gather_points(folder, groups, chosen)
@@ -146,6 +143,7 @@ def shift(
                 table.write(_rows(points, moving, setting, of_setting, lives, life[every.index(moving.setting)]))
         said = {
             "method": SCREENING,
+            "limits": LIMITS,
             "mode": moving.mode,
             "frequency_hz": moving.setting.frequency_hz,
             "damping_ratio": moving.setting.damping,
@@ -196,8 +194,11 @@ def _moved_in(plan: Plan, events: Sequence[str]) -> tuple[str, ...]:
     return tuple(name for name in names if not events or name in events)
 
 
-def _toes(folder: Path, chosen: Chosen) -> Chosen:
-    """Those of some points that have a toe: a face without never governs."""
+def _affordable(folder: Path, plan: Plan, factors: Sequence[int], moved_in: Sequence[str], settings: int) -> Chosen:
+    """Points with a weld toe: all if that is affordable, else as for a diagnosis; a face without toe never governs."""
+    counts = [settings if one.event in moved_in else 1 for one in plan.passes]
+    samples = sum(n * f * one.samples for n, f, one in zip(counts, factors, plan.passes, strict=True))
+    chosen = choose_points(folder, max(1, samples // _CHEAPER), SHARE_OF_LIMIT, settings)
     toe = read_table(folder, "nodes", ["toe"])["toe"].to_numpy()
     kept = np.asarray(toe, dtype=np.bool_)[chosen.rows]
     rows = chosen.rows[kept]

@@ -98,3 +98,14 @@ def test_a_static_solution_in_other_units_is_one_warning(cases):
     warnings = [problem for problem in basis(folder / "metres.toml").warnings if problem.code == "soft_basis"]
     assert [(problem.count, problem.where) for problem in warnings] == [(4, "metres.csv")]
     assert "1000 times" in warnings[0].what
+
+
+def test_without_damage(cases):
+    """Damage without the highest modes is left out; two bases are compared all the same."""
+    alone = [finding.table for finding in basis(cases[0], damage=False).findings]
+    assert "truncation" not in alone
+    assert "flexibility" in alone
+    both = [finding.table for finding in basis(*cases, damage=False).findings]
+    assert both[: len(alone)] == alone
+    assert "bases" in both
+    assert "truncation" not in both

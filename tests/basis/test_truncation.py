@@ -46,7 +46,7 @@ def assessed_utilisation(path, folder):
 @pytest.mark.parametrize("ignored", [some for n in (1, 2) for some in combinations((1, 2, 7), n)])
 def test_leaving_modes_out_is_an_assessment_that_ignores_them(tmp_path, ignored):
     """Every point has the utilisation of a case with ``ignore_modes``, whichever modes they are."""
-    case = small_case()
+    case = small_case(seconds=3.0)
     mask = np.isin(case.modes["mode"], ignored)
     found = utilisation_without(case.write(tmp_path / "all"), mask)[0]
     case.body = {"ignore_modes": list(ignored)}
@@ -56,7 +56,7 @@ def test_leaving_modes_out_is_an_assessment_that_ignores_them(tmp_path, ignored)
 @pytest.mark.parametrize("what", ["knee", "repeat", "vertex", "upsampled", "sequence"])
 def test_whatever_is_counted_is_counted_without_them(tmp_path, what):
     """The same on a curve with a knee, with another residue, between samples, upsampled, and across events."""
-    case = small_case()
+    case = small_case(seconds=3.0)
     if what == "knee":
         case.curve = {"name": "en1993-hotspot-90"}
     elif what == "repeat":
@@ -74,7 +74,7 @@ def test_whatever_is_counted_is_counted_without_them(tmp_path, what):
 
 def test_unit_loads_stay(tmp_path):
     """A unit load is no mode: it is never left out, and the modes beside it are."""
-    case = small_case()
+    case = small_case(seconds=3.0)
     forces = as_unit_load(case, 2, "air")
     found = utilisation_without(write_with_loads(case, tmp_path / "all", forces), np.array([False, True]))[0]
     case.body = {"ignore_modes": [7]}
@@ -110,7 +110,7 @@ def test_life_ratio_and_what_moves():
 
 def test_a_mode_that_carries_all_and_one_that_carries_nothing(tmp_path):
     """Mode 1 alone moves: without it nothing damages; without the interface mode no life moves."""
-    case = small_case()
+    case = small_case(seconds=3.0)
     for table in case.histories.values():
         table[["q_2", "q_7"]] = 0.0
     with opened(body_of(case.write(tmp_path / "c")), threads=1) as one:
@@ -122,6 +122,7 @@ def test_a_mode_that_carries_all_and_one_that_carries_nothing(tmp_path):
     assert all(row.moves and "no end" in row.reason for row in normal)
     assert any("no life moves" in line for line in found.said)
     assert any("local" in note for note in found.notes)
+    assert any("counted once" in note for note in found.notes)  # the highest of three modes is all interface modes
 
 
 def test_a_large_case_counts_the_worst_points_only(tmp_path, monkeypatch):

@@ -83,7 +83,7 @@ REFUSED = {
     ),
     "scale 0": (channels(MINIMAL, "tangent", BOGIE.replace(" }", ", scale = 0.0 }")), r"scale = 0 leaves nothing"),
     "unknown unit": (channels(MINIMAL, "tangent", BOGIE.replace("m/s2", "mm/s2")), r"unit.*'m/s2', 'g' or '-'"),
-    "unknown key": (channels(MINIMAL, "tangent", BOGIE.replace("column", "colum")), r"Write 'column'"),
+    "unknown key": (channels(MINIMAL, "tangent", BOGIE.replace("column", "columns")), r"Write 'column'"),
     "reference of no channel": (
         RIDE + "reference_rms = { bogy = 0.5 }\n",
         r"ride\.reference_rms\.bogy: there is no channel 'bogy'\. Write 'bogie'",

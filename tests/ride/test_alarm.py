@@ -72,6 +72,15 @@ def test_channels_that_cannot_set_it_off(channel, reason):
     assert found.reason.startswith(reason)
 
 
+@pytest.mark.parametrize(("how", "said"), [("offline", "passes 72%, on board 85%"), ("on_board", "passes 85%")])
+def test_hunting_near_the_edge_of_the_filter(how, said):
+    """The filter lowers hunting of 9 Hz, which is said: 9.9 m/s2 set it off on board and not offline."""
+    found = row(record(hunting(rms=7.0, f=9.0)), filter=how)
+    assert found.reason == f"of hunting at 9 Hz the filter of 0.5 to 10 Hz {said}"
+    assert (found.alarms > 0) == (how == "on_board")
+    assert row(record(hunting(rms=0.0, f=9.0)), filter=how).reason is None
+
+
 def test_only_bogies_have_an_alarm():
     """Floor and equipment have no row."""
     ride = Ride()

@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 NO_MASS = 1e-9  # t: what rounding leaves of the participation of free-free modes where the mass is not known
 TOO_LARGE = 1.01  # of the mass: it is written with two digits or more
 TOO_SMALL = 1e-2  # of the mass, in all directions: kg beside t give a thousandth
+NOTHING = 1e-9  # of the mass: what rounding leaves where all of it is on the boundary
 CARRIERS = 3  # modes named
 WORTH_NAMING = 0.01  # of the mass
 BEYOND = 2.0  # bands of frequencies at which the dynamic mass is told
@@ -85,8 +86,8 @@ def _band(body: Body, given: float | None) -> float:
 
 def _too_large(found: Carried, number: int) -> bool:
     """Whether the modes carry more than there is."""
-    boundary = np.nan_to_num(found.boundary[number])
-    return bool(np.nansum(found.effective[:, number]) > TOO_LARGE * (found.body[number] - boundary))
+    body, boundary = found.body[number], np.nan_to_num(found.boundary[number])
+    return bool(np.nansum(found.effective[:, number]) > TOO_LARGE * (body - boundary) + NOTHING * body)
 
 
 def _doubts(found: Carried, body: Body) -> Iterator[Problem]:
@@ -128,6 +129,9 @@ def _sum_of(found: Carried, number: int, band: float) -> MassSum:
     if too_large:
         reasons.append("the modes carry more than the body has: see the warning")
     share = np.nan if too_large else in_band / body
+    movable = body - float(np.nan_to_num(boundary))  # no mode can carry the boundary
+    if movable <= NOTHING * body:
+        reasons.append("all of it is on the boundary")
     missing = np.nan if too_large else 1.0 - (summed + float(np.nan_to_num(boundary))) / body
     return MassSum(
         direction=direction,
@@ -139,7 +143,7 @@ def _sum_of(found: Carried, number: int, band: float) -> MassSum:
         mass_in_band=in_band,
         share_in_band=share,
         missing_share=missing,
-        enough=None if np.isnan(share) else share >= EFFECTIVE_MASS.share,
+        enough=None if np.isnan(share) or movable <= NOTHING * body else in_band >= EFFECTIVE_MASS.share * movable,
         carried_by=_carriers(found, number),
         reason="; ".join(reasons),
     )
@@ -162,8 +166,8 @@ def _said(found: Carried, sums: tuple[MassSum, ...], band: float) -> Iterator[st
     """Sentences about the sums: one about the band, one for each direction, one about interface modes."""
     rule = EFFECTIVE_MASS
     yield (
-        f"What the modes up to {band:.4g} Hz carry of the body. {in_percent(rule.share)} are taken for enough: "
-        f"{rule.source} ({rule.status})."
+        f"What the modes up to {band:.4g} Hz carry of the body. {in_percent(rule.share)} of what is not on the "
+        f"boundary are taken for enough: {rule.source} ({rule.status})."
     )
     for one in sums:
         if np.isnan(one.mass_in_band):
@@ -174,11 +178,12 @@ def _said(found: Carried, sums: tuple[MassSum, ...], band: float) -> Iterator[st
             continue
         above = (one.summed_mass - one.mass_in_band) / one.body_mass
         held = (
-            "" if np.isnan(one.boundary_mass) else f", {in_percent(one.boundary_mass / one.body_mass)} on the boundary"
+            "" if np.isnan(one.boundary_mass) else f"{in_percent(one.boundary_mass / one.body_mass)} on the boundary, "
         )
+        short = " (not enough)" if one.enough is False else ""
         yield (
-            f"{one.direction}: {in_percent(one.share_in_band)} in the band{'' if one.enough else ' (not enough)'}, "
-            f"{in_percent(above)} above it{held}, {in_percent(max(0.0, one.missing_share))} in no mode; {by}."
+            f"{one.direction}: {in_percent(one.share_in_band)} in the band{short}, {in_percent(above)} above it, {held}"
+            f"{in_percent(max(0.0, one.missing_share))} in no mode; {by}."
         )
     interface = np.array([kind == "interface" for kind in found.kind])
     if interface.any() and not interface.all():

@@ -24,6 +24,11 @@ from fatigue.cli.progress import narrated
 @click.option(
     "--damping", type=ABOVE_ZERO, help="Damping ratio of modes that have none, for the dynamic mass: 0.015 is 1.5 %."
 )
+@click.option(
+    "--no-damage",
+    is_flag=True,
+    help="Do not count damage without the highest modes, which takes as long as an assessment or longer.",
+)
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue basis did not write.")
 @strict
@@ -36,6 +41,7 @@ def basis(
     output: Path | None,
     band_hz: float | None,
     damping: float | None,
+    no_damage: bool,
     csv: bool,
     force: bool,
     strict: bool,
@@ -67,6 +73,7 @@ def basis(
             csv=csv,
             band_hz=band_hz,
             damping=damping,
+            damage=not no_damage,
             strict=strict,
         )
     print_warnings(found.warnings, "--json lists them")

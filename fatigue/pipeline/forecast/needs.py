@@ -43,7 +43,7 @@ ROW = {  # bytes of a row of a result
     "cycle": 60.0,
     "histogram": 9.0,
 }
-DIAGNOSED, DIAGNOSED_MODE = 130.0, 12.0  # bytes for each sample of a record in memory: alone, for each mode
+DIAGNOSED, DIAGNOSED_MODE = 130.0, 26.0  # bytes for each sample of a record in memory: alone, for each mode
 DIAGNOSED_LONG = 200.0 * MB  # of any record on disk
 BINS = 250  # of a histogram with cycles, of both kinds, for each event
 BINNED = 30.0 * MB  # by each thread, with the rows of its points

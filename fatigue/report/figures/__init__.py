@@ -13,6 +13,7 @@ from fatigue.report.figures.records import stress_history, stress_spectrum
 from fatigue.report.figures.ride import damage_in_hot_stretches, hunting_along_event
 from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.shear import shear_path
+from fatigue.report.figures.shift import life_against_setting
 from fatigue.report.figures.style import CONFIG, TEMPLATE, event_colours
 from fatigue.report.figures.why import bands_of_welds, damage_by_band, damage_on_track
 
@@ -33,6 +34,7 @@ __all__ = [
     "event_colours",
     "exceedance",
     "hunting_along_event",
+    "life_against_setting",
     "line_rows",
     "projections",
     "rainflow_matrices",

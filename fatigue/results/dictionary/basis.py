@@ -25,9 +25,9 @@ MASS_SUM = (
     Column("summed_mass", "float", "-", "effective masses of all modes, summed"),
     Column("band_hz", "float", "Hz", "upper end of the band"),
     Column("mass_in_band", "float", "-", "effective masses of the modes up to there, summed"),
-    Column("share_in_band", "float", "-", "the same over the mass of the body less that of the boundary"),
+    Column("share_in_band", "float", "-", "the same over the mass of the body"),
     Column("missing_share", "float", "-", "1 less that of all modes: what no mode of the basis carries"),
-    Column("enough", "flag", "-", "share_in_band reaches the rule of thumb, which is printed with its source"),
+    Column("enough", "flag", "-", "mass_in_band is as much of what is not on the boundary as the rule asks for"),
     Column("carried_by", "text", "-", "modes that carry most of it, with their shares"),
     Column("reason", "text", "-", "why a number is empty"),
 )

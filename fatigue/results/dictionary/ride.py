@@ -83,7 +83,7 @@ ALARM = (
     Column("hot_km_share", "float", "-", "share of the event that lies in hot stretches of the channel"),
     Column("damage_share_inside_hot", "float", "-", "of the event's damage at its worst weld: share there"),
     Column("told", "text", "-", "whether the alarm tells the damage: yes, missed, nothing_to_tell, no_hot_stretch"),
-    Column("reason", "text", "-", "why a number is empty"),
+    Column("reason", "text", "-", "why a number is empty, or what it is to be read with"),
 )
 
 HOT_DAMAGE = (

@@ -9,10 +9,10 @@ import numpy as np
 from fatigue.case.channels import Ride
 from fatigue.ride.channel import ChannelRecord
 from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
-from fatigue.vibration.comfort_data import comfort_data, standing
-from fatigue.vibration.en12299 import BAND_HZ, WEIGHTING, block_rms, mean_comfort, section_percentiles
-from fatigue.vibration.mirrored import Floats
-from fatigue.vibration.sperling import wz_filter, wz_lines
+from fatigue.vibration.standards.comfort_data import comfort_data, standing
+from fatigue.vibration.standards.en12299 import BAND_HZ, WEIGHTING, block_rms, mean_comfort, section_percentiles
+from fatigue.vibration.standards.mirrored import Floats
+from fatigue.vibration.standards.sperling import wz_filter, wz_lines
 
 PERIODS = 10  # of the lower edge of the band in a record that is not short: 20 s from 0.5 Hz on
 

@@ -14,7 +14,7 @@ from fatigue.files.mishaps import refusal
 from fatigue.files.naming import missing_file
 from fatigue.ride.channel import ChannelRecord
 from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
-from fatigue.vibration.environment import (
+from fatigue.vibration.standards.environment import (
     PEAK_OF_RMS,
     DensityShape,
     VibrationClass,
@@ -22,7 +22,7 @@ from fatigue.vibration.environment import (
     band_rms,
     density_ratios,
 )
-from fatigue.vibration.environment_file import shipped_table, vibration_table
+from fatigue.vibration.standards.environment_file import shipped_table, vibration_table
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,8 @@ import numpy as np
 from fatigue.case.channels import Ride
 from fatigue.ride.channel import ChannelRecord
 from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
-from fatigue.vibration.mirrored import Floats, band_pass, filtered
-from fatigue.vibration.running import (
+from fatigue.vibration.standards.mirrored import Floats, band_pass, filtered
+from fatigue.vibration.standards.running import (
     body_band,
     bogie_limits,
     edition,

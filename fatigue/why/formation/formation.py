@@ -125,6 +125,7 @@ def formation(
             for w, one in enumerate(at):
                 if event.damage[point[w]] > 0.0:
                     swings += swings_of(one, parts, w, number, float(damage[w]), event, loads, plan)
+        parts.forget()
     watch = _ranked(swings, damage, points.damage_limit, plan.target_km)
     return Formation(damping, point, tuple(modes), tuple(welds), tuple(watch))
 

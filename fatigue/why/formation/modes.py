@@ -28,6 +28,9 @@ FEWEST_PERIODS = 4.0  # of a mode in a record, below which neither its swing nor
 BLOCK, OVERLAP = 1 << 16, 1 << 10  # samples of a long record that are split at a time, and of its surroundings
 NUMBERS_AT_ONCE = 1 << 19  # of modes that are split at a time: 4 MB, some times over
 
+GIVEN, FINE = "quasi-static", "quasi-static-upsampled"  # files beside a long record: its quasi-static parts
+MIXED, LAID, FOLLOWING = "mixed", "laid-on-mixed", "following"  # stress of a point, its damage, coordinates for a loop
+
 STATIC = "a static load case has no time, so nothing swings in it"
 NO_FREQUENCY = "a rigid mode has no natural frequency"
 AT_REST = "the coordinate does not move in this event"
@@ -77,6 +80,12 @@ class EventParts:
     quasi_static: Samples
     is_split: NDArray[np.bool_]
     reason: str
+
+    def forget(self) -> None:
+        """Remove the files of a long record that was split."""
+        if isinstance(self.quasi_static, Spool) and self.quasi_static is not self.q:
+            for name in (GIVEN, FINE, MIXED, LAID, FOLLOWING):
+                self.quasi_static.path.with_name(name).unlink(missing_ok=True)
 
 
 def event_parts(load: EventLoad, modes: Modes, damping: Damping, *, is_static: bool) -> EventParts:
@@ -181,7 +190,7 @@ def _statistics(
         at = own.start + here
         response, excited = (Spectrum(of.hz, of.variance[here]) for of in (of_q, of_qs))
         response_hz[at], excitation_hz[at] = dominant_hz(response), dominant_hz(excited)
-        highest[at] = _highest(response)
+        highest[at] = np.where(rms[at] > 0.0, _highest(response), np.nan)
         response_share[at] = share_between(response, low[at], high[at])
         half_power[at] = share_between(excited, low[at], high[at])
     lines = 2.0 / (record.samples * record.step)
@@ -205,7 +214,7 @@ def _place_for_parts(record: _Record) -> Samples:
     """Where quasi-static parts go: into a file beside a record that is long and in one."""
     shape = record.q.shape[0], record.samples
     if isinstance(record.q, Spool) and is_long(record.q):
-        return create_spool(record.q.path.with_name("quasi-static"), shape, np.dtype(np.float64))
+        return create_spool(record.q.path.with_name(GIVEN), shape, np.dtype(np.float64))
     return np.empty(shape)
 
 
@@ -216,9 +225,7 @@ def _split_blocks(
     m = len(modes.mode)
     blocks = record.blocks()
     shortest = min(end - first for first, end in blocks)
-    spectra: list[Floats] = []
-    sums: list[Floats] = []
-    hz = np.zeros(0)
+    hz, variance, sums = np.zeros(0), np.zeros((2, 1, 0)), np.zeros((3, 2, 1))
     for first, end in blocks:
         begin, stop = max(0, first - OVERLAP), min(record.samples, end + OVERLAP)
         q = record.part(some, begin, stop)
@@ -229,15 +236,14 @@ def _split_blocks(
             follows[own] = quasi_static(q[own], record.step, modes.frequency[at], damping.used[at])
         q, follows = (x[:, first - begin : end - begin] for x in (q, follows))
         parts[some, first:end] = follows
-        of = [spectrum(x[:, :shortest], record.step) for x in (q, follows)] if shortest > 1 else []
-        hz = of[0].hz if of else hz
-        spectra.append(np.stack([one.variance for one in of]) if of else np.zeros((2, len(q), 0)))
+        if shortest > 1:
+            of = [spectrum(x[:, :shortest], record.step) for x in (q, follows)]
+            hz = of[0].hz
+            variance = np.stack([one.variance for one in of]) / len(blocks) + (variance if variance.size else 0.0)
         mean = record.mean[some, None]
         three = q - mean, follows - mean, q - follows
-        sums.append(np.stack([np.stack([x.sum(axis=1), np.vecdot(x, x)]) for x in three]))
-    variance = np.mean(spectra, axis=0)
-    moments = np.sum(sums, axis=0) / record.samples
-    variances = [np.maximum(0.0, square - mean**2) for mean, square in moments]
+        sums = sums + np.stack([np.stack([x.sum(axis=1), np.vecdot(x, x)]) for x in three])
+    variances = [np.maximum(0.0, square - mean**2) for mean, square in sums / record.samples]
     return Spectrum(hz, variance[0]), Spectrum(hz, variance[1]), variances
 
 
@@ -278,5 +284,5 @@ def _as_counted(load: EventLoad, record: _Record, parts: Samples) -> Samples:
     if record.factor == 1:
         return parts
     given = replace(load.counted, q=parts, step=record.step)
-    scratch = parts.path.with_name("quasi-static-upsampled") if isinstance(parts, Spool) else None
+    scratch = parts.path.with_name(FINE) if isinstance(parts, Spool) else None
     return upsampled(given, record.factor, load.residue, scratch).q

@@ -11,7 +11,7 @@ from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.vibration.dominant import Spectrum, dominant_hz, spectrum
 from fatigue.vibration.excitation import SHORTEST
 from fatigue.why.attribute import count_credit
-from fatigue.why.formation.modes import BLOCK
+from fatigue.why.formation.modes import BLOCK, LAID, MIXED
 from fatigue.why.long_record import Row, is_long, lay_damage, long_damage
 from fatigue.why.points import Points
 
@@ -71,7 +71,7 @@ class PointStress:
         of_q, of_parts = self.modal * swings, self.modal * follows
         if not isinstance(self.quasi_static, Spool):
             return np.asarray(of_q @ np.asarray(self.q) + of_parts @ self.quasi_static)
-        with SpoolWriter(self.quasi_static.path.with_name("mixed"), 2, np.dtype(np.float64)) as writer:
+        with SpoolWriter(self.quasi_static.path.with_name(MIXED), 2, np.dtype(np.float64)) as writer:
             for part in time_slices(self.q.shape):
                 writer.append(of_q @ self.q[:, part] + of_parts @ self.quasi_static[:, part])
         return writer.spool()
@@ -97,7 +97,7 @@ class PointStress:
         size, rule = float(self.point.size[0]), self.point.rule[0]
         if is_long(stress):
             row = Row(0, self.side, size, rule, offset)
-            laid = create_spool(stress.path.with_name("laid"), (3, stress.shape[1]), np.dtype(np.float64))
+            laid = create_spool(stress.path.with_name(LAID), (3, stress.shape[1]), np.dtype(np.float64))
             return Laid(lay_damage(stress, row, self.load, laid, 0, np.array([-np.inf, np.inf])).damage, laid)
         membrane, bending = np.asarray(stress)
         found = count_credit(

@@ -17,7 +17,7 @@ from fatigue.life.records.spool import Samples, Spool, create_spool, time_slices
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.why.across_events import loop_damages
 from fatigue.why.attribute import EventAttribution
-from fatigue.why.formation.modes import EventParts
+from fatigue.why.formation.modes import FOLLOWING, EventParts
 from fatigue.why.formation.point_stress import Laid, PointStress
 from fatigue.why.points import Points
 
@@ -138,7 +138,7 @@ def _following(q: Samples, parts: EventParts, mode: int) -> Samples:
         found = np.array(q, dtype=np.float64)
         found[one] = parts.quasi_static[one, :]
         return found
-    fine = create_spool(parts.quasi_static.path.with_name("following"), q.shape, np.dtype(np.float64))
+    fine = create_spool(parts.quasi_static.path.with_name(FOLLOWING), q.shape, np.dtype(np.float64))
     for part in time_slices(q.shape):
         some = np.array(q[:, part], dtype=np.float64)
         some[one] = parts.quasi_static[one, part]

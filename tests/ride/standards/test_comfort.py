@@ -8,7 +8,7 @@ import pytest
 from fatigue.case.channels import Ride
 from fatigue.results import RIDDEN
 from fatigue.ride.standards.comfort import ComfortRow, comfort_rows
-from fatigue.vibration.en12299 import response
+from fatigue.vibration.standards.en12299 import response
 from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 

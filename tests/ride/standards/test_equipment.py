@@ -9,7 +9,7 @@ from fatigue.case.channels import Equipment, Ride
 from fatigue.errors import CaseError, DataError
 from fatigue.results import RIDDEN
 from fatigue.ride.standards.equipment import EquipmentRow, equipment_rows, read_vibration_table
-from fatigue.vibration.environment_file import shipped_table
+from fatigue.vibration.standards.environment_file import shipped_table
 from tests.ride.standards.synthetic_channels import channel, noise, sine
 
 OWN = """

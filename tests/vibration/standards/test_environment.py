@@ -9,9 +9,9 @@ import pytest
 from scipy import signal
 
 from fatigue.errors import DataError
-from fatigue.vibration import environment_file
-from fatigue.vibration.environment import PEAK_OF_RMS, band_rms, density_ratios, third_octaves
-from fatigue.vibration.environment_file import shipped_table, vibration_table
+from fatigue.vibration.standards import environment_file
+from fatigue.vibration.standards.environment import PEAK_OF_RMS, band_rms, density_ratios, third_octaves
+from fatigue.vibration.standards.environment_file import shipped_table, vibration_table
 
 TEXT = Path(environment_file.__file__).with_name("environment.toml").read_text("utf-8")
 SHAPE = shipped_table().classes["1A"].shape

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fatigue.vibration.running import (
+from fatigue.vibration.standards.running import (
     body_band,
     bogie_limits,
     edition,

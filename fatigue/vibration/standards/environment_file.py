@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.vibration.environment import DensityShape, VibrationClass, VibrationTable
+from fatigue.vibration.standards.environment import DensityShape, VibrationClass, VibrationTable
 
 DIRECTIONS = ("x", "y", "z")
 TOP_KEYS = ("edition", "status", "source", "shape", "class")
 SHAPE_KEYS = ("edges_hz", "exponents", "light_kg", "light_hz", "heavy_kg", "heavy_hz")
 LEVELS = ("functional_rms_m_s2", "functional_asd_m2_s3", "long_life_rms_m_s2", "shock_m_s2")
 CLASS_KEYS = ("what", "shape", *LEVELS)
-FORMAT = "The format is that of fatigue/vibration/environment.toml"
+FORMAT = "The format is that of fatigue/vibration/standards/environment.toml"
 
 
 @cache

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fatigue.vibration.mirrored import Floats, band_pass, filtered, lines, spread
+from fatigue.vibration.standards.mirrored import Floats, band_pass, filtered, lines, spread
 
 
 @cache

@@ -5,8 +5,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.vibration.comfort_data import comfort_data
-from fatigue.vibration.mirrored import Floats, filtered, spread
+from fatigue.vibration.standards.comfort_data import comfort_data
+from fatigue.vibration.standards.mirrored import Floats, filtered, spread
 
 Weighting: TypeAlias = Literal["Wb", "Wd"]
 

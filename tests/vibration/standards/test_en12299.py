@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from fatigue.vibration.en12299 import BAND_HZ, Q1, block_rms, mean_comfort, response, section_percentiles
+from fatigue.vibration.standards.en12299 import BAND_HZ, Q1, block_rms, mean_comfort, response, section_percentiles
 
 
 def analogue(weighting):

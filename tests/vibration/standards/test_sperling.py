@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.vibration.sperling import (
+from fatigue.vibration.standards.sperling import (
     comfort_weight,
     line_weight,
     ride_quality_weight,

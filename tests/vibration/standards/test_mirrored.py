@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import signal
 
-from fatigue.vibration.mirrored import band_pass, filtered, lines, mean_square, spread
+from fatigue.vibration.standards.mirrored import band_pass, filtered, lines, mean_square, spread
 
 
 @settings(max_examples=30, deadline=None)

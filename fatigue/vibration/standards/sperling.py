@@ -10,8 +10,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from scipy import fft
 
-from fatigue.vibration.comfort_data import comfort_data
-from fatigue.vibration.mirrored import Floats, lines, spread
+from fatigue.vibration.standards.comfort_data import comfort_data
+from fatigue.vibration.standards.mirrored import Floats, lines, spread
 
 Direction: TypeAlias = Literal["y", "z"]
 Band: TypeAlias = tuple[float, float]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fatigue.vibration.mirrored import Floats, mean_square
+from fatigue.vibration.standards.mirrored import Floats, mean_square
 
 LINES_OF_A_BAND = 5.0  # bandwidth times duration from which the density in a third octave is looked at (10 lines)
 PEAK_OF_RMS = 3.0  # three times the rms of long life: what a Gaussian test is clipped at
