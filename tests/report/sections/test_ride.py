@@ -26,7 +26,7 @@ from fatigue.ride.flutter import tracked
 from fatigue.ride.hot_damage import HotDamageRow, told
 from fatigue.ride.story import tables_of_channels
 from fatigue.ride.tables import write_tables
-from fatigue.vibration.environment_file import shipped_table
+from fatigue.vibration.standards.environment_file import shipped_table
 from tests.report.reading import Page, values
 from tests.report.tiny_result import Recipe, write_result
 from tests.ride.channels import hung, hunting, record
@@ -420,6 +420,29 @@ def test_a_long_track_is_thinned_and_keeps_what_is_clear():
     [hot] = [trace for trace in fig.data if trace.name == "hot stretch"]
     assert len(hot.x) == MOST_SLICES
     assert len(fig.layout.shapes) < 10
+
+
+def test_names_of_modes_keep_clear_of_the_track():
+    """Above or below their line, at its end or its start; lines close together share one text."""
+    time = np.arange(100) * 0.25
+    stretches = pd.DataFrame({"start_km": [0.0], "end_km": [2.5], "start_s": [0.0], "end_s": [25.0]})
+    stretches = stretches.assign(frequency_hz=8.3, hot=False)
+    track = pd.DataFrame(
+        {"time_s": time, "km": 0.1 * time, "share": 0.5, "rms": 1.0, "reference_rms": 1.0, "hot": False}
+    )
+    modes = pd.DataFrame({"equipment": ["fan", "pump", "converter"], "frequency_hz": [8.0, 8.05, 14.0]})
+
+    def placed(frequency):
+        fig = figures.hunting_along_event(stretches, track.assign(frequency_hz=frequency), modes)
+        shared, alone = fig.layout.annotations
+        assert (shared.text, alone.text) == ("fan 8 Hz, pump 8.05 Hz", "converter 14 Hz")
+        assert (alone.xanchor, alone.yanchor) == ("right", "bottom")
+        return shared.xanchor, shared.yanchor
+
+    assert placed(7.8) == ("right", "bottom")
+    assert placed(8.3) == ("right", "top")
+    at_end = np.where(time > 15.0, np.where(np.arange(100) % 2, 7.8, 8.3), 10.5)
+    assert placed(at_end) == ("left", "bottom")
 
 
 def test_figures_refuse_other_tables(ridden):
