@@ -263,7 +263,7 @@ def damage_in_hot_stretches(hot_damage: ResultTable) -> go.Figure:
         height=96 + 24 * max(len(rows), 2),
         showlegend=False,
         margin={"l": 20, "r": 30, "t": 26, "b": 46},
-        xaxis=axis("share of the event's damage in hot stretches [%]", tickformat=".0%", range=[0.0, 1.12]),
+        xaxis=axis("damage in hot stretches [%]", tickformat=".0%", range=[0.0, 1.12]),
         yaxis={
             "tickvals": places.tolist(),
             "ticktext": [in_figure(weld) for weld in rows["weld"]],
