@@ -27,6 +27,7 @@ from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
 from fatigue.report.sections.details import Detail, weld_details
 from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
 from fatigue.report.sections.ride.read import read_ride
 from fatigue.report.sections.ride.section import ride_section, ride_warnings
@@ -121,6 +122,7 @@ def report_page(
         **body_sections.where(result, body, links, figs),
         **body_sections.causes(result, why, figs),
         **transitions(result, links),
+        **formation_section(why, result, links),
         **ride_section(ridden, links, figs),
         **shift_study(folder, result, figs),
         "pages": [

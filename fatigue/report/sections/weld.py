@@ -19,6 +19,7 @@ from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.curves import all_marked, curve_words, figure_mark, of_toes
 from fatigue.report.sections.details import Detail
 from fatigue.report.sections.embed import Figures, Shown
+from fatigue.report.sections.formation.words import of_one_weld
 from fatigue.report.sections.load_spectra import LoadSpectra, equivalent_table, spectra_figures
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
@@ -45,6 +46,7 @@ class WeldPage:
     variants: PageTable
     events: PageTable
     events_left_out: int
+    formation: str
     levers: PageTable | None
     equivalent: PageTable | None
     reasons: list[tuple[str, str, str]]
@@ -112,6 +114,7 @@ def weld_page(
             f"{id_}-events", result.damage[result.damage["weld"] == weld], result.passes_per_km, EVENTS_LISTED
         ),
         events_left_out=max(0, len(result.events) - EVENTS_LISTED),
+        formation="" if why is None or why.formation is None else of_one_weld(why.formation),
         levers=None if why is None or why.levers.empty else weld_tables.lever_table(f"{id_}-levers", why.levers),
         equivalent=None if spectra is None else equivalent_table(f"{id_}-equivalent", spectra),
         reasons=[] if why is None else why.reasons(),

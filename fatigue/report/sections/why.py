@@ -9,24 +9,30 @@ import numpy as np
 import pandas as pd
 
 from fatigue.report.result import ShownResult, rows_of_worst_points
+from fatigue.report.sections.formation.read import ShownFormation, read_formation
 
 TABLES = ("attribution", "track", "diagnosis", "levers")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Why:
-    """Rows of the diagnosis for the worst points of the detailed welds; an empty table where there is none."""
+    """Rows of the diagnosis for the worst points of the detailed welds; an empty table where there is none.
+
+    ``formation`` is how resonances form; None in a diagnosis by an older version.
+    """
 
     attribution: pd.DataFrame
     track: pd.DataFrame
     diagnosis: pd.DataFrame
     levers: pd.DataFrame
+    formation: ShownFormation | None
 
     def of_weld(self, weld: str) -> "Why":
         """Rows of one weld."""
-        return Why(
-            *(rows[rows["weld"] == weld] for rows in (self.attribution, self.track, self.diagnosis, self.levers))
-        )
+        tables = self.attribution, self.track, self.diagnosis, self.levers
+        attribution, track, diagnosis, levers = (rows[rows["weld"] == weld] for rows in tables)
+        formation = None if self.formation is None else self.formation.of_weld(weld)
+        return Why(attribution, track, diagnosis, levers, formation)
 
     def reasons(self) -> list[tuple[str, str, str]]:
         """Event, verdict on the frequency domain and its reason in words."""
@@ -42,7 +48,8 @@ def read_why(folder: Path, result: ShownResult) -> Why | None:
     for name in ("attribution", "levers"):  # older versions have no unit loads
         if "unit_load" not in found[name]:
             found[name] = found[name].assign(unit_load=None)
-    return Why(**found)
+    formation = read_formation(folder, result)
+    return Why(found["attribution"], found["track"], found["diagnosis"], found["levers"], formation)
 
 
 def mode_shares(why: Why) -> pd.DataFrame:

@@ -15,7 +15,7 @@ from fatigue.why.attribute import Attribution
 from fatigue.why.formation.damping import Damping, damping_of
 from fatigue.why.formation.modes import EventParts, ModesOfEvent, event_parts
 from fatigue.why.formation.point_stress import PointStress
-from fatigue.why.formation.watch import CANDIDATES, Swing, swings_of
+from fatigue.why.formation.watch import CANDIDATES, WORTH_COUNTING, Swing, swings_of
 from fatigue.why.points import Points
 
 Floats = NDArray[np.float64]
@@ -81,6 +81,7 @@ class Formation:
         return {
             "assumed_damping_ratio": self.damping.assumed,
             "modes_without_damping_ratio": int(np.isnan(self.damping.ratio).sum()),
+            "swing_counted_from_damage_share": WORTH_COUNTING,
             "class_thresholds": {
                 "dynamic_share": DYNAMIC,
                 "amplification": AMPLIFIED,
