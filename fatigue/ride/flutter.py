@@ -1,14 +1,14 @@
 """Hunting of a channel: its dominant frequency over the whole event, and the stretches in which it is hot."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case.channels import Ride
+from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
 from fatigue.vibration.tracking import (
-    ABOVE_NYQUIST,
     RIDGE_HZ,
     SHORTEST_S,
     Stretch,
@@ -104,22 +104,24 @@ def tracked(record: ChannelRecord, ride: Ride) -> Tracked:
 
     A slice is compared with ``reference_rms`` of the channel or, where none is given, with the median of the event.
     """
-    low, high = ride.hunting_band_hz
-    cannot = cannot_be_tracked(record.values.size, record.step, (low, high))
-    if cannot is not None:
-        why = (
-            f"sampled at {1 / record.step:.4g} Hz: nothing is known up to {high:g} Hz, the end of hunting_band_hz"
-            if cannot == ABOVE_NYQUIST
-            else f"{record.duration:.3g} s are too short: a hot stretch and a slice beside it take {SHORTEST_S:g} s"
-        )
-        return Tracked(record, None, np.zeros(0, dtype=np.bool_), (), NAN, why)
-    found = track(record.values, record.step, (low, high))
+    band, clipped = heard(ride.hunting_band_hz, record)
+    if band is None:
+        return _without_track(record, clipped)
+    if cannot_be_tracked(record.values.size, record.step, band) is not None:
+        why = f"{record.duration:.3g} s are too short: a hot stretch and a slice beside it take {SHORTEST_S:g} s"
+        return _without_track(record, why)
+    found = track(record.values, record.step, band)
     given = ride.reference_rms.get(record.name)
     reference = found.median_rms if given is None else given
     hot = hot_slices(found, ride.hot_factor, ride.hot_share, reference)
-    parts = tuple(stretches(record.values, record.step, (low, high), found, hot))
+    parts = tuple(stretches(record.values, record.step, band, found, hot))
     result = Tracked(record, found, hot, parts, reference, None)
-    return Tracked(record, found, hot, parts, reference, _read_with(result, found, ride))
+    said = [clipped, *_read_with(result, found, band, ride)]
+    return replace(result, reason="; ".join(filter(None, said)) or None)
+
+
+def _without_track(record: ChannelRecord, why: str) -> Tracked:
+    return Tracked(record, None, np.zeros(0, dtype=np.bool_), (), NAN, why)
 
 
 def flutter_rows(of: Tracked) -> list[FlutterRow]:
@@ -173,12 +175,12 @@ def flutter_track_rows(of: Tracked) -> list[FlutterTrackRow]:
     ]
 
 
-def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
-    """What the stretches of a channel are to be read with; None where nothing is in doubt."""
-    low, high = ride.hunting_band_hz
+def _read_with(of: Tracked, found: Track, band_hz: tuple[float, float], ride: Ride) -> list[str]:
+    """What the stretches of a channel are to be read with; nothing where nothing is in doubt."""
+    low, high = band_hz
     said = []
     if np.isnan(of.hunting_hz):
-        return f"nothing vibrates between {low:g} and {high:g} Hz"
+        return [f"nothing vibrates between {low:g} and {high:g} Hz"]
     remedy = f'give its rms of a sound event: reference_rms = {{ "{of.record.name}" = ... }} in [ride]'
     dominated = float(np.mean(found.share > ride.hot_share))
     if of.record.name not in ride.reference_rms:
@@ -197,5 +199,5 @@ def _read_with(of: Tracked, found: Track, ride: Ride) -> str | None:
             f"the largest density lies at {of.hunting_hz:.3g} Hz, the edge of hunting_band_hz: its peak may be outside"
         )
     if high - low <= 2 * RIDGE_HZ:
-        said.append(f"hunting_band_hz is no wider than the ridge, {2 * RIDGE_HZ:g} Hz: every share is 1")
-    return "; ".join(said) or None
+        said.append(f"{low:g} to {high:g} Hz are no wider than the ridge, {2 * RIDGE_HZ:g} Hz: every share is 1")
+    return said

@@ -5,6 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.quotient import quotient
+
 Floats = NDArray[np.float64]
 
 TAPER = 0.05  # of the record, at each end
@@ -57,7 +59,7 @@ def dominant_hz(of: Spectrum) -> Floats:
     inside = (around >= 0) & (around < lines)
     around = np.clip(around, 0, lines - 1)
     weight = np.take_along_axis(of.variance, around, -1) * inside
-    return _over((weight * of.hz[around]).sum(axis=-1), weight.sum(axis=-1))
+    return quotient((weight * of.hz[around]).sum(axis=-1), weight.sum(axis=-1))
 
 
 def share_between(of: Spectrum, low_hz: Floats | float, high_hz: Floats | float) -> Floats:
@@ -69,12 +71,7 @@ def share_between(of: Spectrum, low_hz: Floats | float, high_hz: Floats | float)
     0.8
     """
     inside = (of.hz >= np.asarray(low_hz)[..., None]) & (of.hz <= np.asarray(high_hz)[..., None])
-    return _over((of.variance * inside).sum(axis=-1), of.variance.sum(axis=-1))
-
-
-def _over(part: Floats, total: Floats) -> Floats:
-    """Quotient, NaN where there is nothing."""
-    return np.asarray(np.divide(part, total, out=np.full(total.shape, np.nan), where=total > 0.0))
+    return quotient((of.variance * inside).sum(axis=-1), of.variance.sum(axis=-1))
 
 
 def _taper(samples: int) -> Floats:

@@ -22,27 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.vibration.continuation import continued
+from fatigue.vibration.oscillator import dynamic_stiffness
 
 Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 CUT, GONE = 0.4, 0.45  # of the sampling rate: all of the excitation is kept up to the one, nothing from the other on
 SHORTEST = 64  # samples
-
-
-def dynamic_stiffness(hz: Floats, natural_hz: Floats | float, damping_ratio: Floats | float) -> Complex:
-    """Dynamic stiffness per modal mass, ``H^-1 = w_k^2 - w^2 + 2 i zeta w_k w`` at some frequencies [1/s^2].
-
-    >>> float((abs(dynamic_stiffness(np.array(9.2), 9.2, 0.05)) / (2 * np.pi * 9.2) ** 2).round(12))
-    0.1
-    """
-    w, w_k = 2.0 * np.pi * np.asarray(hz), 2.0 * np.pi * np.asarray(natural_hz)
-    return np.asarray(w_k**2 - w**2 + 2j * np.asarray(damping_ratio) * w_k * w)
-
-
-def receptance(hz: Floats, natural_hz: Floats | float, damping_ratio: Floats | float) -> Complex:
-    """Receptance H of a mode of modal mass 1 at some frequencies [s^2]."""
-    return np.asarray(1.0 / dynamic_stiffness(hz, natural_hz, damping_ratio))
 
 
 class Split(NamedTuple):

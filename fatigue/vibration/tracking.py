@@ -84,7 +84,7 @@ class Stretch:
 
 def cannot_be_tracked(samples: int, step: float, band_hz: tuple[float, float]) -> str | None:
     """Why a record has no track: ``short`` of 4.75 s, or its band reaches ``above_nyquist``; None where it has one."""
-    if band_hz[1] * step > 0.5:
+    if band_hz[1] * step > 0.5 * (1 + 1e-9):
         return ABOVE_NYQUIST
     return SHORT if samples * step < SHORTEST_S * (1 - 1e-9) else None
 

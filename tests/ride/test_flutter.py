@@ -127,7 +127,7 @@ def test_narrow_band():
         (record(np.zeros(6000)), "nothing vibrates between 4 and 12 Hz"),
         (record(np.full(6000, 9.81)), "nothing vibrates between 4 and 12 Hz"),
         (record(hunting()[:900]), "4.5 s are too short: a hot stretch and a slice beside it take 4.75 s"),
-        (record(hunting()[::10], step=10 / RATE), "sampled at 20 Hz: nothing is known up to 12 Hz"),
+        (record(hunting()[::25], step=25 / RATE), "sampled at 8 Hz: nothing is known above 4 Hz"),
     ],
     ids=["zeros", "constant", "short", "slow"],
 )
@@ -141,6 +141,17 @@ def test_nothing_to_track(channel, reason):
     assert row.end_s == pytest.approx(START_S + channel.duration)
     assert of.hot_spans == []
     assert np.isnan(of.hunting_hz)
+
+
+def test_band_that_is_clipped():
+    """Of a slow channel the band ends at half its sampling rate: the same numbers below, with the reason."""
+    slow = record(hunting()[::10], step=10 / RATE)
+    of, inside = tracked(slow, RIDE), tracked(slow, Ride(hunting_band_hz=(4.0, 10.0)))
+    assert of.reason == "sampled at 20 Hz: nothing is known above 10 Hz"
+    assert inside.reason is None
+    np.testing.assert_array_equal(of.track.frequency, inside.track.frequency)
+    assert of.stretches == inside.stretches
+    assert of.hot.any()
 
 
 def test_slices_without_a_track():

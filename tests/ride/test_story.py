@@ -208,15 +208,34 @@ def test_text_and_record(own):
     assert json.loads(json.dumps(record, default=str))
 
 
-def test_bands_that_no_channel_reaches(own):
-    """A band that the case states is refused where no channel reaches it; the dry run says the same."""
+def test_bands_of_which_no_channel_leaves_anything(own):
+    """A stated band wholly above half the sampling rate of every channel is refused; the dry run says the same."""
     case_file = with_channels(own / "case" / "case.toml", CHANNEL)
-    case_file.write_text(case_file.read_text() + "\n[ride]\nhunting_band_hz = [4.0, 120.0]\n")
-    words = r"ride.hunting_band_hz: the upper edge of 120 Hz is above 100 Hz, half the sampling rate"
+    case_file.write_text(case_file.read_text() + "\n[ride]\nhunting_band_hz = [100.0, 120.0]\n")
+    words = r"ride.hunting_band_hz: the lower edge of 100 Hz is not below 100 Hz, half the sampling rate"
     with pytest.raises(DataError, match=words):
         ride(own / "result")
     with pytest.raises(DataError, match=words):
         check_case(load_case(case_file))
+
+
+def test_bands_that_channels_reach_in_part(own):
+    """A stated band that reaches above half the sampling rate is clipped there, and every row of it says so."""
+    floor = CHANNEL.replace("bogie y", "floor y").replace('"bogie"', '"floor"')
+    case_file = with_channels(own / "case" / "case.toml", f"{CHANNEL}, {floor}")
+    rules = "hunting_band_hz = [4.0, 120.0]\ncomfort_band_hz = [0.5, 150.0]\nalarm = { band_hz = [0.5, 110.0] }\n"
+    case_file.write_text(f"{case_file.read_text()}\n[ride]\n{rules}")
+    check_case(load_case(case_file))
+    ride(own / "result", threads=1)
+    table, clipped = tables_in(own / "result"), "sampled at 200 Hz: nothing is known above 100 Hz"
+    assert table["flutter"]["reason"].str.startswith(clipped).all()
+    assert table["flutter"]["frequency_hz"].notna().all()
+    sperling = table["comfort"][table["comfort"]["index"] == "sperling_wz"]
+    assert (sperling["band_hz"] == "0.5-100").all()
+    assert (sperling["reason"] == clipped).all()
+    assert sperling["value"].notna().all()
+    assert table["alarm"]["alarms"].isna().all()
+    assert "the band of the alarm reaches 110 Hz" in table["alarm"]["reason"].iloc[0]
 
 
 def test_distance_of_a_channel_that_begins_later_than_its_event(own):

@@ -8,12 +8,10 @@ from hypothesis import strategies as st
 from fatigue.vibration.excitation import (
     CUT,
     SHORTEST,
-    dynamic_stiffness,
     excitation,
     is_differentiated,
     pass_band,
     quasi_static,
-    receptance,
     split,
 )
 from tests.vibration.oscillator import FINER, band_limited_noise, response
@@ -119,16 +117,6 @@ def test_what_is_above_the_cut_is_not_excitation():
     clean, noisy = (quasi_static(q[None], STEP, hz, zeta)[0] for q in (slow, slow + fast))
     assert noisy[100:-100] == pytest.approx(clean[100:-100], abs=2e-2)
     assert pass_band(np.array([0.0, CUT / STEP, 0.45 / STEP, 0.5 / STEP]), STEP) == pytest.approx([1, 1, 0, 0])
-
-
-def test_dynamic_stiffness_and_receptance():
-    """H^-1 at 0 Hz is w_k^2, at w_k it is 2 i zeta w_k^2; H is its reciprocal, also of many modes at once."""
-    w2 = (2.0 * np.pi * 9.2) ** 2
-    at = dynamic_stiffness(np.array([0.0, 9.2, 18.4]), 9.2, 0.05)
-    assert at / w2 == pytest.approx([1.0, 0.1j, -3.0 + 0.2j])
-    assert receptance(np.array([0.0, 9.2]), 9.2, 0.05) * w2 == pytest.approx([1.0, -10.0j])
-    many = dynamic_stiffness(np.array([1.0, 2.0]), np.array([[8.0], [9.0]]), np.array([[0.01], [0.02]]))
-    assert many[1] == pytest.approx(dynamic_stiffness(np.array([1.0, 2.0]), 9.0, 0.02))
 
 
 @pytest.mark.parametrize(

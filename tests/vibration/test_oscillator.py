@@ -1,9 +1,9 @@
-"""The receptance of a mode at constant modal mass."""
+"""The receptance of a mode of modal mass 1, and its reciprocal."""
 
 import numpy as np
 import pytest
 
-from fatigue.vibration.oscillator import memory_s, receptance
+from fatigue.vibration.oscillator import dynamic_stiffness, memory_s, receptance
 
 
 def test_static_resonant_and_high_limits() -> None:
@@ -21,6 +21,16 @@ def test_inverse_is_the_equation_of_motion() -> None:
     w, w_i = 2.0 * np.pi * f, 2.0 * np.pi * f_i
     q = receptance(f, f_i, z)
     np.testing.assert_allclose((1j * w) ** 2 * q + 2.0 * z * w_i * 1j * w * q + w_i**2 * q, 1.0, rtol=1e-12)
+
+
+def test_dynamic_stiffness_and_receptance() -> None:
+    """H^-1 at 0 Hz is w_k^2, at w_k it is 2 i zeta w_k^2; H is its reciprocal, also of many modes at once."""
+    w2 = (2.0 * np.pi * 9.2) ** 2
+    at = dynamic_stiffness(np.array([0.0, 9.2, 18.4]), 9.2, 0.05)
+    assert at / w2 == pytest.approx([1.0, 0.1j, -3.0 + 0.2j])
+    assert receptance(np.array([0.0, 9.2]), 9.2, 0.05) * w2 == pytest.approx([1.0, -10.0j])
+    many = dynamic_stiffness(np.array([1.0, 2.0]), np.array([[8.0], [9.0]]), np.array([[0.01], [0.02]]))
+    assert many[1] == pytest.approx(dynamic_stiffness(np.array([1.0, 2.0]), 9.0, 0.02))
 
 
 def test_memory() -> None:

@@ -57,17 +57,18 @@ def hunting_along_event(
     layout = {"xaxis": axis(title, range=ends)}
     slices = None if flutter_track is None else frame_of(flutter_track, "flutter_track", _SLICE, empty=True)
     frequency = stretches["frequency_hz"].to_numpy(dtype=np.float64)
+    x = stretches[[f"start_{unit}", f"end_{unit}"]].to_numpy(dtype=np.float64).mean(axis=1)
     if slices is None or not len(slices):
         data, shares_of_height = _of_stretches(stretches, unit), {}
     else:
-        frequency = slices["frequency_hz"].to_numpy(dtype=np.float64)
         drawn = _clearest(slices)
+        frequency = drawn["frequency_hz"].to_numpy(dtype=np.float64)
         x = drawn["time_s" if unit == "s" else "km"].to_numpy(dtype=np.float64)
         data = [*_of_slices(drawn, x, unit), _level(drawn, x, unit)]
         layout["xaxis"] |= {"anchor": "y2"}
         layout["yaxis2"] = axis("rms / reference [-]", domain=[0.0, 0.26], rangemode="tozero", nticks=4)
         shares_of_height = {"domain": [0.36, 1.0]}
-    modes = modes_drawn(coincidence, frequency)
+    modes, places = modes_drawn(coincidence, frequency), (x - ends[0]) / max(ends[1] - ends[0], 1e-12)
     seen = np.concatenate([frequency[np.isfinite(frequency)], modes["frequency_hz"].to_numpy(dtype=np.float64)])
     low, high = (float(seen.min()), float(seen.max())) if seen.size else (0.0, 1.0)
     room = 0.08 * max(high - low, 1.0)
@@ -81,7 +82,7 @@ def hunting_along_event(
         data,
         height=400 if "yaxis2" in layout else 300,
         shapes=[*(shaded(a, b) for a, b in _merged(hot, unit, ends)), *lines],
-        annotations=_names_of(modes, high - low + 2.6 * room),
+        annotations=_names_of(modes, high - low + 2.6 * room, places, frequency),
         **layout,
     )
 
@@ -100,29 +101,42 @@ def modes_drawn(coincidence: ResultTable | None, frequency: Floats) -> pd.DataFr
     return near.iloc[order].sort_values("frequency_hz", kind="stable")
 
 
-def _names_of(modes: pd.DataFrame, height: float) -> list[Trace]:
-    """Names of the modes at the end of their lines; those of lines that lie close together are one text."""
+def _names_of(modes: pd.DataFrame, height: float, x: Floats, y: Floats) -> list[Trace]:
+    """Names of the modes on their lines, where fewest points are; those of lines that lie close together are one text.
+
+    ``height`` of the panel [Hz]; ``x`` and ``y`` of the points, x from 0 to 1.
+    """
     groups: list[list[tuple[str, float]]] = []
     for name, frequency in modes.itertuples(index=False):
         words = f"{in_figure(name, 24)} {frequency:.4g} Hz"
-        if groups and frequency - groups[-1][-1][1] < 0.06 * height:
+        if groups and frequency - groups[-1][-1][1] < 0.09 * height:
             groups[-1].append((words, frequency))
         else:
             groups.append([(words, frequency)])
-    return [
-        {
-            "x": 1,
-            "xref": "x domain",
-            "y": group[-1][1],
-            "text": ", ".join(words for words, _ in group),
-            "xanchor": "right",
-            "yanchor": "bottom",
-            "showarrow": False,
-            "font": {"size": 11, "color": INK},
-            "bgcolor": "rgba(255,255,255,0.7)",
-        }
-        for group in groups
-    ]
+    notes = []
+    for group in groups:
+        low, high = group[0][1], group[-1][1]
+        above, below = (y >= high) & (y < high + 0.1 * height), (y <= low) & (y > low - 0.1 * height)
+        places = [
+            (int(np.count_nonzero(across_ & along)), side, anchor, at)
+            for along, side in ((x > 0.75, 1), (x < 0.25, 0))
+            for across_, anchor, at in ((above, "bottom", high), (below, "top", low))
+        ]
+        _, side, anchor, at = min(places, key=lambda place: place[0])  # the first of those that are equally free
+        notes.append(
+            {
+                "x": side,
+                "xref": "x domain",
+                "y": at,
+                "text": ", ".join(words for words, _ in group),
+                "xanchor": "right" if side else "left",
+                "yanchor": anchor,
+                "showarrow": False,
+                "font": {"size": 11, "color": INK},
+                "bgcolor": "rgba(255,255,255,0.7)",
+            }
+        )
+    return notes
 
 
 def _of_stretches(stretches: pd.DataFrame, unit: str) -> list[Trace]:
@@ -249,7 +263,7 @@ def damage_in_hot_stretches(hot_damage: ResultTable) -> go.Figure:
         height=96 + 24 * max(len(rows), 2),
         showlegend=False,
         margin={"l": 20, "r": 30, "t": 26, "b": 46},
-        xaxis=axis("share of the event's damage in hot stretches [%]", tickformat=".0%", range=[0.0, 1.12]),
+        xaxis=axis("damage in hot stretches [%]", tickformat=".0%", range=[0.0, 1.12]),
         yaxis={
             "tickvals": places.tolist(),
             "ticktext": [in_figure(weld) for weld in rows["weld"]],

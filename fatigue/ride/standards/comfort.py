@@ -7,8 +7,9 @@ from typing import Literal, cast
 import numpy as np
 
 from fatigue.case.channels import Ride
+from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
+from fatigue.ride.standards.reasons import joined, no_acceleration, too_short, written
 from fatigue.vibration.standards.comfort_data import comfort_data, standing
 from fatigue.vibration.standards.en12299 import BAND_HZ, WEIGHTING, block_rms, mean_comfort, section_percentiles
 from fatigue.vibration.standards.mirrored import Floats

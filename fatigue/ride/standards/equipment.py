@@ -12,8 +12,9 @@ from fatigue.case.channels import Equipment, Ride
 from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.files.mishaps import refusal
 from fatigue.files.naming import missing_file
+from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
+from fatigue.ride.standards.reasons import joined, no_acceleration, too_short, written
 from fatigue.vibration.standards.environment import (
     PEAK_OF_RMS,
     DensityShape,

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fatigue.case.channels import Ride
+from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.band import heard, joined, no_acceleration, too_short, written
+from fatigue.ride.standards.reasons import joined, no_acceleration, too_short, written
 from fatigue.vibration.standards.mirrored import Floats, band_pass, filtered
 from fatigue.vibration.standards.running import (
     body_band,

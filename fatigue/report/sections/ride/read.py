@@ -103,10 +103,11 @@ def read_ride(folder: Path, result: ShownResult) -> ShownRide | None:
     if not all(table_path(folder, name).is_file() for name in NEEDED):
         return None
     tables = {name: read_table(folder, name).to_pandas() for name in NEEDED}
-    limit = result.assessed.set_index("weld")["damage_limit"]
-    damage = tables["hot_damage"]
-    bearable = damage["weld"].map(limit).to_numpy(dtype=np.float64)
-    tables["hot_damage"] = damage.assign(severity=damage["damage_per_km"].to_numpy() / bearable)
+    damage, of_all = tables["hot_damage"], float(result.record["mission"].get("damage_limit", 1.0))
+    limit = (
+        result.assessed.set_index("weld")["damage_limit"].astype(np.float64).fillna(of_all)
+    )  # empty in older results
+    tables["hot_damage"] = damage.assign(severity=damage["damage_per_km"] / damage["weld"].map(limit))
     track = read_table(folder, TRACK).to_pandas() if table_path(folder, TRACK).is_file() else None
     return ShownRide(_channels(tables, track), tables, result.record.get("ride", {}))
 

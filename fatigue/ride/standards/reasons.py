@@ -1,18 +1,8 @@
-"""The band of frequencies that a record leaves of the one that is asked for, and how bands and reasons are written."""
+"""Why a record has no number beside a standard, and how bands and reasons are written in its row."""
 
 from collections.abc import Iterable
 
 from fatigue.ride.channel import ChannelRecord
-
-
-def heard(band: tuple[float, ...], record: ChannelRecord) -> tuple[tuple[float, float] | None, str]:
-    """Band [Hz] up to half the sampling rate, None if nothing is left of it; and what is to be said about it."""
-    low, high = band
-    half = 0.5 / record.step
-    if high <= half * (1 + 1e-9):
-        return (low, high), ""
-    said = f"sampled at {1 / record.step:g} Hz: nothing is known above {half:g} Hz"
-    return ((low, half) if low < half else None), said
 
 
 def written(band: tuple[float, ...] | None) -> str:
