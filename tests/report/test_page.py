@@ -224,7 +224,7 @@ def test_an_edited_case_is_not_taken_for_the_assessed_one(tmp_path):
     """Its histories may be others, so they are not shown."""
     folder = write_result(tmp_path)
     case = tmp_path / "case.toml"
-    case.write_text(case.read_text() + "# edited\n")
+    case.write_text(case.read_text().replace("segment_s = 2.0", "segment_s = 1.0"))
     assert "has changed" in Page(report_page(folder)).words
 
 
