@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 from fatigue.assess import assess
 from fatigue.case import load_case
@@ -12,6 +13,10 @@ from tests.small_case import small_case
 MOST_WORKERS = 8  # each of them holds up to 1 GB
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "carbody"
+
+
+settings.register_profile("no deadline", deadline=None)  # a busy machine is no fault, nor is what compiles first
+settings.load_profile("no deadline")
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -43,7 +43,7 @@ def test_a_case_is_the_same_however_it_is_spelled(case, tmp_path, monkeypatch):
     monkeypatch.chdir(case.parent)
     (tmp_path / "by-name").symlink_to(case.parent)
     (tmp_path / "latest.toml").symlink_to(case)
-    case.write_text(TEXT + "# edited\n")
+    case.write_text(TEXT + "edited = true\n")
     for spelled in ("case.toml", "./case.toml", "../case/case.toml", tmp_path / "by-name" / "case.toml", case):
         assert is_same_case(type(case)(spelled), record, folder), spelled
     assert is_same_case(tmp_path / "latest.toml", record, folder)
@@ -65,7 +65,7 @@ def test_case_and_result_may_be_moved_together(case, tmp_path):
     record = record_of(case, folder)
     case.parent.rename(tmp_path / "archive")
     moved = tmp_path / "archive" / "case.toml"
-    moved.write_text(TEXT + "# edited\n")
+    moved.write_text(TEXT + "edited = true\n")
     assert is_same_case(moved, record, tmp_path / "archive" / "result")
 
 
