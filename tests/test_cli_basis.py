@@ -41,6 +41,7 @@ def test_basis_is_told_and_written(tmp_path):
         (("--force",), "name their folder with -o"),
         (("--band-hz", "-1"), "Invalid value for '--band-hz'"),
         (("--damping", "nan"), "Invalid value for '--damping'"),
+        (("--damping", "2"), "2.0 is not in the range 0.0<x<1.0"),
     ],
 )
 def test_wrong_usage(tmp_path, options, words):

@@ -6,6 +6,7 @@ error of truncation. Each question is a ``Finding`` with its reasons where the c
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 
 from fatigue.basis.counted import opened
@@ -20,7 +21,7 @@ from fatigue.basis.truncation import truncation
 from fatigue.basis.two_bases.compare import two_bases
 from fatigue.case import Case, given_case
 from fatigue.case.tables import BASIS_FILES
-from fatigue.errors import given_path
+from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.stages import stage
 
@@ -65,8 +66,9 @@ def basis(
 
     Raises
     ------
-    CaseError, DataError : a mistake in the case or its files; files in the way in the folder
+    CaseError, DataError : a mistake in the case or its files, or no damping ratio; files in the way in the folder
     """
+    refuse(CaseError, _no_damping(damping))
     case = given_case(case)
     compared = None if other is None else given_case(other)
     folder = None if into is None else given_path(into, "into")
@@ -118,3 +120,9 @@ def _read_here(case: Case, other: Case | None) -> Iterator[Path]:
         if one is not None:
             names = [getattr(one.body, key) for key in ("modes", *BASIS_FILES)]
             yield from (path for path in (one.path, *map(one.resolve, filter(None, names))) if path.is_file())
+
+
+def _no_damping(damping: float | None) -> Iterator[Problem]:
+    if damping is not None and not (isinstance(damping, Real) and 0.0 < damping < 1.0):
+        what = f"{damping} is no damping ratio of a mode that swings"
+        yield Problem("bad_damping", "damping", what, "Give the ratio to critical damping: 1.5 % are 0.015")

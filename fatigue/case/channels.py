@@ -57,6 +57,8 @@ class Channel(Table):
 
     def _contradictions(self) -> Iterator[Problem]:
         yield from path_problems({"history": self.history})
+        if self.column == "time_s":
+            yield clash("column", "'time_s' is the time of the file", "Name the column of the channel")
         if self.scale == 0.0:
             yield clash("scale", "scale = 0 leaves nothing of the channel", "Give a factor, or remove the channel")
 

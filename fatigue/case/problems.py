@@ -81,8 +81,17 @@ def model_problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -
             near = difflib.get_close_matches(key, fields, n=1)
             remedy = f"Write {near[0]!r}" if near else f"Remove it; the keys are {', '.join(fields)}"
             yield Problem("unknown_key", where, f"unknown key with the value {_shown(value)}", remedy)
-        case "too_short" if value:
+        case "too_short" if value and details["ctx"]["actual_length"] < len(value):
             return  # an item of the list is wrong, and that is reported by itself
+        case ("too_short" | "too_long") as is_unlike if value:
+            most, least = (details["ctx"].get(f"{end}_length") for end in ("max", "min"))
+            wanted = f"at most {most}" if is_unlike == "too_long" else f"at least {least}"
+            yield Problem(
+                "bad_value",
+                where,
+                f"{_shown(value)} has {len(value)} item{'s' * (len(value) > 1)}, {wanted} are wanted",
+                remedy,
+            )
         case "too_short" | "string_too_short":
             yield Problem("bad_value", where, f"{_shown(value)} is empty", remedy)
         case "value_error" if isinstance(cause := details["ctx"]["error"], Contradictions):

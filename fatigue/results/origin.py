@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.files.naming import missing_case_of_result
 
@@ -94,11 +94,24 @@ def named_case(record: Mapping[str, Any], case_file: Path) -> Path:
     """
     if not case_file.is_file():
         raise DataError(missing_case_of_result(case_file))
+    refuse(DataError, _unreadable(case_file))
     if not is_assessed_case(record, case_file):
         what = f"is not the case of this result: its text differs from that of {record['case_file']} as it was assessed"
         remedy = "Name the case as it was assessed, or assess again"
         raise DataError(Problem("other_case", str(case_file), what, remedy))
     return case_file
+
+
+def _unreadable(case_file: Path) -> Iterator[Problem]:
+    """Refusal of a case that was edited into something that is no TOML: of it no one can say that it differs."""
+    try:
+        tomllib.loads(_text(case_file) or "")
+    except tomllib.TOMLDecodeError as error:
+        yield Problem(
+            "toml_syntax", str(case_file), f"not valid TOML: {error}", "Correct the line; `fatigue check` says more"
+        )
+    except (ValueError, RecursionError):
+        return
 
 
 def changed_inputs(record: Mapping[str, Any], case_file: Path) -> list[Problem]:

@@ -41,7 +41,9 @@ def _row(of: Tracked, rule: Alarm) -> AlarmRow:
     record, (low, high) = of.record, rule.band_hz
     reason = _has_none(record, (low, high))
     alarms, peak, first, longest = None, NAN, NAN, NAN
-    if reason is None:
+    if reason is None and record.is_still:
+        alarms, peak, longest, reason = 0, 0.0, 0.0, "the channel does not vary: its sensor would tell nothing"
+    elif reason is None:
         values, step = filtered(record.values, record.step, (low, high), rule.filter)
         count = count_alarms(values, step, rule.threshold_m_s2, rule.cycles)
         alarms, peak, longest = count.times.size, count.peak, count.longest_run

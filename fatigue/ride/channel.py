@@ -42,6 +42,11 @@ class ChannelRecord:
         """Duration [s]: samples times step."""
         return self.values.size * self.step
 
+    @property
+    def is_still(self) -> bool:
+        """Whether all samples are equal, as those of a sensor that was not connected."""
+        return bool(np.ptp(self.values) == 0.0)
+
     def km(self, seconds: float) -> float:
         """Distance from the first kept sample of the event to so many seconds behind the first sample [km]."""
         return (self.ahead_s + seconds) * self.km_per_s

@@ -119,7 +119,7 @@ def told(alarm: AlarmRow, worst: HotDamageRow) -> AlarmRow:
     """
     share, length = worst.share_inside, worst.length_share_inside
     alarm = replace(alarm, damage_share_inside_hot=share, hot_km_share=length)
-    if np.isnan(length) or (alarm.alarms is None and length > 0.0):
+    if np.isnan(length) or alarm.alarms is None:
         return alarm
     if length == 0.0:
         return replace(alarm, told="no_hot_stretch")

@@ -153,7 +153,7 @@ def _short_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Pr
 
 def _still_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
     """Warning about channels that do not vary."""
-    still = [one for one in records if float(np.ptp(one.values)) == 0.0]
+    still = [one for one in records if one.is_still]
     if still:
         named = few([f"'{one.name}' of '{one.event}'" for one in still])
         what = f"the channel does not vary: {named}"

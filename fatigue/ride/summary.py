@@ -1,5 +1,6 @@
 """What is said of a ride: event by event the hunting, what it meets, the alarm, comfort and equipment."""
 
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from math import isnan
@@ -17,6 +18,7 @@ from fatigue.ride.standards.running import RunningRow
 from fatigue.ride.tables import Rows, column_values
 from fatigue.shown import few, shortened, visible
 
+WIDTH = 110
 NOT_PRINTED = ("flutter_track",)  # four rows a second of every channel
 
 
@@ -46,14 +48,28 @@ class RideSummary:
         }
 
     def as_text(self) -> str:
-        """Text for people: a block for each event."""
+        """Text for people: a block for each event, and once what no event has."""
         lines = [f"{visible(self.title)}: the ride, damage at {self.points}"]
+        rows = {event: self._of(event) for event in self.events}
+        missing = {event: list(_not_had(rows[event])) for event in self.events}
+        first, *others = missing.values()
+        everywhere = [line for line in first if all(line in of for of in others)] if others else []
         for event in self.events:
-            lines += ["", f"'{shortened(visible(event))}'", *(f"  {line}" for line in self._event(event))]
+            own = [line for line in missing[event] if line not in everywhere]
+            lines += [
+                "",
+                f"'{shortened(visible(event))}'",
+                *map(_wrapped, self._event(event, rows[event])),
+                *map(_wrapped, own),
+            ]
+        if everywhere:
+            lines += ["", "In every event", *map(_wrapped, everywhere)]
         return "\n".join(lines)
 
-    def _event(self, event: str) -> Iterator[str]:
-        of = {name: [row for row in rows if row.event == event] for name, rows in self.tables.items()}
+    def _of(self, event: str) -> dict[str, list[Any]]:
+        return {name: [row for row in rows if row.event == event] for name, rows in self.tables.items()}
+
+    def _event(self, event: str, of: Mapping[str, list[Any]]) -> Iterator[str]:
         flutter: list[FlutterRow] = of["flutter"]
         for channel in dict.fromkeys(row.channel for row in flutter):
             slices = [row.frequency_hz for row in of["flutter_track"] if row.channel == channel and row.hot]
@@ -70,7 +86,19 @@ class RideSummary:
         for row in of["stationarity"]:
             if row.assumptions == "violated":
                 yield f"'{row.channel}' is not what the frequency domain assumes: {row.reason}"
-        yield from _not_had(of)
+
+
+def _wrapped(line: str) -> str:
+    """A line of a block, what is longer than the page continued below it."""
+    indent = "  " + " " * (len(line) - len(line.lstrip()))
+    return textwrap.fill(
+        visible(line.lstrip()),
+        WIDTH,
+        initial_indent=indent,
+        subsequent_indent=f"{indent}  ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def _records(name: str, rows: Rows) -> list[dict[str, Any]]:
@@ -88,7 +116,7 @@ def _hunting_text(channel: str, rows: Sequence[FlutterRow], hot_hz: Sequence[flo
     if hot:
         frequency = _number(median(hot_hz))
         where = few([_span(row) for row in hot], 3)
-        text += f"{len(hot)} hot stretch{'es' * (len(hot) > 1)}, {length:.0%} of the length, {frequency} Hz: {where}"
+        text += f"{len(hot)} hot stretch{'es' * (len(hot) > 1)}, {length:.0%} of the record, {frequency} Hz: {where}"
     else:
         longest = max(rows, key=lambda row: row.end_s - row.start_s)
         text += f"no hot stretch, dominant frequency {_number(longest.frequency_hz)} Hz"
@@ -104,9 +132,9 @@ def _span(row: FlutterRow) -> str:
 def _damage_text(worst: HotDamageRow) -> Iterator[str]:
     """Where the event damages, of a channel with hot stretches."""
     if not isnan(worst.share_inside) and worst.length_share_inside > 0.0:
-        times = "" if isnan(worst.intensity) else f", {_number(worst.intensity)} times as much per km as outside"
+        times = "" if isnan(worst.intensity) else f", {_factor(worst.intensity)} times as much per km as outside"
         yield (
-            f"  damage: {worst.share_inside:.0%} in these {worst.length_share_inside:.0%} of the length{times} "
+            f"  damage: {worst.share_inside:.0%} in them, {worst.length_share_inside:.0%} of the event{times} "
             f"({shortened(visible(worst.weld))}, node {worst.node} {worst.surface}, where the event damages most)"
         )
 
@@ -115,7 +143,7 @@ def _coincidence_text(row: CoincidenceRow) -> str:
     within = "" if row.within == "hot" else " (no hot stretch)"
     text = f"coincidence of '{row.channel}' at {_number(row.f_hunt_hz)} Hz{within} with '{row.equipment}' at "
     text += f"{_number(row.frequency_hz)} Hz, damping {row.damping_ratio:.2g}: {row.flag}, "
-    text += f"amplification {_number(row.amplification)}"
+    text += f"amplification {_factor(row.amplification)}"
     if isnan(row.coherence):
         return text
     return f"{text}, coherence {row.coherence:.2f}, phase {row.phase_deg:.0f} deg{_beside(row.reason)}"
@@ -138,6 +166,8 @@ def _comfort_text(row: ComfortRow) -> str:
     )
     if not isnan(row.block_s):
         text += f", blocks of {_number(row.block_s)} s"
+    if row.highest > row.value:
+        text += f", the worst {_number(row.highest)}"
     return text + (", short record" if row.short_record else "") + _beside(row.reason)
 
 
@@ -146,7 +176,7 @@ def _equipment_text(row: EquipmentRow) -> str:
     if row.vibration_class:
         text += f", limit {_number(row.limit_m_s2)} of class {row.vibration_class} ({row.edition})"
     if not isnan(row.asd_ratio):
-        text += f", density {_number(row.asd_ratio)} times that of the class at {_number(row.asd_ratio_hz)} Hz"
+        text += f", density {_factor(row.asd_ratio)} times that of the class at {_number(row.asd_ratio_hz)} Hz"
     return text + _beside(row.reason)
 
 
@@ -189,3 +219,8 @@ def _beside(reason: str | None) -> str:
 
 def _number(value: float) -> str:
     return f"{value:.4g}"
+
+
+def _factor(value: float) -> str:
+    """A ratio with three figures, however large."""
+    return f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"

@@ -1,5 +1,6 @@
 """What a shift study says: life of every weld against the settings of the mode, longest, shortest, and the doubts."""
 
+import re
 import textwrap
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -25,6 +26,7 @@ WORST_TOLD, MOVING_TOLD = 2, 2  # welds with the shortest lives, and with those 
 LONGEST_LIFE_KM = 1e12
 TURNS = 0.005  # relative change of a life that counts as a change of direction
 WIDTH = 110
+COLUMN = 19  # letters, four of which stand in a line beside the setting
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,8 +151,10 @@ class ShiftStudy:
 
     def _table(self) -> str:
         told, moved = self.told, [name in self.moved for name in self.events]
-        names = [shortened(visible(curve.weld), 18) for curve in told]
-        lines = ["Life [km] (* as assessed), q rms over that as assessed", _columns("setting", ["q rms", *names])]
+        above, names = zip(*(_in_two_lines(curve.weld) for curve in told), strict=True)
+        lines = ["Life [km] (* as assessed), q rms over that as assessed"]
+        lines += [_columns("", ["", *above]).rstrip()] if any(above) else []
+        lines.append(_columns("setting", ["q rms", *names]))
         for number, setting in enumerate(self.settings):
             mark = " *" if setting.is_as_assessed else ""
             lives = [_km(curve.life_km[number]) for curve in told]
@@ -209,9 +213,24 @@ def _ratios(ratios: list[float | None]) -> str:
     return low if low == high else f"{low}-{high}"
 
 
+def _in_two_lines(name: str) -> tuple[str, str]:
+    """Name at the head of a column, in a second line above it what does not fit into one.
+
+    >>> _in_two_lines("W3_floor_wall_seam_wall")
+    ('W3_floor_wall_', 'seam_wall')
+    """
+    most = COLUMN - 2
+    name = shortened(visible(name), 2 * most)
+    if len(name) <= most:
+        return "", name
+    ends = [found.end() for found in re.finditer(r"[\W_]+", name) if len(name) - most <= found.end() <= most]
+    cut = ends[-1] if ends else most
+    return name[:cut].rstrip(), name[cut:]
+
+
 def _columns(name: str, cells: list[str]) -> str:
     first, *others = cells
-    return f"  {name:20}{first:>10}" + "".join(f"{cell:>20}" for cell in others)
+    return f"  {name:20}{first:>10}" + "".join(f"{cell:>{COLUMN}}" for cell in others)
 
 
 def _km(life: float | None) -> str:

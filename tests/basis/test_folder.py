@@ -7,7 +7,7 @@ import pytest
 
 from fatigue.basis.folder import FILES
 from fatigue.basis.story import basis
-from fatigue.errors import DataError
+from fatigue.errors import CaseError, DataError
 from fatigue.results.dictionary.basis import BASIS
 from tests.chain_case import by_factors
 
@@ -104,3 +104,10 @@ def test_folders_in_the_way(case, tmp_path):
     with pytest.raises(DataError) as error:
         basis(case, into=tmp_path / "out", force=True)
     assert codes(error) == ["foreign_files"]
+
+
+@pytest.mark.parametrize("damping", [2, 0.0, float("nan"), "0.015"])
+def test_what_is_no_damping_ratio(tmp_path, damping):
+    """Percent typed for a ratio is refused, as it is by a diagnosis, before anything is read."""
+    with pytest.raises(CaseError, match=r"is no damping ratio .* 1\.5 % are 0\.015"):
+        basis(by_factors(tmp_path).write(tmp_path), damping=damping)

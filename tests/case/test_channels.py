@@ -82,6 +82,10 @@ REFUSED = {
         r"unit: '-', and channel 'bogie' is in 'm/s2'",
     ),
     "scale 0": (channels(MINIMAL, "tangent", BOGIE.replace(" }", ", scale = 0.0 }")), r"scale = 0 leaves nothing"),
+    "the time": (
+        channels(MINIMAL, "tangent", BOGIE.replace('"a"', '"time_s"')),
+        r"channel\[1\]\.column .*'time_s' is the time of the file",
+    ),
     "unknown unit": (channels(MINIMAL, "tangent", BOGIE.replace("m/s2", "mm/s2")), r"unit.*'m/s2', 'g' or '-'"),
     "unknown key": (channels(MINIMAL, "tangent", BOGIE.replace("column", "columns")), r"Write 'column'"),
     "reference of no channel": (

@@ -95,6 +95,14 @@ def test_not_toml(load, text, message):
     assert str(refusal.value).startswith(message)
 
 
+@pytest.mark.parametrize(("band", "items"), [("[9]", "1 item, at least 2"), ("[4, 12, 20]", "3 items, at most 2")])
+def test_lists_of_another_length(load, band, items):
+    """The items that are there and those that are wanted are counted; none is lost where only the length is wrong."""
+    with pytest.raises(CaseError) as refusal:
+        load(MINIMAL + f"\n[ride]\nhunting_band_hz = {band}\n")
+    assert f"ride.hunting_band_hz: {band} has {items} are wanted. Give a list of the two edges" in str(refusal.value)
+
+
 def test_long_values_are_cut(load):
     """A message never repeats a page of text."""
     with pytest.raises(CaseError) as refusal:

@@ -186,3 +186,11 @@ def test_what_an_assessment_reads_makes_another_case(record, case, edit):
 def test_channels_may_go_as_they_came(record, case):
     """A result that was assessed with channels is of the same case without them."""
     assert is_assessed_case(record | {"case_text": LATER["a channel"]}, case)
+
+
+def test_a_named_case_that_is_no_toml_is_not_called_another_case(case, tmp_path):
+    """A decimal comma, typed beside a channel later, is a slip of syntax; its line is named."""
+    record = record_of(case, tmp_path / "result")
+    case.write_text(TEXT + "[ride.alarm]\nthreshold_m_s2 = 7,5\n")
+    with pytest.raises(DataError, match=r"not valid TOML: .*line 3"):
+        named_case(record, case)

@@ -7,7 +7,7 @@ import click
 from fatigue.cli.arguments import CASE, FOLDER, as_json, strict
 from fatigue.cli.early import refuse_missing_case
 from fatigue.cli.main import cli
-from fatigue.cli.numbers import ABOVE_ZERO
+from fatigue.cli.numbers import ABOVE_ZERO, DAMPED
 from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 
@@ -22,7 +22,7 @@ from fatigue.cli.progress import narrated
     help="Upper end of the band that has to be complete; default: upper_hz of the case, else its highest normal mode.",
 )
 @click.option(
-    "--damping", type=ABOVE_ZERO, help="Damping ratio of modes that have none, for the dynamic mass: 0.015 is 1.5 %."
+    "--damping", type=DAMPED, help="Damping ratio of modes that have none, for the dynamic mass: 0.015 is 1.5 %."
 )
 @click.option(
     "--no-damage",

@@ -9,13 +9,12 @@ from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
-from fatigue.cli.numbers import FiniteRange
+from fatigue.cli.numbers import DAMPED
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 
 log = logging.getLogger(__name__)
 
-BELOW_ONE = FiniteRange(0.0, 1.0, min_open=True, max_open=True)
 LARGEST = "largest"
 MOST_STEPS = 1000
 
@@ -32,7 +31,7 @@ MOST_STEPS = 1000
 @click.option("--to", "to_hz", metavar="A:B:STEP|HZ,...", help="Frequencies to move it to [Hz], ends included.")
 @click.option("--to-damping", metavar="A:B:STEP|Z,...", help="Damping ratios to move it to.")
 @click.option(
-    "--damping", type=BELOW_ONE, help="Damping ratio it was simulated with, if the modes have none.  [default: 0.015]"
+    "--damping", type=DAMPED, help="Damping ratio it was simulated with, if the modes have none.  [default: 0.015]"
 )
 @click.option("--event", "events", multiple=True, help="Move it in this event only; may be given several times.")
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")

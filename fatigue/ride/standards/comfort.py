@@ -9,7 +9,7 @@ import numpy as np
 from fatigue.case.channels import Ride
 from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.reasons import joined, no_acceleration, too_short, written
+from fatigue.ride.standards.reasons import joined, tells_nothing, too_short, written
 from fatigue.vibration.standards.comfort_data import comfort_data, standing
 from fatigue.vibration.standards.en12299 import BAND_HZ, WEIGHTING, block_rms, mean_comfort, section_percentiles
 from fatigue.vibration.standards.mirrored import Floats
@@ -60,7 +60,7 @@ def _sperling(record: ChannelRecord, ride: Ride) -> list[ComfortRow]:
     ]
     rows = []
     for index, form, origin, block_s in forms:
-        why = no_acceleration(record) or too_short(record, ride.comfort_band_hz[0])
+        why = tells_nothing(record) or too_short(record, ride.comfort_band_hz[0])
         if record.direction == "x":
             why = "Sperling's index has weightings across the track only, lateral and vertical"
         elif form == "line" and block_s * ride.comfort_band_hz[0] < 1 - 1e-9:
@@ -108,7 +108,7 @@ def _weighed(record: ChannelRecord) -> _Weighed:
     data = comfort_data()["en12299"]
     band, about = heard(BAND_HZ, record)
     of_section = f"{record.duration:.4g} s of a section of {data['section_s']:g} s" if _is_short(record) else ""
-    if why := no_acceleration(record) or (about if band is None else ""):
+    if why := tells_nothing(record) or (about if band is None else ""):
         return _Weighed(record, np.array([]), why, of_section)
     blocks = block_rms(record.values, record.step, WEIGHTING[record.direction])
     if not blocks.size:

@@ -14,7 +14,7 @@ from fatigue.files.mishaps import refusal
 from fatigue.files.naming import missing_file
 from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.reasons import joined, no_acceleration, too_short, written
+from fatigue.ride.standards.reasons import joined, tells_nothing, too_short, written
 from fatigue.vibration.standards.environment import (
     PEAK_OF_RMS,
     DensityShape,
@@ -113,7 +113,7 @@ def unknown_classes(ride: Ride, table: VibrationTable) -> Iterator[Problem]:
 
 def _row(record: ChannelRecord, equipment: Equipment | None, table: VibrationTable) -> EquipmentRow:
     category = None if equipment is None else table.classes[equipment.vibration_class]
-    whys = [no_acceleration(record)]
+    whys = [unfit := tells_nothing(record)]
     if category is None:
         whys.append("no [[ride.equipment]] gives it a class")
     peak = float(np.abs(record.values - record.values.mean()).max()) if record.is_acceleration else np.nan
@@ -122,7 +122,7 @@ def _row(record: ChannelRecord, equipment: Equipment | None, table: VibrationTab
     shock = _of(category and category.shock, record.direction)
     rms = band_limit = ratio = ratio_hz = np.nan
     band = None
-    if category is not None and equipment is not None and record.is_acceleration:
+    if category is not None and equipment is not None and not unfit:
         if category.shape is None:
             whys.append("the table has no spectrum of this class, and so no band for its rms")
         else:

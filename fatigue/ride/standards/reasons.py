@@ -7,7 +7,7 @@ from fatigue.ride.channel import ChannelRecord
 
 def written(band: tuple[float, ...] | None) -> str:
     """Band as a text, as in ``0.5-40``; empty for none."""
-    return "" if band is None else f"{band[0]:.4g}-{band[1]:.4g}"
+    return "" if band is None else f"{band[0]:.3g}-{band[1]:.3g}"
 
 
 def joined(reasons: Iterable[str]) -> str:
@@ -22,6 +22,8 @@ def too_short(record: ChannelRecord, low: float) -> str:
     return f"the record of {record.duration:.4g} s is shorter than a period of {low:g} Hz"
 
 
-def no_acceleration(record: ChannelRecord) -> str:
+def tells_nothing(record: ChannelRecord) -> str:
     """Why limits and indices of accelerations mean nothing to a channel; empty: they do."""
-    return "" if record.is_acceleration else "its unit is '-': it is no acceleration"
+    if not record.is_acceleration:
+        return "its unit is '-': it is no acceleration"
+    return "the channel does not vary" if record.is_still else ""

@@ -8,7 +8,7 @@ import numpy as np
 from fatigue.case.channels import Ride
 from fatigue.ride.bands import heard
 from fatigue.ride.channel import ChannelRecord
-from fatigue.ride.standards.reasons import joined, no_acceleration, too_short, written
+from fatigue.ride.standards.reasons import joined, tells_nothing, too_short, written
 from fatigue.vibration.standards.mirrored import Floats, band_pass, filtered
 from fatigue.vibration.standards.running import (
     body_band,
@@ -84,7 +84,7 @@ def _of_bogie(record: ChannelRecord, ride: Ride) -> list[RunningRow]:
     peaks = np.array([]) if why else np.array([np.abs(body_band(record.values, record.step)).max()])
     peak_row = _row(record, "bogie_peak", wide, peaks, np.nan, peak_limit, joined((why, no_mass)))
     hunting, about = heard(ride.hunting_band_hz, record)
-    f0 = np.nan if hunting is None else instability_frequency(record.values, record.step, hunting)
+    f0 = np.nan if hunting is None or record.is_still else instability_frequency(record.values, record.step, hunting)
     why = "" if hunting is None or np.isfinite(f0) else f"nothing moves between {written(hunting)} Hz"
     found = RunningRow(
         event=record.event,
@@ -136,9 +136,9 @@ def _without(record: ChannelRecord, quantity: str, why: str) -> RunningRow:
 
 
 def _no_band(record: ChannelRecord, band: Sequence[float]) -> str:
-    """Why a record cannot be filtered to a band: it is no acceleration, slow or short; empty: it can."""
+    """Why a record cannot be filtered to a band: it is no acceleration, still, slow or short; empty: it can."""
     left, about = heard(tuple(band), record)
-    return no_acceleration(record) or ("" if left == tuple(band) else about) or too_short(record, band[0])
+    return tells_nothing(record) or ("" if left == tuple(band) else about) or too_short(record, band[0])
 
 
 def _no_length(record: ChannelRecord, length_m: float, what: str) -> str:
