@@ -1,4 +1,8 @@
-"""At which frequency a record moves most, and how much of it lies in a band: from one spectrum of the whole record."""
+"""At which frequency a record moves most, and how much of it lies in a band: from one spectrum of the whole record.
+
+The ends are tapered, because excitations are looked at: what a second derivative leaves at the ends of a record must
+not count. Over time, ``tracking`` has the frequency of every two seconds.
+"""
 
 from typing import NamedTuple
 
