@@ -26,7 +26,7 @@ from fatigue.decide.bench_points import (
 )
 from fatigue.errors import DataError, Problem, given_path, refuse
 from fatigue.life.bench import MOST_CYCLES, BlockCycles, Programme, block_cycles, cover, idle, least_squares, unreached
-from fatigue.results import BENCHED, is_derived, is_same_result, read_provenance, refuse_mixed, relist, table_writer
+from fatigue.results import BENCHED, is_derived, read_provenance, refuse_another, refuse_mixed, relist, table_writer
 from fatigue.results.folder import result_log
 from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
@@ -236,9 +236,7 @@ def mean_stress_warnings(record: Mapping[str, Any]) -> Iterator[Problem]:
 def _write(folder: Path, record: Mapping[str, Any], found: Bench, *, no_lock: bool) -> None:
     """Put the tables beside those of the result."""
     with locked(folder, no_lock=no_lock), result_log(folder), staging_in(folder) as staging:
-        if not is_same_result(read_provenance(folder), record):
-            what = "the result was replaced by another run just now"
-            raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+        refuse_another(folder, record)
         refuse(DataError, _in_the_way(folder, record))
         finished = staging / "tables"
         finished.mkdir()

@@ -7,11 +7,10 @@ see why Dirlik and rainflow differ.
 """
 
 import logging
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from numbers import Real
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -29,9 +28,9 @@ from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
-    is_same_result,
     read_provenance,
     read_rows,
+    refuse_another,
     refuse_mixed,
     relist,
     row_count,
@@ -112,7 +111,7 @@ def diagnose(
         threadpool_limits(limits=1, user_api="blas"),
         staging_in(folder) as staging,
     ):
-        _refuse_another(folder, record)
+        refuse_another(folder, record)
         numbers = numbers_of_point(plan, len(body.coordinates), bins)
         samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
         chosen = choose_points(folder, samples, share_of_limit, numbers)
@@ -198,10 +197,3 @@ def assessed_rows(folder: Path, rows: NDArray[np.int64], plan: Plan) -> list[pd.
         raise DataError(Problem("other_points", str(folder / "damage.parquet"), what, "Run the assessment again"))
     table = read_rows(folder, "damage", (rows[:, None] * of_point + np.arange(events)).ravel(), columns).to_pandas()
     return [table[number::events].reset_index(drop=True) for number in range(events)]
-
-
-def _refuse_another(folder: Path, record: Mapping[str, Any]) -> None:
-    """Refuse a folder whose result was replaced since its provenance was read."""
-    if not is_same_result(read_provenance(folder), record):
-        what = "the result was replaced by another run just now"
-        raise DataError(Problem("other_result", str(folder), what, "Diagnose again"))

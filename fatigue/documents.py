@@ -25,10 +25,10 @@ from fatigue.results import (
     WORKBOOK,
     case_of,
     is_derived,
-    is_same_result,
     marked,
     named_case,
     read_provenance,
+    refuse_another,
     refuse_mixed,
     relist,
 )
@@ -91,9 +91,7 @@ def write_documents(
     for problem in missing.values():
         log.warning("%s Going on with the others.", problem)
     with locked(folder, no_lock=no_lock), staging_in(folder) as staging:
-        if not is_same_result(read_provenance(folder), record):
-            what = "the result was replaced by another run just now"
-            raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+        refuse_another(folder, record)
         checks = verification() if PAGE in wanted else ()
         writers: dict[str, Callable[[], object]] = {
             PAGE: lambda: write_report(folder, case_file, checks, staging),

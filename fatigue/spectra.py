@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.hashes import sha256
 from fatigue.life.mission import Plan
 from fatigue.load_spectra.classes import MOST_CLASSES, Classes, Extent, check_edges, classes_over, outside_warnings
@@ -36,8 +36,8 @@ from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
     LOAD_SPECTRA,
-    is_same_result,
     read_provenance,
+    refuse_another,
     refuse_mixed,
     relist,
     table_writer,
@@ -115,9 +115,7 @@ def spectra(
         threadpool_limits(limits=1, user_api="blas"),
         staging_in(folder) as staging,
     ):
-        if not is_same_result(read_provenance(folder), record):
-            what = "the result was replaced by another run just now"
-            raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+        refuse_another(folder, record)
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         found = gather_points(folder, groups, chosen)

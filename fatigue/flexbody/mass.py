@@ -18,6 +18,7 @@ from scipy.sparse.linalg import splu
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+EVENLY = 400  # steps of a frequency axis
 FREE = 1e-6  # of the mass of the body: what rounding leaves of the participation of free-free modes
 
 
@@ -127,7 +128,7 @@ def elastic_mass(f: Floats, frequency: Floats, damping_ratio: Floats, effective:
     599.133
     """
     r = f[:, None] / frequency
-    return np.asarray((r**2 / _denominator(r, damping_ratio)) @ effective)
+    return np.asarray((r**2 / (1.0 - r**2 + 2j * damping_ratio * r)) @ effective)
 
 
 def dynamic_mass(f: Floats, frequency: Floats, damping_ratio: Floats, effective: Floats, rigid: Floats) -> Complex:
@@ -138,26 +139,9 @@ def dynamic_mass(f: Floats, frequency: Floats, damping_ratio: Floats, effective:
     return rigid + elastic_mass(f, frequency, damping_ratio, effective)
 
 
-def dynamic_mass_by_residual(
-    f: Floats, frequency: Floats, damping_ratio: Floats, effective: Floats, residual: Floats
-) -> Complex:
-    """The same as ``dynamic_mass``: ``m_residual + sum_i m_eff,i (1 + 2 i z r) / (1 - r^2 + 2 i z r)``.
-
-    ``residual`` (d,) is the mass of the body less all effective masses: what remains far above the modes.
-    """
-    r = f[:, None] / frequency
-    carried = (1.0 + 2j * damping_ratio * r) / _denominator(r, damping_ratio)
-    return np.asarray(residual + carried @ effective)
-
-
-def _denominator(r: Floats, damping_ratio: Floats) -> Complex:
-    """``1 - r^2 + 2 i z r``."""
-    return np.asarray(1.0 - r**2 + 2j * damping_ratio * r)
-
-
-def frequencies_to_look_at(frequency: Floats, damping_ratio: Floats, upto_hz: float, between: int = 400) -> Floats:
-    """Frequencies [Hz] from 0 to ``upto_hz``, ``between`` of them evenly, and around each mode within its width."""
+def frequencies_to_look_at(frequency: Floats, damping_ratio: Floats, upto_hz: float) -> Floats:
+    """Frequencies [Hz] from 0 to ``upto_hz``, evenly, and around each mode within its width."""
     across = np.array([-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0])  # of the half width z f
     around = frequency[:, None] * (1.0 + np.maximum(damping_ratio, 1e-4)[:, None] * across)
     near = around[(around > 0.0) & (around <= upto_hz)]
-    return np.unique(np.concatenate([np.linspace(0.0, upto_hz, between + 1), near]))
+    return np.unique(np.concatenate([np.linspace(0.0, upto_hz, EVENLY + 1), near]))

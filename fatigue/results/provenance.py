@@ -110,6 +110,18 @@ def is_same_result(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     return {**one, **later} == {**other, **later}
 
 
+def refuse_another(folder: Path, record: Mapping[str, Any]) -> None:
+    """Refuse a locked folder whose result is no longer that of ``record``, which was read before.
+
+    Raises
+    ------
+    DataError : another run has replaced the result
+    """
+    if not is_same_result(read_provenance(folder), record):
+        what = "the result was replaced by another run just now"
+        raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+
+
 def _known_hash(folder: Path) -> str | None:
     """SHA-256 of the record as it was written; None where no file tells it.
 

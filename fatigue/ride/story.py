@@ -26,8 +26,8 @@ from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
-    is_same_result,
     read_provenance,
+    refuse_another,
     refuse_mixed,
     relist,
     upsampling_factors,
@@ -104,9 +104,7 @@ def ride(
         threadpool_limits(limits=1, user_api="blas"),
         staging_in(folder) as staging,
     ):
-        if not is_same_result(read_provenance(folder), record):
-            what = "the result was replaced by another run just now"
-            raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+        refuse_another(folder, record)
         stage("tracking the hunting of the channels (%d)", len(channels))
         of_channel = [tracked(one, case.ride) for one in channels]
         tables = tables_of_channels(case, channels, of_channel, limits)

@@ -15,7 +15,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan, life_km
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import event_loads
@@ -26,9 +26,9 @@ from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import (
     ASSESSED,
     DIAGNOSED,
-    is_same_result,
     read_provenance,
     read_table,
+    refuse_another,
     refuse_mixed,
     relist,
     table_writer,
@@ -110,9 +110,7 @@ def shift(
         threadpool_limits(limits=1, user_api="blas"),
         staging_in(folder) as staging,
     ):
-        if not is_same_result(read_provenance(folder), record):
-            what = "the result was replaced by another run just now"
-            raise DataError(Problem("other_result", str(folder), what, "Give the same command again"))
+        refuse_another(folder, record)
         chosen = _affordable(folder, plan, factors, moved_in, len(every))
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")

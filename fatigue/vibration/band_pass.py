@@ -1,4 +1,8 @@
-"""What of a record lies in a band, without delay."""
+"""What of a record lies in a band, without delay: a Butterworth filter forward and backward, as alarms are looked at.
+
+Its edges pass half the amplitude, and its ends fade. The rules of standards state edges of 1 / sqrt(2) and count every
+sample; ``standards.mirrored`` has their filter.
+"""
 
 import numpy as np
 from numpy.typing import NDArray

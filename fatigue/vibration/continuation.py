@@ -3,7 +3,8 @@
 A record is cut out of a run: its end does not meet its start, and a transform that takes it for periodic finds a jump
 there, which the square of the frequency makes large. A taper of the record itself would take its ends away. So the
 record is continued by linear prediction, ``x[n] = -sum over j of a[j] x[n - j]`` with the coefficients of Burg (1975),
-which never grow, and the taper lies on the continuation.
+which never grow, and the taper lies on the continuation. A mirrored extension has no jump either, but a kink, of which
+the second derivative makes a blow.
 """
 
 from typing import NamedTuple

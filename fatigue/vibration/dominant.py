@@ -1,4 +1,8 @@
-"""At which frequency a record moves most, and how much of it lies in a band: from one spectrum of the whole record."""
+"""At which frequency a record moves most, and how much of it lies in a band: from one spectrum of the whole record.
+
+The ends are tapered, because excitations are looked at: what a second derivative leaves at the ends of a record must
+not count. Over time, ``tracking`` has the frequency of every two seconds.
+"""
 
 from typing import NamedTuple
 
@@ -41,7 +45,7 @@ def dominant_hz(of: Spectrum) -> Floats:
     """Dominant frequency of records (...,) [Hz]: the centre of what lies around the strongest line of the half hertz.
 
     It is the half hertz that holds most of the variance; where that is fewer than three lines, three lines. NaN for a
-    record that does not move.
+    record that does not move, or has no line.
 
     >>> t = 0.01 * np.arange(3000)
     >>> x = np.sin(2 * np.pi * 9.23 * t) + 0.5 * np.sin(2 * np.pi * 1.1 * t)
@@ -49,6 +53,8 @@ def dominant_hz(of: Spectrum) -> Floats:
     9.23
     """
     lines = len(of.hz)
+    if lines == 0:
+        return np.full(of.variance.shape[:-1], np.nan)
     half = max(1, round(0.5 * WIDTH_HZ / of.hz[0]))
     width = min(lines, 2 * half + 1)
     below = np.cumsum(of.variance, axis=-1)

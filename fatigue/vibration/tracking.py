@@ -25,7 +25,7 @@ FEWEST_HOT = 4  # slices in a row: 2.75 s of signal
 SHORTEST_S = WINDOW_S + (FEWEST_HOT - 1) * HOP_S + WINDOW_S  # a stretch, and as much beside it
 SLICES_AT_ONCE = 1024  # their spectra take 7 MB at 200 Hz
 ROUNDING = 1e-11  # rms below this share of the largest value is rounding, not vibration
-STILL, ABOVE_NYQUIST, SHORT = "still", "above_nyquist", "short"
+ABOVE_NYQUIST, SHORT = "above_nyquist", "short"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

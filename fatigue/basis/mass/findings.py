@@ -10,7 +10,7 @@ from fatigue.basis.mass.carried import Carried, carried
 from fatigue.basis.mass.rows import DIRECTIONS, DynamicMass, MassSum, ModalMass, unit_of
 from fatigue.basis.rules import EFFECTIVE_MASS
 from fatigue.errors import Problem
-from fatigue.flexbody.mass import FREE, elastic_mass, frequencies_to_look_at, summed_up_to
+from fatigue.flexbody.mass import FREE, dynamic_mass, elastic_mass, frequencies_to_look_at, summed_up_to
 from fatigue.pipeline.solve.body import Body
 from fatigue.report.wording import share as in_percent
 
@@ -228,8 +228,9 @@ def _dynamic(found: Carried, band: float, damping: float | None) -> Finding:
         return Finding("dynamic_mass", DYNAMIC, notes=(note,))
     f = frequencies_to_look_at(found.frequency, ratio, BEYOND * band)
     given = [n for n in range(6) if np.isfinite(found.effective[:, n]).any() and not _too_large(found, n)]
-    m_e = elastic_mass(f, found.frequency, ratio, np.nan_to_num(found.effective[:, given]))
-    whole = found.body[given] + m_e
+    effective = np.nan_to_num(found.effective[:, given])
+    m_e = elastic_mass(f, found.frequency, ratio, effective)
+    whole = dynamic_mass(f, found.frequency, ratio, effective, found.body[given])
     rows = [
         DynamicMass(
             frequency_hz=float(f[i]),

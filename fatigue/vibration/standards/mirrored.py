@@ -1,4 +1,9 @@
-"""A record as cosines: its mirrored extension has no jump at its ends, and every sample counts the same."""
+"""A record as cosines: its mirrored extension has no jump at its ends, and every sample counts the same.
+
+Weights and filters here are real gains that do not grow with frequency, so the kink that a mirror leaves at the ends
+does no harm. Where a record is differentiated it would: ``vibration.continuation`` carries the record on instead, and
+``vibration.shifted`` replaces the free vibration at its start.
+"""
 
 from collections.abc import Callable
 from typing import TypeAlias

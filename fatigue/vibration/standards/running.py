@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from fatigue.vibration.dominant import Spectrum, dominant_hz
 from fatigue.vibration.standards.mirrored import Floats, band_pass, filtered, lines, spread
 
 
@@ -69,20 +70,14 @@ def sections(values: Floats, length: int) -> tuple[Floats, Floats]:
 
 
 def instability_frequency(values: Floats, step: float, band: tuple[float, float]) -> float:
-    """Dominant frequency f0 [Hz] of an acceleration (n,) in a band: the densest half hertz; NaN if nothing is there.
+    """Dominant frequency f0 [Hz] of an acceleration (n,) in a band, as of ``dominant_hz``; NaN if nothing is there.
 
     >>> round(instability_frequency(np.sin(2 * np.pi * 7.3 * np.arange(4000) / 200), 1 / 200, (4.0, 12.0)), 2)
     7.3
     """
-    frequency, power = lines(values, step)
+    frequency, power = (of_lines[1:] for of_lines in lines(values, step))
     inside = (frequency >= band[0]) & (frequency <= band[1])
-    frequency, power = frequency[inside], power[inside]
-    if not power.any():
-        return np.nan
-    width = min(power.size, max(1, round(0.5 * 2 * values.size * step)))
-    densest = int(np.argmax(np.convolve(power, np.ones(width), "valid")))
-    chosen = slice(densest, densest + width)
-    return float(frequency[chosen] @ power[chosen] / power[chosen].sum())
+    return float(dominant_hz(Spectrum(frequency, np.where(inside, power, 0.0))))
 
 
 def sliding_rms(values: Floats, window: int, hop: int) -> Floats:

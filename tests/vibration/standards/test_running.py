@@ -74,3 +74,4 @@ def test_records_that_say_little():
     assert np.isnan(instability_frequency(np.zeros(1000), 0.01, (4.0, 12.0)))
     assert np.isnan(instability_frequency(np.ones(3), 0.01, (4.0, 12.0)))
     assert np.isnan(instability_frequency(np.arange(100.0), 1.0, (4.0, 12.0)))
+    assert np.isnan(instability_frequency(np.ones(1), 0.01, (4.0, 12.0)))
