@@ -355,12 +355,12 @@ def test_without_its_track_the_stretches_are_drawn(ridden, tmp_path):
 
 def test_a_channel_that_cannot_be_tracked_has_its_reason(tmp_path):
     """No figure, dashes in its row, and the reason behind them."""
-    slow = replace(record(BOGIE[::20], "bogie", step=0.1), event="tangent")
+    slow = replace(record(BOGIE[::25], "bogie", step=0.125), event="tangent")
     page = Page(report_page(write_ride(write_result(tmp_path), [slow])))
     assert not any(name.startswith("ride-") for name in page.figures)
     row = page.tables["ride-hunting"][1]
     assert row[2:5] == ["–"] * 3
-    assert row[-1].startswith("sampled at 10 Hz")
+    assert row[-1].startswith("sampled at 8 Hz")
     assert page.tables["ride-coincidence"][1][3] == "–"
     assert "see the ride" not in page.words
 

@@ -71,6 +71,11 @@ def _number(heading: str, unit: str, name: str) -> Column:
     return Heading(heading, unit), lambda row: num(row[name])
 
 
+def _given(heading: str, unit: str, name: str) -> Column:
+    """Column of numbers as the case gives them, without digits it does not have."""
+    return Heading(heading, unit), lambda row: Cell(f"{row[name]:g}", float(row[name]))
+
+
 def _share(heading: str, name: str) -> Column:
     return Heading(heading, "%"), lambda row: percent(row[name])
 
@@ -133,8 +138,8 @@ _COLUMNS: dict[str, tuple[Column, ...]] = {
         _words("mode of equipment", "equipment"),
         (Heading("flag", numeric=False), _flag),
         _number("hunting", "Hz", "f_hunt_hz"),
-        _number("mode", "Hz", "frequency_hz"),
-        _number("damping ratio", "-", "damping_ratio"),
+        _given("mode", "Hz", "frequency_hz"),
+        _given("damping ratio", "-", "damping_ratio"),
         _number("amplification", "-", "amplification"),
         (Heading("hunting within", numeric=False), _within),
         (Heading("coherence", "-"), _coherence),
@@ -219,7 +224,7 @@ _CHANNELS: tuple[Column, ...] = (
     _DIRECTION,
     _words("column", "column"),
     _words("unit", "unit"),
-    _number("scale", "-", "scale"),
+    _given("scale", "-", "scale"),
     _number("shift", "s", "shift_s"),
     (Heading("samples"), lambda row: integer(row["samples"], grouped=True)),
     (Heading("rate", "Hz"), _rate),
