@@ -123,7 +123,7 @@ def find_inputs(record: Mapping[str, Any], folder: Path, case_path: Path | None)
     path = case_path or case_of(record, folder)
     root = path.parent if is_assessed_case(record, path) else None
     hashes = {entry["file"]: entry["sha256"] for entry in record["inputs"]}
-    lost, modes = _lost(record, moved=not path.is_file()), tuple(record["modes"]["used"])
+    lost, modes = _lost(record, moved=not _is_text(path)), tuple(record["modes"]["used"])
     return FoundInputs(case, root, lost, hashes, modes, () if root is None else tuple(_outdated(case, root, hashes)))
 
 
@@ -140,6 +140,15 @@ def _outdated(case: Case, root: Path, hashes: Mapping[str, str]) -> Iterator[Pro
     if what:
         what += ", and the welds are shown as they were assessed"
         yield Problem("changed_input", path.name, what, "Assess the case again")
+
+
+def _is_text(path: Path) -> bool:
+    """Whether there is a file that a case can be; a folder and a binary file are none."""
+    try:
+        path.read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return False
+    return True
 
 
 def _lost(record: Mapping[str, Any], *, moved: bool) -> Problem:
