@@ -353,6 +353,18 @@ def test_without_its_track_the_stretches_are_drawn(ridden, tmp_path):
         assert "no track is stored" in caption
 
 
+def test_a_note_that_all_rows_share_is_said_once(tmp_path):
+    """Below the table, which has no column for it then."""
+    slow = replace(record(BOGIE[::25], "bogie", step=0.125), event="tangent")
+    one = Page(report_page(write_ride(write_result(tmp_path / "one"), [slow])))
+    two = Page(report_page(write_ride(write_result(tmp_path / "two"), [slow, replace(slow, name="other")])))
+    assert one.tables["ride-alarm"][0][-1] == "note"
+    assert "note" not in two.tables["ride-alarm"][0]
+    note = one.tables["ride-alarm"][1][-1]
+    assert two.words.count(note) == 1
+    assert f"Of all rows: {note}." in two.words
+
+
 def test_a_channel_that_cannot_be_tracked_has_its_reason(tmp_path):
     """No figure, dashes in its row, and the reason behind them."""
     slow = replace(record(BOGIE[::25], "bogie", step=0.125), event="tangent")

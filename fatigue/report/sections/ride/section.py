@@ -57,13 +57,16 @@ def ride_section(ride: ShownRide | None, links: Mapping[str, str], figs: Figures
             "uncompared": uncompared,
             "parts": [
                 {
-                    "title": TITLES[name],
-                    "words": WORDS[name],
-                    "table": table,
-                    "left_out": f"{whole(left_out)} more rows are in {_file_of(name)}." if left_out else "",
+                    "title": TITLES[part.name],
+                    "words": WORDS[part.name],
+                    "table": part.table,
+                    "note": part.note,
+                    "left_out": f"{whole(part.left_out)} more rows are in {_file_of(part.name)}."
+                    if part.left_out
+                    else "",
                 }
-                for name, table, left_out in ride_tables(ride)
-                if table is not None
+                for part in ride_tables(ride)
+                if part.table is not None
             ],
             "without": _without(ride),
         }

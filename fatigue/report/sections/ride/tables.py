@@ -1,13 +1,14 @@
 """What the channels of a ride meet, set off and amount to: coincidence, alarm, comfort, equipment, running."""
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
 
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text
 from fatigue.report.sections.ride.read import ShownRide
-from fatigue.report.wording import whole
+from fatigue.report.wording import NOT_AVAILABLE, whole
 
 MOST_ROWS = 100
 WHOLE = "whole record"
@@ -41,19 +42,37 @@ Row = Any
 Column = tuple[Heading, Callable[[Row], Cell]]
 
 
-def ride_tables(ride: ShownRide) -> Iterator[tuple[str, PageTable | None, int]]:
-    """Name, table and rows left out of every part; None where the channels give it no rows."""
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One part of a ride: its name, its table, the note that all rows share, and how many rows are left out.
+
+    ``table`` is None where the channels give it no rows. A shared note is said once and not in every row.
+    """
+
+    name: str
+    table: PageTable | None
+    note: str
+    left_out: int
+
+
+def ride_tables(ride: ShownRide) -> Iterator[Part]:
+    """Every part of the ride, in the order of the page."""
     for name, columns in _COLUMNS.items():
-        yield (name, *_table(name, ride.tables[name], columns))
-    yield ("channels", *_table("channels", pd.DataFrame(ride.said.get("channels", [])), _CHANNELS))
+        yield _part(name, ride.tables[name], columns)
+    yield _part("channels", pd.DataFrame(ride.said.get("channels", [])), _CHANNELS)
 
 
-def _table(name: str, rows: pd.DataFrame, columns: tuple[Column, ...]) -> tuple[PageTable | None, int]:
-    """Table of some columns, and how many rows it leaves out."""
-    if not len(rows):
-        return None, 0
-    cells = tuple(tuple(cell(row) for _, cell in columns) for row in rows.head(MOST_ROWS).to_dict("records"))
-    return PageTable(f"ride-{name}", tuple(heading for heading, _ in columns), cells), max(0, len(rows) - MOST_ROWS)
+def _part(name: str, rows: pd.DataFrame, columns: tuple[Column, ...]) -> Part:
+    shown = rows.head(MOST_ROWS).to_dict("records")
+    if not shown:
+        return Part(name, None, "", 0)
+    notes = {_note(row).text for row in shown} if _NOTE in columns else set()
+    shared = len(notes) == 1 and len(shown) > 1
+    kept = tuple(column for column in columns if not (shared and column is _NOTE))
+    cells = tuple(tuple(cell(row) for _, cell in kept) for row in shown)
+    table = PageTable(f"ride-{name}", tuple(heading for heading, _ in kept), cells)
+    note = notes.pop() if shared else ""
+    return Part(name, table, "" if note == NOT_AVAILABLE else note, max(0, len(rows) - MOST_ROWS))
 
 
 def _words(heading: str, name: str, meanings: Mapping[str, str] | None = None) -> Column:
