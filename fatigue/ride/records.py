@@ -15,6 +15,7 @@ from fatigue.life.records.unit_load import UniformGrid
 from fatigue.readers.neutral.event.channel_file import read_channel, time_grid
 from fatigue.ride.channel import ChannelRecord
 from fatigue.shown import few
+from fatigue.vibration.spikes import STANDS_OUT, spikes
 
 LEAST_COVER = 0.99  # of the kept part of an event, below which a channel is said to be short
 FEWEST_SAMPLES = 16  # of a channel within its event: fewer have no frequency to speak of
@@ -74,7 +75,12 @@ def channel_records(case: Case) -> tuple[list[ChannelRecord], list[Problem]]:
             except FatigueError as error:
                 problems += error.problems
     refuse(DataError, problems)
-    return read, [*_short_warnings(case, read), *_still_warnings(case, read), *_modal_warnings(case)]
+    return read, [
+        *_short_warnings(case, read),
+        *_still_warnings(case, read),
+        *_spike_warnings(case, read),
+        *_modal_warnings(case),
+    ]
 
 
 def missing_channel_files(case: Case) -> Iterator[Problem]:
@@ -159,6 +165,22 @@ def _still_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Pr
         what = f"the channel does not vary: {named}"
         remedy = "Look whether it is the right column, and whether the sensor was connected"
         yield Problem("still_channel", f"{case.path.name}: channel '{still[0].name}'", what, remedy, len(still))
+
+
+def _spike_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
+    """Warning about single samples that no vibration makes: peaks, alarms and hot stretches rest on them."""
+    found = [(one, at) for one in records if (at := spikes(one.values)).size]
+    if not found:
+        return
+    places = [
+        f"'{one.name}' of '{one.event}' at {one.start + at[0] * one.step:.6g} s ({one.values[at[0]]:.3g})"
+        + (f" and {at.size - 1} more" if at.size > 1 else "")
+        for one, at in found
+    ]
+    what = f"single samples stand out of all others, more than {STANDS_OUT:g} times the rms of the steps between "
+    what += f"samples: {few(places)}"
+    remedy = "Look at the record there and take out what is none of the vibration: peaks and the alarm rest on it"
+    yield Problem("spiked_channel", f"{case.path.name}: channel '{found[0][0].name}'", what, remedy, len(found))
 
 
 def _modal_warnings(case: Case) -> Iterator[Problem]:

@@ -171,6 +171,19 @@ def test_doubts_are_told_once(plain):
     assert "covers 18% of the kept part of event 'tangent', less than 99%" in warnings[0].what
 
 
+def test_a_spike_is_told_with_its_place(plain):
+    """One sample of 500 g; without it no word."""
+    values = np.random.default_rng(0).standard_normal(len(T))
+    with_channels(plain, OTHER)
+    for spike, codes in ((500.0, ["spiked_channel"]), (0.5, [])):
+        values[700] = spike
+        pd.DataFrame({"time_s": T, "acc": values}).to_csv(plain.parent / "other.csv", index=False)
+        _, warnings = channel_records(load_case(plain))
+        assert [problem.code for problem in warnings] == codes
+        if codes:
+            assert f"at {T[700]:.6g} s ({500 * 9.80665:.3g})" in warnings[0].what
+
+
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
 def test_a_column_of_a_channel_is_known(tmp_path, suffix):
     """Nothing is warned of, nor refused where unknown columns are; without the channel it is as before."""
