@@ -26,7 +26,7 @@ from fatigue.decide.bench_points import (
 )
 from fatigue.errors import DataError, Problem, given_path, refuse
 from fatigue.life.bench import MOST_CYCLES, BlockCycles, Programme, block_cycles, cover, idle, least_squares, unreached
-from fatigue.results import BENCHED, is_derived, read_provenance, refuse_another, refuse_mixed, relist, table_writer
+from fatigue.results import BENCHED, read_provenance, refuse_another, refuse_foreign, refuse_mixed, relist, table_writer
 from fatigue.results.folder import result_log
 from fatigue.results.lock import locked, settle_folder
 from fatigue.results.publish import publish, staging_in
@@ -237,7 +237,7 @@ def _write(folder: Path, record: Mapping[str, Any], found: Bench, *, no_lock: bo
     """Put the tables beside those of the result."""
     with locked(folder, no_lock=no_lock), result_log(folder), staging_in(folder) as staging:
         refuse_another(folder, record)
-        refuse(DataError, _in_the_way(folder, record))
+        refuse_foreign(folder, BENCHED, record)
         finished = staging / "tables"
         finished.mkdir()
         for name, rows in tables_of(found).items():
@@ -246,13 +246,6 @@ def _write(folder: Path, record: Mapping[str, Any], found: Bench, *, no_lock: bo
         relist(folder, finished, sorted(finished.iterdir()))
         publish(finished, folder)
         log.info("bench programmes for %d points and %d blocks", len(found.points), len(found.blocks.name))
-
-
-def _in_the_way(folder: Path, record: Mapping[str, Any]) -> Iterator[Problem]:
-    """Refusal of files of these names that fatigue did not write."""
-    for path in (folder / f"{name}.parquet" for name in BENCHED):
-        if path.exists() and not is_derived(folder, path.name, record):
-            yield Problem("foreign_files", str(path), "is there already and was not written by fatigue", "Move it away")
 
 
 def tables_of(found: Bench) -> dict[str, dict[str, Any]]:

@@ -28,9 +28,12 @@ from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
+    DIAGNOSED,
+    FORMED,
     read_provenance,
     read_rows,
     refuse_another,
+    refuse_foreign,
     refuse_mixed,
     relist,
     row_count,
@@ -112,6 +115,7 @@ def diagnose(
         staging_in(folder) as staging,
     ):
         refuse_another(folder, record)
+        refuse_foreign(folder, DIAGNOSED | FORMED, record)
         numbers = numbers_of_point(plan, len(body.coordinates), bins)
         samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
         chosen = choose_points(folder, samples, share_of_limit, numbers)

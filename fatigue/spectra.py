@@ -38,6 +38,7 @@ from fatigue.results import (
     LOAD_SPECTRA,
     read_provenance,
     refuse_another,
+    refuse_foreign,
     refuse_mixed,
     relist,
     table_writer,
@@ -116,6 +117,7 @@ def spectra(
         staging_in(folder) as staging,
     ):
         refuse_another(folder, record)
+        refuse_foreign(folder, LOAD_SPECTRA, record)
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")
         found = gather_points(folder, groups, chosen)

@@ -132,6 +132,23 @@ def is_derived(folder: Path, name: str, record: Mapping[str, Any] | None) -> boo
     return name not in _EDITED and carried(path) is not None
 
 
+def refuse_foreign(folder: Path, tables: Iterable[str], record: Mapping[str, Any]) -> None:
+    """Refuse tables in a result folder that are about to be written and that the program did not write.
+
+    Raises
+    ------
+    DataError : every file of these names that belongs to somebody else
+    """
+    refuse(
+        DataError,
+        (
+            Problem("foreign_files", str(path), "is there already and was not written by fatigue", "Move it away")
+            for path in (folder / f"{name}.parquet" for name in tables)
+            if path.exists() and not is_derived(folder, path.name, record)
+        ),
+    )
+
+
 def _is_ours_or_damaged(path: Path, *, known: bool) -> bool:
     try:
         metadata = pq.read_metadata(path).metadata or {}

@@ -106,7 +106,7 @@ def hashes_on_record(record: Mapping[str, Any]) -> dict[str, str] | None:
 
 def is_same_result(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     """Whether two records are of one result, though more of it may have been written in between."""
-    later = dict.fromkeys(("outputs", "load_spectra", "ride", "shift_study"))
+    later = dict.fromkeys(("outputs", "diagnosis", "load_spectra", "ride", "shift_study"))
     return {**one, **later} == {**other, **later}
 
 

@@ -67,7 +67,8 @@ def channel_records(case: Case) -> tuple[list[ChannelRecord], list[Problem]]:
     events = [event for event in case.mission.event if event.channel]
     read: list[ChannelRecord] = []
     problems: list[Problem] = []
-    for event, kept in zip(events, kept_parts(case), strict=True):
+    parts = kept_parts(case)
+    for event, kept in zip(events, parts, strict=True):
         for number, channel in enumerate(event.channel, 1):
             where = f"{case.path.name}: mission.event '{event.name}'.channel[{number}] ('{channel.name}')"
             try:
@@ -76,7 +77,7 @@ def channel_records(case: Case) -> tuple[list[ChannelRecord], list[Problem]]:
                 problems += error.problems
     refuse(DataError, problems)
     return read, [
-        *_short_warnings(case, read),
+        *_short_warnings(case, read, parts),
         *_still_warnings(case, read),
         *_spike_warnings(case, read),
         *_modal_warnings(case),
@@ -141,9 +142,9 @@ def within(grid: UniformGrid, shift_s: float, kept: Kept) -> slice:
     return slice(first, max(first, last))
 
 
-def _short_warnings(case: Case, records: Sequence[ChannelRecord]) -> Iterator[Problem]:
+def _short_warnings(case: Case, records: Sequence[ChannelRecord], parts: Sequence[Kept]) -> Iterator[Problem]:
     """Warning about channels that leave out some of the kept part of their event."""
-    lasts = {kept.event: kept.duration for kept in kept_parts(case)}
+    lasts = {kept.event: kept.duration for kept in parts}
     short = [(one.duration / lasts[one.event], one) for one in records if one.duration < LEAST_COVER * lasts[one.event]]
     if not short:
         return

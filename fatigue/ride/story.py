@@ -26,8 +26,10 @@ from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import (
     ASSESSED,
+    RIDDEN,
     read_provenance,
     refuse_another,
+    refuse_foreign,
     refuse_mixed,
     relist,
     upsampling_factors,
@@ -105,6 +107,7 @@ def ride(
         staging_in(folder) as staging,
     ):
         refuse_another(folder, record)
+        refuse_foreign(folder, RIDDEN, record)
         stage("tracking the hunting of the channels (%d)", len(channels))
         of_channel = [tracked(one, case.ride) for one in channels]
         tables = tables_of_channels(case, channels, of_channel, limits)

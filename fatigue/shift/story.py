@@ -26,9 +26,11 @@ from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import (
     ASSESSED,
     DIAGNOSED,
+    SHIFTED,
     read_provenance,
     read_table,
     refuse_another,
+    refuse_foreign,
     refuse_mixed,
     relist,
     table_writer,
@@ -111,6 +113,7 @@ def shift(
         staging_in(folder) as staging,
     ):
         refuse_another(folder, record)
+        refuse_foreign(folder, SHIFTED, record)
         chosen = _affordable(folder, plan, factors, moved_in, len(every))
         stage("preparing the records of the events (%d)", len(plan.passes))
         groups = weld_groups(body, staging / "forces")

@@ -11,7 +11,7 @@ from fatigue.errors import DataError
 from fatigue.report.files.export import write_csv, write_xlsx
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
-from fatigue.results import is_derived, read_provenance, refuse_mixed, strangers, write_json
+from fatigue.results import is_derived, read_provenance, refuse_foreign, refuse_mixed, strangers, write_json
 from fatigue.results.belonging import carried, listed
 
 
@@ -108,3 +108,13 @@ def test_mixed_tables_are_refused(folder):
     record = json.loads((folder / "provenance.json").read_text()) | {"result": "f" * 32}
     with pytest.raises(DataError, match=r"nodes\.parquet: belongs to the result .* not to that of .*, f{12}"):
         refuse_mixed(folder, record)
+
+
+@pytest.mark.parametrize("table", ["alarm", "levers", "watch", "signals", "shift", "bench_blocks"])
+def test_a_table_of_somebody_else_is_not_overwritten(tmp_path, table):
+    """Whatever command would write it: the file is named, and stays."""
+    pd.DataFrame({"mine": [1]}).to_parquet(tmp_path / f"{table}.parquet")
+    with pytest.raises(DataError, match=f"{table}.parquet: is there already and was not written by fatigue"):
+        refuse_foreign(tmp_path, ["nodes", table], {})
+    assert list(pd.read_parquet(tmp_path / f"{table}.parquet")) == ["mine"]
+    refuse_foreign(tmp_path, ["nodes"], {})
