@@ -1,5 +1,6 @@
-"""The flexible body as a dynamic system: modal mass, participation, flexibility.
+"""The flexible body as a dynamic system: finite elements, condensation, modal mass, participation, flexibility.
 
-``mass`` has effective modal mass and dynamic mass, ``flexibility`` the flexibility index of loaded points and the
-independent directions of their interface modes.
+``elements`` has the stiffness and mass of a flat shell and of a beam, ``structure`` the matrices K and M of a whole
+body, ``condensation`` the bases that reduce it, ``mass`` effective modal mass and dynamic mass, ``flexibility`` the
+flexibility index of loaded points and the independent directions of their interface modes.
 """

@@ -3,6 +3,32 @@
 A file here registers its commands with ``main.cli`` when it is imported, and knows no other file here.
 """
 
-from fatigue.cli.commands import assess, basis, beginnings, convert, results, ride, shift, spectra, verify, welds
+from fatigue.cli.commands import (
+    assess,
+    basis,
+    beginnings,
+    convert,
+    reduce,
+    results,
+    ride,
+    shift,
+    spectra,
+    study,
+    verify,
+    welds,
+)
 
-__all__ = ["assess", "basis", "beginnings", "convert", "results", "ride", "shift", "spectra", "verify", "welds"]
+__all__ = [
+    "assess",
+    "basis",
+    "beginnings",
+    "convert",
+    "reduce",
+    "results",
+    "ride",
+    "shift",
+    "spectra",
+    "study",
+    "verify",
+    "welds",
+]

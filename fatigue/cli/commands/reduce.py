@@ -1,0 +1,1 @@
+"""The command for reducing a finite element body to a modal basis."""

@@ -1,0 +1,1 @@
+"""The command for studies: the analysis graph, variants, claims."""

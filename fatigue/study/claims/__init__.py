@@ -1,0 +1,1 @@
+"""Sentences as tests: reproduced, contradicted, or not decidable."""

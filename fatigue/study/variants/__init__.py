@@ -1,0 +1,1 @@
+"""Variants of a study: what is varied, who produces the histories, what comes out of each, and how it scatters."""
