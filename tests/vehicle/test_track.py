@@ -125,7 +125,7 @@ def test_irregularities_rise_over_fifty_metres_and_the_rate_is_that_of_travel():
     value, rate = met.value[:, 0, 1000:], met.rate[:, 0, 1000:]
     between = 0.5 * (rate[:, 1:] + rate[:, :-1])
     error = np.diff(value, axis=1) * speed / GRID_M - between
-    assert (error.std(axis=1) < 2e-3 * rate.std(axis=1)).all()
+    assert (error.std(axis=1) < 5e-3 * rate.std(axis=1)).all()
 
 
 def test_a_ride_beyond_the_end_of_the_track_is_refused():
