@@ -40,8 +40,8 @@ class LinearVehicle:
     ``M``, ``C``, ``K`` (n, n) hold creep and all springs but the yaw dampers ``maxwell``. ``B_value``, ``B_rate``
     (n, 12) are the forces of irregularities and their rates: lateral of axles 1 to 4, then vertical, then roll. State
     matrix ``A`` (N, N), ``B`` (N, 24) for [w, w'], ``G`` (N, 8) for forces along y on the four wheelsets [N], then
-    moments about z [N m]. ``outputs`` and ``recovered`` are rows (n,) over the coordinates: displacements [m] by name,
-    and what the car body recovers from its modes.
+    moments about z [N m]. ``body_hz`` (m,) are the frequencies of the bare car body. ``outputs`` and
+    ``recovered`` are rows (n,) over the coordinates: displacements [m] by name, and what the body recovers from modes.
     """
 
     coordinates: Coordinates
@@ -57,6 +57,7 @@ class LinearVehicle:
     A: Floats
     B: Floats
     G: Floats
+    body_hz: Floats
     outputs: Mapping[str, Floats]
     recovered: Mapping[str, Floats]
 
@@ -83,6 +84,7 @@ class SuspendedVehicle:
     A_speed: Floats
     A_conicity: Floats
     inverse_mass: Floats
+    body_hz: Floats
     outputs: Mapping[str, Floats]
     recovered: Mapping[str, Floats]
 
@@ -124,6 +126,7 @@ class SuspendedVehicle:
             A=A,
             B=B,
             G=G,
+            body_hz=self.body_hz,
             outputs=self.outputs,
             recovered=self.recovered,
         )
@@ -187,6 +190,7 @@ def suspended(vehicle: Vehicle, body: ElasticBody) -> SuspendedVehicle:
         A_speed=_accelerations(-inverse @ C_speed, len(M), len(dampers), of_velocity=True),
         A_conicity=_accelerations(-inverse @ K_conicity, len(M), len(dampers), of_velocity=False),
         inverse_mass=inverse,
+        body_hz=body.frequency_hz,
         outputs=output_rows(places),
         recovered=recovered_rows(places),
     )

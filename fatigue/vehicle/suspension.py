@@ -181,7 +181,7 @@ def mount_rates(equipment: Equipment, hz: float) -> tuple[float, float]:
     """Stiffness [N/m] and damping [N s/m] of one of four mounts that give a frequency with the body held still.
 
     >>> tuple(round(rate, 1) for rate in mount_rates(Vehicle().converter, 9.2))
-    (5513303.2, 9537.7)
+    (5513397.9, 9537.9)
     """
     w = 2.0 * np.pi * hz
     return equipment.mass_kg * w**2 / 4.0, equipment.damping_ratio * equipment.mass_kg * w / 2.0
