@@ -74,7 +74,9 @@ def _refuse_off_track(of: LinearVehicle, found: Floats, y: Floats, begin_s: floa
     before = found[max(first - 1, 0), n : 2 * n]
     energy = np.diag(of.M) * before**2
     grown = of.coordinates.names[int(np.nanargmax(energy))] if np.isfinite(energy).any() else "everything"
-    place = f"wheelset {axle + 1} is {abs(y[axle, first]):.2g} m beside the track" if axle >= 0 else "no state is finite"
+    place = (
+        f"wheelset {axle + 1} is {abs(y[axle, first]):.2g} m beside the track" if axle >= 0 else "no state is finite"
+    )
     raise NumericalError(
         Problem(
             "left_the_track",
