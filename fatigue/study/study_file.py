@@ -157,8 +157,8 @@ class Source(Table):
 
     kind: Literal["builtin"] | None = Field(
         default=None,
-        description="'builtin': a ride of the vehicle; the default with a vehicle. Without a vehicle, a command and files "
-        "the histories are those of the case",
+        description="'builtin': a ride of the vehicle, the default with a vehicle; without a vehicle, a command and "
+        "files, histories are those of the case",
     )
     command: Text | None = Field(
         default=None,
@@ -240,7 +240,9 @@ class Study(Table):
         if self.base.vehicle is None and self.base.case is None:
             yield absent("base.vehicle", "neither vehicle nor case is given", "Give one of them, or both")
         elif self.base.vehicle is None and self.source.kind == "builtin":
-            yield absent("base.vehicle", "source.kind = 'builtin' is a ride, and there is no vehicle", "Give the vehicle")
+            yield absent(
+                "base.vehicle", "source.kind = 'builtin' is a ride, and there is no vehicle", "Give the vehicle"
+            )
         elif not self.is_builtin and self.source.command is None and self.source.files is None and self.source.run:
             what = "events have runs of their own, and nothing says where these come from"
             yield absent("source.command", what, "Give command or files under [source], or a vehicle under [base]")

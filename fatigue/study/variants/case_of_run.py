@@ -1,7 +1,7 @@
 """The case file of one run: that of its variant, with histories of the run and the way to all other files."""
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
@@ -66,7 +66,7 @@ def way(path: Path, folder: Path) -> str:
         return path.as_posix()
 
 
-def body_files(case: Case, events: Sequence[str]) -> dict[str, Path]:
+def body_files(case: Case, events: Collection[str]) -> dict[str, Path]:
     """Every file that a case names but those of some events, by its key."""
     numbers = [i for i, event in enumerate(case.mission.event, 1) if event.name in events]
     skipped = tuple(f"mission.event[{i}]." for i in numbers)

@@ -3,12 +3,12 @@
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError
 from fatigue.files.hashes import sha256
 from fatigue.files.mishaps import refusal
 from fatigue.results import software_versions
@@ -68,7 +68,7 @@ def are_unchanged(folder: Path, known: Mapping[str, str]) -> bool:
         return False
 
 
-def files_below(folder: Path) -> Iterable[Path]:
+def files_below(folder: Path) -> list[Path]:
     """Files of a folder and those in it, in one order."""
     return sorted(path for path in folder.rglob("*") if path.is_file())
 
@@ -83,5 +83,3 @@ def as_json(value: float) -> float | str | None:
 def from_json(value: float | str | None) -> float:
     """A number of a record."""
     return math.nan if value is None else float(value)
-
-
