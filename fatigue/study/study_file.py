@@ -4,26 +4,24 @@ What is varied is checked later, key by key, against the vehicle and the case th
 """
 
 import re
-import tomllib
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, Field, PrivateAttr, ValidationError
+from pydantic import BaseModel, BeforeValidator, Field, PrivateAttr, ValidationError
 
-from fatigue.case.extremes import excess, extreme_values
-from fatigue.case.problems import absent, clash, model_problems, path_problems, syntax_problem
+from fatigue.case.problems import absent, clash, model_problems, path_problems
 from fatigue.case.table import Table, Text
 from fatigue.errors import CaseError, Problem, given_path
-from fatigue.files.naming import missing_file
+from fatigue.study.toml_file import read_toml
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+WHAT = "a study (study.toml)"
 TAKEN = ("seed", "run", "study", "event", "variant")  # placeholders of every command and pattern
 UNIT = re.compile(r"_(?:hz|km_h|kg_m2|t_mm2|Nm_rad|Ns_m|N_m|m_s2|per_1000_km|mm|MPa|Nm|kg|km|m|N|s|t)$")
 
 Value = float | int | str | bool | list[Any]
-Set = dict[str, Any]
 Label = Annotated[str, Field(min_length=1)]
 
 
@@ -47,6 +45,23 @@ def _twice(key: str, values: list[Any]) -> Iterator[Problem]:
 def same_value(one: object, other: object) -> bool:
     """Whether two values of a key are the same: 350 and 350.0 are, 1 and true are not."""
     return isinstance(one, bool) == isinstance(other, bool) and one == other
+
+
+def flat(tables: Any, above: str = "") -> Any:
+    """Tables in one another as one table with dots in its keys; anything else as it is.
+
+    >>> flat({"vehicle": {"converter": {"fe_hz": 14.0}}, "case.curve.survival": "mean"})
+    {'vehicle.converter.fe_hz': 14.0, 'case.curve.survival': 'mean'}
+    """
+    if not isinstance(tables, dict):
+        return tables
+    found: dict[str, Any] = {}
+    for key, value in tables.items():
+        found |= flat(value, f"{above}{key}.") if isinstance(value, dict) else {f"{above}{key}": value}
+    return found
+
+
+Set = Annotated[dict[str, Any], BeforeValidator(flat)]
 
 
 class Base(Table):
@@ -138,10 +153,12 @@ class SourceRun(Table):
 
 
 class Source(Table):
-    """Where histories come from: the vehicle of this program, a command, or files that are there."""
+    """Where histories come from: a ride of the vehicle, a command, files that are there, or those of the case."""
 
     kind: Literal["builtin"] | None = Field(
-        default=None, description="'builtin': a ride of the vehicle; the default with a vehicle"
+        default=None,
+        description="'builtin': a ride of the vehicle, the default with a vehicle; without a vehicle, a command and "
+        "files, histories are those of the case",
     )
     command: Text | None = Field(
         default=None,
@@ -199,22 +216,16 @@ class Study(Table):
     source: Source = Field(default=Source(), description="a [source] table")
     claim: tuple[dict[str, Any], ...] = Field(default=(), strict=False, description="one [[claim]] table per sentence")
     _path: Path = PrivateAttr(Path())
-    _text: str = PrivateAttr("")
 
-    def model_post_init(self, context: tuple[Path, str] | None) -> None:
-        """Remember the file and its text, where the study comes from one."""
+    def model_post_init(self, context: Path | None) -> None:
+        """Remember the file, where the study comes from one."""
         if context is not None:
-            self._path, self._text = context
+            self._path = context
 
     @property
     def path(self) -> Path:
         """The study file."""
         return self._path
-
-    @property
-    def text(self) -> str:
-        """The study file as it was written, comments included."""
-        return self._text
 
     def resolve(self, name: str) -> Path:
         """Path of a file the study names, relative to the folder of the study file."""
@@ -223,13 +234,17 @@ class Study(Table):
     @property
     def is_builtin(self) -> bool:
         """Whether histories are rides of the vehicle of this program."""
-        return self.source.command is None and self.source.files is None
+        return self.base.vehicle is not None and self.source.command is None and self.source.files is None
 
     def _contradictions(self) -> Iterator[Problem]:
         if self.base.vehicle is None and self.base.case is None:
             yield absent("base.vehicle", "neither vehicle nor case is given", "Give one of them, or both")
-        elif self.base.vehicle is None and self.is_builtin:
-            what = "nothing says where histories come from"
+        elif self.base.vehicle is None and self.source.kind == "builtin":
+            yield absent(
+                "base.vehicle", "source.kind = 'builtin' is a ride, and there is no vehicle", "Give the vehicle"
+            )
+        elif not self.is_builtin and self.source.command is None and self.source.files is None and self.source.run:
+            what = "events have runs of their own, and nothing says where these come from"
             yield absent("source.command", what, "Give command or files under [source], or a vehicle under [base]")
         elif self.base.case is None and (self.source.files is not None or self.source.run or self.source.events):
             what = "source has files or events, and there is no case that names any"
@@ -261,34 +276,9 @@ def load_study(path: Path | str) -> Study:
     CaseError : every mistake of the file, not only the first
     """
     path = given_path(path, "study")
-    text = _text(path)
-    problems: list[Problem] = []
+    raw = read_toml(path, WHAT)
     try:
-        raw = tomllib.loads(text)
-        problems += extreme_values(raw)
-        if not problems:
-            return Study.model_validate(raw, context=(path, text))
-    except tomllib.TOMLDecodeError as error:
-        problems.append(syntax_problem(text, error))
-    except RecursionError:
-        problems.append(excess(text))
+        return Study.model_validate(raw, context=path)
     except ValidationError as error:
-        for details in error.errors():
-            problems += model_problems(details, MODELS, raw)
-    except ValueError:  # an integer of more digits than Python reads
-        problems.append(excess(text))
+        problems = [problem for details in error.errors() for problem in model_problems(details, MODELS, raw)]
     raise CaseError(*(replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8-sig")
-    except (FileNotFoundError, IsADirectoryError, NotADirectoryError):
-        problem = missing_file(path, wanted="the path of a study.toml")
-    except OSError as error:
-        problem = Problem("unreadable_file", str(path), f"cannot be read ({error.strerror})", "Check its permissions")
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        what = f"the byte {error.object[error.start]:#04x} is not UTF-8 text"
-        problem = Problem("not_utf8", f"{path.name}: line {line}", what, "Save the file as UTF-8")
-    raise CaseError(problem)
