@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.vehicle.assembly import LinearVehicle
-from fatigue.vehicle.naming import Named, named
+from fatigue.vehicle.stability.naming import Named, named
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.vehicle.coordinates import BOGIES, CAR, CONVERTER, GROUPS, TRANSFORMER, WHEELSETS, Coordinates
+from fatigue.vehicle.equations.coordinates import BOGIES, CAR, CONVERTER, GROUPS, TRANSFORMER, WHEELSETS, Coordinates
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
