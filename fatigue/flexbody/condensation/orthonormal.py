@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from fatigue.flexbody.condensation.rigid import rigid_modes
+from fatigue.flexbody.factor import unit_rigid_motions
+from fatigue.flexbody.modes import signed
 from fatigue.flexbody.structure import Basis, Structure
 
 Floats = NDArray[np.float64]
 
 DEPENDENT = 1e-11  # square of the part of a column that is its own, of unit columns: a thousand times rounding
 MASSLESS = 1e-14  # of the largest mass per energy: a combination that moves nothing that has mass
-LARGE = 0.9  # of the largest displacement of a shape: the first row as large as that is made positive
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +43,7 @@ def orthonormal(structure: Structure, T: Floats, normal_upto_hz: float) -> Ortho
 
     Sources: Craig and Bampton 1968; theory of flexible bodies in multibody codes (orthonormalised Craig-Bampton).
     """
-    X_r = rigid_modes(structure)
+    X_r = unit_rigid_motions(structure)
     K_r, M_r = reduced(structure, T)
     of_rigid = X_r.T @ (structure.M @ T)  # what of each column is rigid motion
 
@@ -63,14 +63,7 @@ def orthonormal(structure: Structure, T: Floats, normal_upto_hz: float) -> Ortho
     shapes = T @ N - X_r @ (of_rigid @ N)
     frequency = np.sqrt(np.einsum("ij,ij->j", N, K_r @ N)) / (2.0 * np.pi)
     dependent = T.shape[1] - rank + int(np.count_nonzero(~has_mass))
-    return Orthonormal(Basis(shapes * signs(shapes), frequency, frequency <= normal_upto_hz), dependent)
-
-
-def signs(shapes: Floats) -> Floats:
-    """Sign (k,) that makes the first of the large components of each shape (n, k) positive, the same in every run."""
-    large = np.abs(shapes) >= LARGE * np.abs(shapes).max(axis=0, initial=0.0)
-    first = shapes[np.argmax(large, axis=0), np.arange(shapes.shape[1])]
-    return np.where(first < 0.0, -1.0, 1.0)
+    return Orthonormal(Basis(signed(shapes), frequency, frequency <= normal_upto_hz), dependent)
 
 
 def _between(K_r: Floats, M_r: Floats) -> float:
