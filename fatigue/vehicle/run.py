@@ -3,10 +3,10 @@
 The story: what the axles meet, exact steps of the linear vehicle with worn contact, flange and saturation as forces on
 its wheelsets, and what is read off its states.
 
-A record holds modes far above its sampling rate, and rightly so. A mode whose frequency and damping let it forget within
-a step follows its load, ``q = f/w^2``: its coordinate is as slow as the forces at the interface and is sampled like
-them, and the exact step is what makes it decay. It carries the static part of what enters at attachments; without it
-they lose most of their force.
+A record holds modes far above its sampling rate, and rightly so. A mode whose frequency and damping let it forget
+within a step follows its load, ``q = f/w^2``: its coordinate is as slow as the forces at the interface and is sampled
+like them, and the exact step is what makes it decay. It carries the static part of what enters at attachments; without
+it they lose most of their force.
 """
 
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ from fatigue.vehicle.elastic import ElasticBody
 from fatigue.vehicle.in_time.contact import contact_of, worn_flag
 from fatigue.vehicle.in_time.recorded import accelerations, moved
 from fatigue.vehicle.in_time.stepping import Met
-from fatigue.vehicle.track import LATERAL, realised, under_axles
+from fatigue.vehicle.track import LATERAL, Realisation, realised, under_axles
 
 Floats = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ class Ride:
 
     Attributes
     ----------
-    time_s, distance_m : (n,) since the ride began; the distance is that of the middle of the vehicle
+    time_s : (n,) since the ride began; the middle of the vehicle has come ``speed_m_s`` times as many metres
     q : (m, n) modal coordinates of the car body of unit modal mass [m sqrt(kg)]
     channels : accelerations (n,) by name [m/s2]
     recovered : further outputs (n,) of the car body by name, in its unit
@@ -50,11 +50,6 @@ class Ride:
     wheelsets_m: Floats
     worn: Floats
 
-    @property
-    def distance_m(self) -> Floats:
-        """Way (n,) of the middle of the vehicle [m]."""
-        return self.speed_m_s * self.time_s
-
 
 def ride(vehicle: Vehicle, body: ElasticBody) -> Ride:
     """Let a vehicle with this car body ride over its track.
@@ -67,8 +62,9 @@ def ride(vehicle: Vehicle, body: ElasticBody) -> Ride:
     """
     of = assembled(vehicle, body)
     contact = contact_of(vehicle, of.speed_m_s)
+    track = realised(vehicle.track, _seed(vehicle))
     time = _times(vehicle, of.speed_m_s)
-    met = _met(vehicle, of, time)
+    met = _met(vehicle, of, track, time)
     motion = moved(of, contact, met, np.zeros(len(of.A)), vehicle.run.step_s)
     kept = slice(round(vehicle.run.dropped_s / vehicle.run.step_s), None)
     q = motion.q[:, kept]
@@ -89,7 +85,7 @@ def _times(vehicle: Vehicle, speed_m_s: float) -> Floats:
 
     Raises
     ------
-    CaseError : a step, a start or a seed that no ride has
+    CaseError : a step or a start that no ride has
     """
     run, duration = vehicle.run, vehicle.track.distance_m / speed_m_s
     problems = []
@@ -98,16 +94,22 @@ def _times(vehicle: Vehicle, speed_m_s: float) -> Floats:
     if not 0.0 <= run.dropped_s < duration - 2.0 * max(run.step_s, 0.0):
         what = f"{run.dropped_s} s of the start are dropped of a ride that lasts {duration:.3g} s"
         problems.append(Problem("run", "[run] dropped_s", what, "Drop less, or make [track] distance_m longer"))
-    if run.seed < 0:
-        problems.append(Problem("run", "[run] seed", f"{run.seed} is no seed", "Give a whole number of 0 or more"))
     refuse(CaseError, problems)
-    return run.step_s * np.arange(int(duration / run.step_s * (1.0 + 1e-12)))
+    return np.asarray(run.step_s * np.arange(int(duration / run.step_s * (1.0 + 1e-12))))
 
 
-def _met(vehicle: Vehicle, of: LinearVehicle, time_s: Floats) -> Met:
+def _seed(vehicle: Vehicle) -> int:
+    """Seed of the track, or refuse one below 0."""
+    seed = vehicle.run.seed
+    if seed < 0:
+        raise CaseError(Problem("run", "[run] seed", f"{seed} is no seed", "Give a whole number of 0 or more"))
+    return seed
+
+
+def _met(vehicle: Vehicle, of: LinearVehicle, track: Realisation, time_s: Floats) -> Met:
     """What the axles meet at every step: the track with its rates, and worn sections where the contact is worn."""
     way = of.speed_m_s * time_s
-    rails = under_axles(realised(vehicle.track, vehicle.run.seed), of.axle_x_m, way, of.speed_m_s)
+    rails = under_axles(track, of.axle_x_m, way, of.speed_m_s)
     u = np.concatenate([rails.value, rails.rate]).reshape(-1, len(time_s)).T
     contact = vehicle.contact
     sections = contact.worn_sections_m if contact.state == "worn" else ()

@@ -98,8 +98,8 @@ def worn_flag(distance_m: Floats, sections_m: Sections, ramp_m: float) -> Floats
 def equivalent_conicity(amplitude_m: ArrayLike, conicity: float, worn_conicity: float, hollow_m: float) -> Floats:
     """Conicity of a worn tread for a sine of the lateral displacement, by its amplitude A (n,) [m]; lambda0 at rest.
 
-    Harmonic linearisation: ``lambda + (lambda0 - lambda) s0/(pi A) integral tanh(A sin p / s0) sin p dp`` over a period.
-    The integral is the mean over equal steps of p, which converges faster than any power of their number.
+    Harmonic linearisation, over a period of p: ``lambda + (lambda0 - lambda) s0/(pi A) integral tanh(A sin p/s0) sin p
+    dp``. The integral is a mean over equal steps of p, which converges faster than any power of their number.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def equivalent_conicity(amplitude_m: ArrayLike, conicity: float, worn_conicity: 
 @compiled()
 def worn_part(d: float, worn: float, of: Contact) -> float:
     """``delta(d) - lambda d`` [m]: what a worn tread adds to half the difference of rolling radii."""
-    return worn * (of.worn_conicity - of.conicity) * of.hollow * np.tanh(d / of.hollow)
+    return float(worn * (of.worn_conicity - of.conicity) * of.hollow * np.tanh(d / of.hollow))
 
 
 @compiled()

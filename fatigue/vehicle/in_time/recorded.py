@@ -18,8 +18,10 @@ OFF_TRACK_M = 0.1  # of a wheelset, a dozen times the clearance of its flange: s
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motion:
-    """What is kept of n states: modal coordinates ``q`` (m, n), lateral displacement of the wheelsets over the track
-    ``over_track`` (axles, n) [m], and velocities (n,) of the outputs by name [m/s].
+    """What is kept of n states.
+
+    Modal coordinates ``q`` (m, n), lateral displacement of the wheelsets over the track ``over_track`` (axles, n) [m],
+    and velocities (n,) of the outputs by name [m/s].
     """
 
     q: Floats
@@ -62,26 +64,28 @@ def _chunks(of: LinearVehicle, contact: Contact, met: Met, start: Floats, step_s
 
 
 def _refuse_off_track(of: LinearVehicle, found: Floats, y: Floats, begin_s: float, step_s: float) -> None:
-    """Refuse states (steps, N) in which a wheelset is off the track, or that are no numbers."""
+    """Refuse states (steps, N) in which a wheelset is off the track, or that are no numbers.
+
+    What grew is the coordinate with most of the kinetic energy at the last instant that has one.
+    """
     lost = ~(np.abs(y) <= OFF_TRACK_M).all(axis=0) | ~np.isfinite(found).all(axis=1)
     if not lost.any():
         return
-    first = int(np.argmax(lost))
+    first, n = int(np.argmax(lost)), len(of.M)
     time = begin_s + first * step_s
-    where = f"after {time:.3f} s, {of.speed_m_s * time:.0f} m from the start"
-    axle = int(np.nanargmax(np.abs(y[:, first]))) if np.isfinite(y[:, first]).any() else -1
-    n = len(of.M)
-    before = found[max(first - 1, 0), n : 2 * n]
-    energy = np.diag(of.M) * before**2
-    grown = of.coordinates.names[int(np.nanargmax(energy))] if np.isfinite(energy).any() else "everything"
-    place = (
-        f"wheelset {axle + 1} is {abs(y[axle, first]):.2g} m beside the track" if axle >= 0 else "no state is finite"
-    )
+    with np.errstate(over="ignore", invalid="ignore"):
+        energy = np.diag(of.M) * found[: first + 1, n : 2 * n] ** 2
+    last = np.flatnonzero(np.isfinite(energy).all(axis=1))
+    grown = of.coordinates.names[int(np.argmax(energy[last[-1]]))] if len(last) else "all coordinates"
+    off = np.nan_to_num(np.abs(y[:, first]), nan=0.0)
+    place = f"wheelset {int(np.argmax(off)) + 1} is {off.max():.2g} m beside the track"
+    what = place if OFF_TRACK_M < off.max() < np.inf else "the motion is beyond all numbers"
     raise NumericalError(
         Problem(
             "left_the_track",
-            f"ride at {of.speed_m_s * 3.6:.0f} km/h",
-            f"{place} {where}; most of its kinetic energy is in {grown}",
-            "Look at the roots of this vehicle: something grows that no flange and no worn tread limits",
+            f"ride at {of.speed_m_s * 3.6:.4g} km/h",
+            f"{what} after {time:.3f} s, {of.speed_m_s * time:.0f} m from the start; {grown} moves most",
+            "Look at the roots of this vehicle: something grows that neither flange nor worn tread limits. A stiff "
+            "flange asks for a shorter step",
         )
     )
