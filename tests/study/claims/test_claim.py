@@ -56,7 +56,7 @@ def test_a_sentence_without_data():
         (LIKE | {"seeds": [1, 2], "agree": 3}, "agree", "can never be reached by 2 seeds"),
         (LIKE | {"seeds": [1, 9]}, "seeds", "the study has no seed 9"),
         (LIKE | {"seeds": [1, 1]}, "seeds", "twice"),
-        (LIKE | {"operater": ">"}, "operater", "unknown key"),
+        (LIKE | {"wrong": ">"}, "wrong", "unknown key"),
     ],
 )
 def test_what_is_refused(table, place, what):
