@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fatigue.case import Case
 from fatigue.files.mishaps import refused_writing
-from fatigue.study.variants.hashes import files_below
+from fatigue.study.variants.runs.hashes import files_below
 from fatigue.study.variants.source.made import Asked, Made, SourceNumber
 from fatigue.study.vehicle_file import FRAME
 from fatigue.vehicle.definition import Vehicle

@@ -5,7 +5,7 @@ A run that fails is told with its settings, and the others go on.
 
 import logging
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
@@ -17,12 +17,12 @@ from fatigue.errors import FatigueError, NumericalError
 from fatigue.side_by_side import RUN_THREADS
 from fatigue.stages import STAGES, stage
 from fatigue.study.study_file import Study
-from fatigue.study.variants.base_files import BaseFiles
-from fatigue.study.variants.hashes import Hashes
-from fatigue.study.variants.planned_runs import PlannedRun
-from fatigue.study.variants.run import Done, completed
-from fatigue.study.variants.simulation import Simulation, simulated, simulation_of
+from fatigue.study.variants.runs.hashes import Hashes
+from fatigue.study.variants.runs.planned_runs import PlannedRun
+from fatigue.study.variants.runs.run import Done, completed, known
+from fatigue.study.variants.runs.simulation import Simulation, before, simulated, simulation_of
 from fatigue.study.variants.source.made import Made
+from fatigue.study.variants.varied.base_files import BaseFiles
 
 Progress = Callable[[str, int, int], None]
 Item = TypeVar("Item")
@@ -41,13 +41,23 @@ class Failed:
         return isinstance(self.error, NumericalError)
 
 
-Outcome = Done | Failed
+@dataclass(frozen=True, slots=True)
+class NotRun:
+    """A run that was not asked for, and that no earlier command finished."""
+
+
+Outcome = Done | Failed | NotRun
 
 
 def outcomes(
-    study: Study, files: BaseFiles, runs: Sequence[PlannedRun], threads: int | None, progress: Progress
+    study: Study,
+    files: BaseFiles,
+    runs: Sequence[PlannedRun],
+    asked: Collection[str],
+    threads: int | None,
+    progress: Progress,
 ) -> list[Outcome]:
-    """What became of each run, in their order.
+    """What became of each run, in their order; of variants that are not ``asked`` for what earlier commands finished.
 
     ``threads`` are by default one per processor core; as many runs are under way at a time, and where there are fewer
     runs each has several.
@@ -56,43 +66,71 @@ def outcomes(
     threads = threads or cpu_count() or 1
     first: dict[str, Simulation] = {}
     needed = [_simulations(study, files, run, hashes, first) for run in runs]
-    every = {one.folder: one for of in needed if not isinstance(of, Failed) for one in of}
-    made: dict[object, Made | Failed] = {}
+    own = [place for place, run in enumerate(runs) if run.variant in asked]
+    every = {one.folder: one for place in own for one in needed[place].simulations}
+    each = max(1, threads // max(1, min(threads, len(own))))
     with quiet_threads():
         if every:
             stage("making histories (%d runs of the source)", len(every))
-            simulations = list(every.values())
-            of_source = _side_by_side(
-                lambda one: simulated(study, files, one, stop), simulations, threads, progress, "histories", stop
-            )
-            made = dict(zip((one.folder for one in simulations), of_source, strict=True))
+        simulations = list(every.values())
+        of_source = _side_by_side(
+            lambda one: simulated(study, files, one, stop), simulations, threads, progress, "histories", stop
+        )
+        made = dict(zip(every, of_source, strict=True))
 
         def finish(place: int) -> Done:
-            own = needed[place]
-            if isinstance(own, Failed):
-                raise own.error
-            given: dict[str, Made] = {}
-            for one in own:
-                found = made[one.folder]
-                if isinstance(found, Failed):
-                    raise found.error
-                given[one.asked.event] = found
-            each = max(1, threads // max(1, min(threads, len(runs))))
+            given = {one.asked.event: _or_refused(made[one.folder]) for one in needed[place].or_refused()}
             return completed(runs[place], given, hashes, each, diagnosed=study.diagnose)
 
-        stage("assessing (%d runs)" if study.base.case else "gathering numbers (%d runs)", len(runs))
-        return _side_by_side(finish, range(len(runs)), threads, progress, "runs", stop)
+        stage("assessing (%d runs)" if study.base.case else "gathering numbers (%d runs)", len(own))
+        done = dict(zip(own, _side_by_side(finish, own, threads, progress, "runs", stop), strict=True))
+        others = (place for place in range(len(runs)) if place not in done)
+        earlier = {place: _earlier(study, runs[place], needed[place], hashes) for place in others}
+    return [done[place] if place in done else earlier[place] for place in range(len(runs))]
+
+
+@dataclass(frozen=True, slots=True)
+class _Needed:
+    """What the source has to make for a run, or why that cannot be told."""
+
+    simulations: tuple[Simulation, ...] = ()
+    error: FatigueError | None = None
+
+    def or_refused(self) -> tuple[Simulation, ...]:
+        """The simulations; the error, if there is one, is raised."""
+        if self.error is not None:
+            raise self.error
+        return self.simulations
+
+
+def _or_refused(made: Made | Failed) -> Made:
+    if isinstance(made, Failed):
+        raise made.error
+    return made
+
+
+def _earlier(study: Study, run: PlannedRun, needed: _Needed, hashes: Hashes) -> Done | NotRun:
+    """A run as an earlier command finished it."""
+    try:
+        found = {one.asked.event: before(study, one) for one in needed.or_refused()}
+        made = {event: one for event, one in found.items() if one is not None}
+        done = known(run, made, hashes, diagnosed=study.diagnose) if len(made) == len(found) else None
+    except FatigueError:
+        done = None
+    return NotRun() if done is None else done
 
 
 def _simulations(
     study: Study, files: BaseFiles, run: PlannedRun, hashes: Hashes, first: dict[str, Simulation]
-) -> list[Simulation] | Failed:
+) -> _Needed:
     """What the source has to make for a run; ``first`` has the first simulation of each key, which others share."""
     try:
         made = [simulation_of(study, files, asked, run.case, place, hashes) for place, asked in run.asked.items()]
     except FatigueError as error:
-        return Failed(error)
-    return [one if one.key == "" else replace(one, folder=first.setdefault(one.key, one).folder) for one in made]
+        return _Needed(error=error)
+    return _Needed(
+        tuple(one if one.key == "" else replace(one, folder=first.setdefault(one.key, one).folder) for one in made)
+    )
 
 
 def _side_by_side(

@@ -16,12 +16,12 @@ from fatigue.files.mishaps import refused_writing
 from fatigue.files.whole import replacing
 from fatigue.results import write_json
 from fatigue.study.study_file import Study
-from fatigue.study.variants.base_files import BaseFiles, ChangedCase
-from fatigue.study.variants.hashes import Hashes, are_unchanged, as_json, file_hash, files_below, from_json, key_of
+from fatigue.study.variants.runs.hashes import Hashes, are_unchanged, as_json, file_hash, files_below, from_json, key_of
 from fatigue.study.variants.source import command
 from fatigue.study.variants.source.builtin import body_inputs, ridden
 from fatigue.study.variants.source.files import found
 from fatigue.study.variants.source.made import Asked, Made, SourceNumber
+from fatigue.study.variants.varied.base_files import BaseFiles, ChangedCase
 
 RECORD = "simulation.json"
 
@@ -76,8 +76,8 @@ def simulated(study: Study, files: BaseFiles, simulation: Simulation, stop: Even
     asked, folder = simulation.asked, simulation.folder
     if study.source.files is not None:
         return found(study, asked)
-    if (before := finished(simulation)) is not None:
-        return before
+    if (earlier := finished(simulation)) is not None:
+        return earlier
     with refused_writing(folder):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -90,6 +90,16 @@ def simulated(study: Study, files: BaseFiles, simulation: Simulation, stop: Even
         made = command.commanded(study, asked, folder, stop)
     _record(simulation, made)
     return made
+
+
+def before(study: Study, simulation: Simulation) -> Made | None:
+    """What an earlier command left; None where there is nothing.
+
+    Raises
+    ------
+    DataError : files are not where the pattern of the study says
+    """
+    return found(study, simulation.asked) if study.source.files is not None else finished(simulation)
 
 
 def finished(simulation: Simulation) -> Made | None:
