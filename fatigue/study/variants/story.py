@@ -5,6 +5,7 @@ the change concerns.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from numbers import Integral
@@ -19,11 +20,13 @@ from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.study import STUDY
 from fatigue.results.lock import locked
 from fatigue.stages import stage
-from fatigue.study.claims import Claim, claim_rows, claim_seed_rows, read_claims, refuse_unplaced, verdicts
+from fatigue.study.claims import Claim, Verdict, claim_rows, claim_seed_rows, read_claims, refuse_unplaced, verdicts
+from fatigue.study.page import Studied, Varied, study_page
 from fatigue.study.study_file import Study, load_study
 from fatigue.study.variants.dry import DryRun, dry_run
 from fatigue.study.variants.folder import begin, left_over, refuse_foreign, write_study
-from fatigue.study.variants.ratios import ratio_rows
+from fatigue.study.variants.graphed import graphed
+from fatigue.study.variants.ratios import RatioRow, ratio_rows
 from fatigue.study.variants.runs.case_of_run import body_files
 from fatigue.study.variants.runs.gathered import Gathered, gathered
 from fatigue.study.variants.runs.outcomes import outcomes
@@ -33,7 +36,7 @@ from fatigue.study.variants.summary import StudyFound
 from fatigue.study.variants.tables import Tables, run_rows, variant_rows
 from fatigue.study.variants.varied.base_files import BaseFiles
 from fatigue.study.variants.varied.checked import key_problems, placeholder_problems
-from fatigue.study.variants.varied.expansion import Plan, expanded
+from fatigue.study.variants.varied.expansion import Aspect, Plan, expanded
 
 Progress = Callable[[str, int, int], None]
 
@@ -81,7 +84,9 @@ def run_study(
         refuse_foreign(folder, force=force, inputs=inputs)
         begin(folder)
         found = gathered(study, runs, outcomes(study, files, runs, asked, threads, progress))
-        stage("writing tables")
+        of_graph = tuple(graphed(claims, files, plan, study.seeds))
+        stage("writing tables and page")
+        found = replace(found, numbers=(*found.numbers, *of_graph))
         return _written(study, plan, claims, found, folder, csv=csv)
 
 
@@ -145,7 +150,8 @@ def _written(
         "warnings": [_as_dict(problem) for problem in found.warnings],
         "failures": [_as_dict(problem) for problem in found.failures],
     }
-    written = write_study(folder, tables, None, record, csv=csv)
+    page = study_page(_studied(study, plan, found, said, ratios))
+    written = write_study(folder, tables, page, record, csv=csv)
     return StudyFound(
         title=study.title,
         variants=variants,
@@ -161,6 +167,40 @@ def _written(
         left_over=tuple(left_over(folder, [run.folder for run in found.runs])),
         written=tuple(str(folder / name) for name in written),
     )
+
+
+def _studied(study: Study, plan: Plan, found: Gathered, said: Sequence[Verdict], ratios: Sequence[RatioRow]) -> Studied:
+    """What the page tells."""
+    return Studied(
+        title=study.title,
+        vehicle=study.base.vehicle,
+        case=study.base.case,
+        source=_source_in_words(study),
+        combine=study.combine,
+        varied=[_varied(aspect) for aspect in plan.aspects],
+        seeds=study.seeds,
+        variants=[planned.variant for planned in plan.variants],
+        runs=found.runs,
+        numbers=found.numbers,
+        ratios=ratios,
+        verdicts=said,
+        warnings=found.warnings,
+    )
+
+
+def _varied(aspect: Aspect) -> Varied:
+    """One thing that is varied, its base first."""
+    values = (aspect.base.setting, *(level.setting for level in aspect.levels))
+    return Varied(aspect.name, tuple(sorted(aspect.keys)), tuple(dict.fromkeys(values)))
+
+
+def _source_in_words(study: Study) -> str:
+    """Where histories come from, as the end of a sentence."""
+    if study.source.command is not None:
+        return f"what the command {study.source.command!r} leaves"
+    if study.source.files is not None:
+        return f"files that were there, {study.source.files}"
+    return "rides of the vehicle of this program"
 
 
 def _as_dict(problem: Problem) -> dict[str, object]:
