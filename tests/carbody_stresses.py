@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tests import shell_fe
+from fatigue.flexbody.elements.bilinear import GAUSS, gradient, quad_axes
+from fatigue.flexbody.elements.quad import curvature, plane_strain_matrix
 from tests.carbody_loads import FOLDER, car_body
 
 DATA = FOLDER.parents[1] / "tests" / "data"
@@ -35,7 +36,7 @@ class Plate:
 
     def stress(self, place, surface):
         """Stress sx, sy, txy (3, m) [MPa] at a place [mm] in its plane, in global x and y, at z = +-t/2."""
-        axes = shell_fe._element_axes(self.corners[None])[0]
+        axes = quad_axes(self.corners[None])[0]
         assert np.allclose(np.abs(axes[2]), [0.0, 0.0, 1.0])
         xy = (self.corners - self.corners.mean(axis=0)) @ axes[:2].T
         local = np.einsum("ij,bnjm->bnim", axes, self.u.reshape(4, 2, 3, -1)).reshape(24, -1)
@@ -45,23 +46,23 @@ class Plate:
         D = self.E / (1 - self.nu**2) * np.array([[1, self.nu, 0], [self.nu, 1, 0], [0, 0, (1 - self.nu) / 2]])
         membrane = D @ plane_strain(xy[None], dofs[:, :2].reshape(8, -1), D, xi, eta)
         z = THICKNESS / 2.0 * (1.0 if surface == "top" else -1.0) * np.sign(axes[2, 2])
-        bending = z * D @ (shell_fe._curvature(xy[None], xi, eta)[0][0] @ dofs[:, 2:5].reshape(12, -1))
+        bending = z * D @ (curvature(xy[None], xi, eta)[0][0] @ dofs[:, 2:5].reshape(12, -1))
         return turned(membrane + bending, axes[:2, :2])
 
 
 def plane_strain(xy, u, D, xi, eta):
     """Strain (3, m) of the bilinear quad with its incompatible modes, which follow from the displacements (8, m)."""
-    J0 = shell_fe._gradient(xy, 0.0, 0.0)[1]
+    J0 = gradient(xy, 0.0, 0.0)[1]
     L = Q = 0.0
-    for at in shell_fe.GAUSS:
-        dN, J = shell_fe._gradient(xy, *at)
-        B, C = shell_fe._plane_strain_matrix(dN), shell_fe._plane_strain_matrix(bubbles(J0, J, *at))
+    for at in GAUSS:
+        dN, J = gradient(xy, *at)
+        B, C = plane_strain_matrix(dN), plane_strain_matrix(bubbles(J0, J, *at))
         weight = np.linalg.det(J)[:, None, None]
         L, Q = L + C.swapaxes(1, 2) @ D @ B * weight, Q + C.swapaxes(1, 2) @ D @ C * weight
     alpha = -np.linalg.solve(Q, L)[0] @ u
-    dN, J = shell_fe._gradient(xy, xi, eta)
-    C = shell_fe._plane_strain_matrix(bubbles(J0, J, xi, eta))
-    return shell_fe._plane_strain_matrix(dN)[0] @ u + C[0] @ alpha
+    dN, J = gradient(xy, xi, eta)
+    C = plane_strain_matrix(bubbles(J0, J, xi, eta))
+    return plane_strain_matrix(dN)[0] @ u + C[0] @ alpha
 
 
 def bubbles(J0, J, xi, eta):

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from fatigue.errors import CaseError, Problem, refuse
-from fatigue.vehicle.coordinates import Coordinates
-from fatigue.vehicle.creep import creep
 from fatigue.vehicle.definition import Equipment, Vehicle
 from fatigue.vehicle.elastic import ElasticBody
-from fatigue.vehicle.outputs_map import output_rows, recovered_rows
+from fatigue.vehicle.equations.coordinates import Coordinates
+from fatigue.vehicle.equations.creep import creep
+from fatigue.vehicle.equations.output_rows import output_rows, recovered_rows
+from fatigue.vehicle.equations.springs import Maxwell, damping, from_rail, stiffness
+from fatigue.vehicle.equations.suspension import AXLES, SIGNALS, Places, require_points, springs, yaw_dampers
 from fatigue.vehicle.settled import axle_places
-from fatigue.vehicle.springs import Maxwell, damping, from_rail, stiffness
-from fatigue.vehicle.suspension import AXLES, SIGNALS, Places, require_points, springs, yaw_dampers
 
 Floats = NDArray[np.float64]
 

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from fatigue.flexbody.condensation.craig_bampton import craig_bampton
-from fatigue.flexbody.condensation.free_interface import free_interface, free_modes_of
-from fatigue.flexbody.condensation.inertia_relief import free_body
+from fatigue.flexbody.condensation.free_interface import free_interface
 from fatigue.flexbody.condensation.orthonormal import orthonormal
 from fatigue.flexbody.elements.beam import beam_stiffness
+from fatigue.flexbody.factor import free_body
 from fatigue.flexbody.mass import centre_of_mass, rigid_mass, rigid_motions
+from fatigue.flexbody.modes import free_modes
 from fatigue.flexbody.structure import Basis, Structure
 from fatigue.vehicle.definition import Car
 from fatigue.vehicle.elastic import ElasticBody, Point, default_damping
@@ -126,14 +127,14 @@ def frame_basis(structure: Structure, basis: str, cut_hz: float, keep_hz: float 
     """
     match basis:
         case "weak":
-            T = craig_bampton(structure, masters_of(EXTERNAL), cut_hz)
+            T = craig_bampton(structure, masters_of(EXTERNAL), upto_hz=cut_hz)
         case "strong":
-            T = craig_bampton(structure, masters_of(EXTERNAL, INTERNAL), cut_hz)
+            T = craig_bampton(structure, masters_of(EXTERNAL, INTERNAL), upto_hz=cut_hz)
         case "residual":
-            T = free_interface(free_body(structure), _unit_forces(structure), cut_hz)
+            T = free_interface(free_body(structure), _unit_forces(structure), upto_hz=cut_hz)
         case "full":
-            _, T = free_modes_of(free_body(structure), keep_hz)
-            cut_hz = np.inf
+            all_of_them = len(structure.node) - 6
+            return free_modes(free_body(structure), upto_hz=keep_hz, count=all_of_them if keep_hz is None else None)
         case _:
             raise ValueError(f"no basis {basis!r}: weak, strong, residual, full")
     found = orthonormal(structure, T, cut_hz).basis

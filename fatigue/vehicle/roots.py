@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.vehicle.assembly import LinearVehicle
-from fatigue.vehicle.naming import Named, named
+from fatigue.vehicle.stability.naming import Named, named
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -76,4 +76,4 @@ def root_of(of: LinearVehicle, s: complex, state: Complex) -> Root:
     q = q / np.sqrt(np.real(q.conj() @ of.M @ q))
     largest = q[np.abs(q).argmax()]
     q = q * (np.conj(largest) / abs(largest))
-    return Root(complex(s), named(q, of.M, of.coordinates, of.body_hz), q)
+    return Root(complex(s), named(complex(s) / of.speed_m_s, q, of.M, of.coordinates, of.body_hz), q)

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from fatigue.errors import CaseError, DataError
 from fatigue.vehicle.assembly import assembled, suspended
-from fatigue.vehicle.coordinates import BOGIES, MOTIONS
-from fatigue.vehicle.creep import klingel_hz
 from fatigue.vehicle.definition import Contact, Suspension, Vehicle
+from fatigue.vehicle.equations.coordinates import BOGIES, MOTIONS
+from fatigue.vehicle.equations.creep import klingel_hz
 from tests.vehicle_bodies import bending_body, elastic_body, rigid_body
 
 FREE_OF_CREEP = Contact(f11_N=0.0, f22_N=0.0, f23_Nm=0.0, load_N=0.0)

@@ -3,65 +3,67 @@
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.sparse.linalg import SuperLU
+from scipy.sparse.linalg import SuperLU, splu
 
 from fatigue.errors import NumericalError, Problem
-from fatigue.flexbody.condensation.factored import factored
-from fatigue.flexbody.condensation.guyan import followed
+from fatigue.flexbody.factor import refuse_unsymmetric
 from fatigue.flexbody.structure import Structure
 
 Floats = NDArray[np.float64]
 
-PIVOT = 0.1  # D is indefinite above the first fixed-interface mode
+PIVOT = 0.1  # D is indefinite above the first fixed-interface mode: a pivot below this share of its column is left
 TOO_NEAR = 1e-6  # relative distance to a fixed-interface mode: shapes grow by its inverse and lose as many digits
-STEPS = 30  # of inverse iteration: only a mode that is as near as that has to be found
+STEPS = 20  # of inverse iteration: only a mode that is as near as that has to be found
 
 
 def kuhar(structure: Structure, masters: NDArray[np.bool_], at_hz: float) -> Floats:
     """T (n, m), ``x = T x_m`` with ``T = [I; -D_ss^-1 D_sm]``, ``D = K - p^2 M`` at the frequency p.
 
-    Exact for harmonic loads on the ``masters`` (n,) at ``at_hz``, and for modes near it; at 0 it is that of Guyan.
-    Rigid motions are not kept: they follow p as well.
+    Exact for harmonic loads on the ``masters`` (n,) at ``at_hz``, and for a mode there; at 0 it is that of Guyan. Rigid
+    motions of masters move the slaves as p says, not rigidly: the columns alone do not contain them.
 
     Raises
     ------
-    NumericalError : p is the frequency of a fixed-interface mode, where ``det D_ss = 0``
+    DataError : K or M not symmetric
+    NumericalError : the body has a mode at p while its masters are held, ``det D_ss = 0``
 
     Source: Kuhar and Stahle, AIAA Journal 12 (1974) 672.
     """
-    w2 = (2.0 * np.pi * at_hz) ** 2
-    D, slaves = sparse.csc_array(structure.K - w2 * structure.M), ~masters
+    for name, matrix in (("K", structure.K), ("M", structure.M)):
+        refuse_unsymmetric(name, matrix, structure)
+    p2 = (2.0 * np.pi * at_hz) ** 2
+    m, s = np.flatnonzero(masters), np.flatnonzero(~masters)
+    D = sparse.csc_array(structure.K - p2 * structure.M)
+    T = np.zeros((len(masters), len(m)))
+    T[m] = np.eye(len(m))
+    if not s.size:
+        return T
+    D_ss, M_ss = sparse.csc_array(D[s][:, s]), sparse.csc_array(structure.M[s][:, s])
     try:
-        factors = factored(D[slaves][:, slaves], PIVOT)
-    except NumericalError as error:
+        factors = splu(D_ss, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT, options={"SymmetricMode": True})
+    except RuntimeError as error:  # exactly singular
         raise _at_a_mode(at_hz) from error
-    distance = _nearest(factors, structure.M[slaves][:, slaves])  # w_s^2 - p^2
-    if abs(distance) < 2.0 * TOO_NEAR * w2:
+    if abs(_to_nearest(factors, M_ss)) < 2.0 * TOO_NEAR * p2:  # w^2 - p^2 is about 2 p (w - p)
         raise _at_a_mode(at_hz)
-    return followed(factors, D, masters)
+    T[s] = -factors.solve(D[s][:, m].toarray())
+    return T
 
 
-def _nearest(factors: SuperLU, M_ss: sparse.csc_array) -> float:
+def _to_nearest(factors: SuperLU, M_ss: sparse.csc_array) -> float:
     """Distance ``w_s^2 - p^2`` [1/s^2] of the fixed-interface mode nearest to p, by inverse iteration."""
-    x = np.random.default_rng(0).standard_normal(M_ss.shape[0])
-    distance = np.inf
+    x, distance = np.random.default_rng(0).standard_normal(M_ss.shape[0]), np.inf
     for _ in range(STEPS):
-        x = factors.solve(M_ss @ x)
-        mass = float(x @ (M_ss @ x))
-        if not mass > 0.0:
+        moved = M_ss @ x
+        mass = float(x @ moved)
+        if not mass > 0.0:  # slaves without mass
             break
-        before = x / np.sqrt(mass)
-        x = before
-        distance = 1.0 / float(x @ (M_ss @ factors.solve(M_ss @ x)))
+        answer = factors.solve(moved)
+        distance = mass / float(moved @ answer)
+        x = answer / np.linalg.norm(answer)
     return distance
 
 
 def _at_a_mode(at_hz: float) -> NumericalError:
-    return NumericalError(
-        Problem(
-            "at_a_fixed_interface_mode",
-            "dynamic condensation",
-            f"the body has a mode at {at_hz:.6g} Hz while its masters are held, and no master then moves the others",
-            "take another frequency, or another choice of masters",
-        )
-    )
+    what = f"with its interface held, the body has a mode at {at_hz:.6g} Hz: there no motion of the interface is finite"
+    remedy = "Take another frequency for the condensation, some per cent away"
+    return NumericalError(Problem("at_fixed_interface_mode", "dynamic condensation", what, remedy))

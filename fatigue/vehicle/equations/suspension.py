@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.vehicle.coordinates import BOGIES, CAR, CONVERTER, TRANSFORMER, WHEELSETS, Coordinates
 from fatigue.vehicle.definition import Equipment, Vehicle
 from fatigue.vehicle.elastic import ElasticBody
+from fatigue.vehicle.equations.coordinates import BOGIES, CAR, CONVERTER, TRANSFORMER, WHEELSETS, Coordinates
+from fatigue.vehicle.equations.springs import Maxwell, Spring, X, Y, Z, elongation
 from fatigue.vehicle.settled import axle_places, settled
-from fatigue.vehicle.springs import Maxwell, Spring, X, Y, Z, elongation
 
 Floats = NDArray[np.float64]
 

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.vehicle.coordinates import BOGIES, CONVERTER, TRANSFORMER
-from fatigue.vehicle.suspension import Places
+from fatigue.vehicle.equations.coordinates import BOGIES, CONVERTER, TRANSFORMER
+from fatigue.vehicle.equations.suspension import Places
 
 Floats = NDArray[np.float64]
 
