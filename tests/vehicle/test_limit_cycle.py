@@ -10,9 +10,9 @@ import pytest
 from fatigue.vehicle.definition import Car, Contact, Suspension, Vehicle
 from fatigue.vehicle.frame_body import frame_body
 from fatigue.vehicle.in_time.contact import equivalent_conicity
-from fatigue.vehicle.in_time.limit_cycle import frequency_of, limit_cycle
+from fatigue.vehicle.limit_cycle import frequency_of, limit_cycle
 
-ORACLES = json.loads((Path(__file__).parents[2] / "data/vehicle/limit_cycles.json").read_text())["rows"]
+ORACLES = json.loads((Path(__file__).parents[1] / "data/vehicle/limit_cycles.json").read_text())["rows"]
 
 
 @pytest.fixture(scope="module")
