@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fatigue.errors import CaseError
+from fatigue.vehicle.in_time.recorded import Ride
 from fatigue.vehicle.in_time.thinned import thinned
-from fatigue.vehicle.run import Ride
 
 TIME = 3.0 + 1e-3 * np.arange(20_001)
 
