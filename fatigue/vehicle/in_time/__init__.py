@@ -1,0 +1,1 @@
+"""A vehicle in time: what linear contact leaves out, one step, limit cycles, histories thinned for the assessor."""
