@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import DataError, Problem, refuse
+from fatigue.errors import DataError, Problem
 from fatigue.flexbody.structure import Structure
 from fatigue.readers.neutral.body.interface_shapes import DIRECTIONS
 from fatigue.readers.neutral.tables import Table, open_table
@@ -76,7 +76,7 @@ def read_interface(path: Path, *, strict: bool) -> tuple[tuple[InterfacePoint, .
         InterfacePoint(names[code[i]], int(node[i]), shared[i] or (int(node[i]),), side[i], directions[i] or ())
         for i in range(table.rows)
     )
-    table.problems += _twice(table, points)
+    table.problems.extend(_twice(table, points))
     table.refuse()
     if not any(point.is_loaded for point in points):
         what = "no point is external or internal, so that no force enters the body"

@@ -61,12 +61,12 @@ def _refuse_no_solid(table: Table, nu: Floats) -> None:
 def _without_property(mesh: Mesh, elements: Path, properties: Path, found: NDArray[np.int64]) -> list[Problem]:
     """Refusals of elements that are no flat shells, and of those whose property is not in the table."""
     problems = []
-    curved = (mesh.corners[:, 4:] > 0).any(axis=1)
+    curved: NDArray[np.bool_] = np.any(mesh.corners[:, 4:] > 0, axis=1)
     if curved.any():
         what = f"it has mid-side nodes{_more(curved)}"
         remedy = "Give elements of three or four nodes; elements with mid-side nodes are not computed here"
         problems.append(Problem("mid_nodes", _element(mesh, elements, curved), what, remedy))
-    unknown = np.asarray(found != mesh.pid)
+    unknown: NDArray[np.bool_] = np.not_equal(found, mesh.pid)
     if unknown.any():
         what = f"its property {mesh.pid[unknown.argmax()]} is not in {properties.name}{_more(unknown)}"
         problems.append(Problem("unknown_id", _element(mesh, elements, unknown), what, "Add the property there"))
