@@ -1,6 +1,7 @@
 """What is asked of an analysis graph: over which speeds and conicities, and along which lines roots are followed."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,15 +19,26 @@ ALSO_CONICITIES = (0.03, 0.06, 0.1, 0.3, 0.5, 0.7)  # beside that of the contact
 ALSO_SPEEDS = (350.0, 380.0, 420.0)  # km/h, beside that of the run
 
 
-def default_speeds() -> Floats:
-    """Speeds (65,) [km/h] of the map where none are asked for."""
-    slowest, fastest = SPEEDS_KM_H
-    return np.linspace(slowest, fastest, round((fastest - slowest) / STEP_KM_H) + 1)
+def speeds_of(given: Sequence[float] = SPEEDS_KM_H) -> Floats:
+    """Speeds [km/h] as given; of two ends a step of 10 km/h or somewhat less.
+
+    >>> speeds_of((60.0, 85.0)).tolist()
+    [60.0, 68.33333333333333, 76.66666666666667, 85.0]
+    """
+    if len(given) != 2:
+        return np.array(given, dtype=np.float64)
+    return np.linspace(given[0], given[1], max(2, math.ceil((given[1] - given[0]) / STEP_KM_H) + 1))
 
 
-def default_conicities() -> Floats:
-    """Conicities (60,) of the map where none are asked for."""
-    return np.geomspace(*CONICITIES, POINTS)
+def conicities_of(given: Sequence[float] = CONICITIES) -> Floats:
+    """Conicities as given; of two ends 60 at even ratios.
+
+    >>> conicities_of((0.01, 1.2)).shape
+    (60,)
+    """
+    if len(given) != 2:
+        return np.array(given, dtype=np.float64)
+    return np.asarray(np.geomspace(given[0], given[1], POINTS))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,8 +49,8 @@ class Asked:
     those of the vehicle itself.
     """
 
-    speeds: Floats = field(default_factory=default_speeds)
-    conicities: Floats = field(default_factory=default_conicities)
+    speeds: Floats = field(default_factory=speeds_of)
+    conicities: Floats = field(default_factory=conicities_of)
     at_speeds: tuple[float, ...] = ALSO_SPEEDS
     at_conicities: tuple[float, ...] = ALSO_CONICITIES
 

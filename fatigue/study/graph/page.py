@@ -134,8 +134,8 @@ def _said(of: VehicleGraph) -> list[str]:
     """Sentences about one vehicle."""
     first, speed = of.over_conicity[0], of.over_speed[0]
     return [
-        f"At {first.at:g} km/h, the speed of its run, it is stable for {ranges_of(first)}. "
-        f"At {speed.at:g}, the conicity of its contact, it is stable for {ranges_of(speed)}."
+        f"At {first.at:g} km/h, the speed of its run, it is stable for {ranges_of(first)}.",
+        f"At {speed.at:g}, the conicity of its contact, it is stable for {ranges_of(speed)}.",
     ]
 
 

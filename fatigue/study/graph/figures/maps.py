@@ -179,6 +179,7 @@ def _own(of: VehicleGraph) -> Trace:
         "x": [of.vehicle.run.speed_km_h],
         "y": [of.vehicle.contact.conicity],
         "marker": {"symbol": "star", "size": 14, "color": "#ffd54a", "line": {"color": INK, "width": 1.2}},
+        "showlegend": False,
         "hovertemplate": "run and contact of the vehicle<br>%{x:g} km/h, conicity %{y:g}<extra></extra>",
     }
 
