@@ -54,7 +54,10 @@ def lives_figure(group: Group, lives: Lives) -> go.Figure | None:
     lives_axis = log_axis("life [km]", low, high)
     if high >= np.log10(LONGEST):
         kept = [(v, t) for v, t in zip(lives_axis["tickvals"], lives_axis["ticktext"], strict=True) if v < LONGEST]
-        lives_axis["tickvals"], lives_axis["ticktext"] = [*(v for v, _ in kept), LONGEST], [*(t for _, t in kept), "> 1e12"]
+        lives_axis["tickvals"], lives_axis["ticktext"] = (
+            [*(v for v, _ in kept), LONGEST],
+            [*(t for _, t in kept), "> 1e12"],
+        )
     return figure(
         data,
         height=110 + max(26, 9 * len(names)) * len(welds),
