@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fatigue.report.wording import listed, number, short, whole
 from fatigue.study.claims.verdict import CONTRADICTED, REPRODUCED, UNDECIDED, Scatter, Verdict
 from fatigue.study.page.studied import Studied, Varied
-from fatigue.study.variants.names import shown
+from fatigue.study.variants.varied.names import shown
 
 MOST_VALUES = 8  # of one thing in a sentence
 OWN_VEHICLE = (

@@ -5,6 +5,7 @@ the change concerns.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import asdict, replace
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from numbers import Integral
@@ -20,9 +21,11 @@ from fatigue.results.dictionary.study import STUDY
 from fatigue.results.lock import locked
 from fatigue.stages import stage
 from fatigue.study.claims import Claim, claim_rows, claim_seed_rows, read_claims, refuse_unplaced, verdicts
+from fatigue.study.page import study_page
 from fatigue.study.study_file import Study, load_study
 from fatigue.study.variants.dry import DryRun, dry_run
 from fatigue.study.variants.folder import begin, left_over, refuse_foreign, write_study
+from fatigue.study.variants.paged import studied
 from fatigue.study.variants.ratios import ratio_rows
 from fatigue.study.variants.runs.case_of_run import body_files
 from fatigue.study.variants.runs.gathered import Gathered, gathered
@@ -80,9 +83,8 @@ def run_study(
     with locked(folder, no_lock=no_lock), threadpool_limits(limits=1, user_api="blas"):
         refuse_foreign(folder, force=force, inputs=inputs)
         begin(folder)
-        found = gathered(study, runs, outcomes(study, files, runs, asked, threads, progress))
-        stage("writing tables")
-        return _written(study, plan, claims, found, folder, csv=csv)
+        of_runs = gathered(study, runs, outcomes(study, files, runs, asked, threads, progress))
+        return _written(study, plan, claims, of_runs, folder, csv=csv)
 
 
 def listed_study(study: Study | Path | str, folder: Path | str, only: str | Sequence[str] = ()) -> DryRun:
@@ -118,53 +120,54 @@ def planned_study(study: Study) -> tuple[BaseFiles, Plan, tuple[Claim, ...]]:
 
 
 def _written(
-    study: Study, plan: Plan, claims: Sequence[Claim], found: Gathered, folder: Path, *, csv: bool
+    study: Study, plan: Plan, claims: Sequence[Claim], of_runs: Gathered, folder: Path, *, csv: bool
 ) -> StudyFound:
+    """Write tables, page and record of what the runs came to."""
     variants = tuple(planned.variant for planned in plan.variants)
-    scatter, ratios = scatter_rows(found.numbers), ratio_rows(variants, found.numbers)
-    said = verdicts(claims, variants, found.numbers, study.seeds)
+    found = StudyFound(
+        title=study.title,
+        variants=variants,
+        runs=of_runs.runs,
+        numbers=of_runs.numbers,
+        scatter=tuple(scatter_rows(of_runs.numbers)),
+        ratios=tuple(ratio_rows(variants, of_runs.numbers)),
+        verdicts=verdicts(claims, variants, of_runs.numbers, study.seeds),
+        warnings=of_runs.warnings,
+        failures=of_runs.failures,
+        exit_code=of_runs.exit_code,
+        reused=of_runs.reused,
+        left_over=tuple(left_over(folder, [run.folder for run in of_runs.runs])),
+    )
+    stage("writing tables and page")
+    record = {
+        "title": study.title,
+        "seeds": list(study.seeds),
+        "inputs": {path.name: sha256(path) for path in _inputs(study)},
+        "variants": [{"name": p.variant.name, "folder": p.folder, "changes": dict(p.changes)} for p in plan.variants],
+        "warnings": [asdict(problem) for problem in found.warnings],
+        "failures": [asdict(problem) for problem in found.failures],
+    }
+    page = study_page(studied(study, plan, found))
+    written = write_study(folder, _tables(plan, found, folder), page, record, csv=csv)
+    return replace(found, written=tuple(str(folder / name) for name in written))
+
+
+def _tables(plan: Plan, found: StudyFound, folder: Path) -> Tables:
+    """Rows of every table; those of claims where there are any."""
     tables: Tables = {
         "variants": (STUDY["variants"], list(variant_rows(plan))),
         "runs": (STUDY["runs"], run_rows(found.runs, folder)),
         "numbers": (STUDY["numbers"], found.numbers),
-        "scatter": (STUDY["scatter"], scatter),
-        "ratios": (STUDY["ratios"], ratios),
+        "scatter": (STUDY["scatter"], found.scatter),
+        "ratios": (STUDY["ratios"], found.ratios),
     }
-    if claims:
-        tables = {
-            **tables,
-            "claims": (CLAIMED["claims"], claim_rows(said)),
-            "claim_seeds": (CLAIMED["claim_seeds"], claim_seed_rows(said)),
-        }
-    record = {
-        "title": study.title,
-        "study": {"file": study.path.name, "sha256": sha256(study.path)},
-        "seeds": list(study.seeds),
-        "inputs": {path.name: sha256(path) for path in _inputs(study)},
-        "variants": [{"name": p.variant.name, "folder": p.folder, "changes": dict(p.changes)} for p in plan.variants],
-        "warnings": [_as_dict(problem) for problem in found.warnings],
-        "failures": [_as_dict(problem) for problem in found.failures],
+    if not found.verdicts:
+        return tables
+    claimed: Tables = {
+        "claims": (CLAIMED["claims"], claim_rows(found.verdicts)),
+        "claim_seeds": (CLAIMED["claim_seeds"], claim_seed_rows(found.verdicts)),
     }
-    written = write_study(folder, tables, None, record, csv=csv)
-    return StudyFound(
-        title=study.title,
-        variants=variants,
-        runs=found.runs,
-        numbers=found.numbers,
-        scatter=tuple(scatter),
-        ratios=tuple(ratios),
-        verdicts=said,
-        warnings=found.warnings,
-        failures=found.failures,
-        exit_code=found.exit_code,
-        reused=found.reused,
-        left_over=tuple(left_over(folder, [run.folder for run in found.runs])),
-        written=tuple(str(folder / name) for name in written),
-    )
-
-
-def _as_dict(problem: Problem) -> dict[str, object]:
-    return {"code": problem.code, "where": problem.where, "what": problem.what, "count": problem.count}
+    return {**tables, **claimed}
 
 
 def _base_problems(files: BaseFiles) -> Iterator[Problem]:
