@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import cholesky, qr, solve_triangular
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
 from fatigue.errors import DataError, Problem
@@ -94,12 +95,13 @@ def free_body(structure: Structure) -> FreeBody:
 
     Raises
     ------
-    DataError : K or M not symmetric, K that resists rigid motions, M without mass, a part that moves freely
+    DataError : K or M not symmetric, K that resists rigid motions, M without mass, parts that nothing joins or a hinge
     """
     refuse_unsymmetric("M", structure.M, structure)
     rigid = unit_rigid_motions(structure)
     refuse_unsymmetric("K", structure.K, structure)
     _refuse_grounded(structure, rigid)
+    _refuse_parts(structure)
     held = np.zeros(len(structure.node), dtype=np.bool_)
     held[support(structure)] = True
     return FreeBody(structure, factored(structure, held), rigid)
@@ -153,7 +155,7 @@ def refuse_unsymmetric(name: str, matrix: sparse.csc_array, structure: Structure
         worst = int(of_scale.argmax())
         row, column = sorted((int(i[worst]), int(j[worst])))
         where = f"{name}: {row_name(structure, row)} with {row_name(structure, column)}"
-        what = f"the matrix is not symmetric: {matrix[row, column]:g}, and {matrix[column, row]:g} in its transpose"
+        what = f"the matrix is not symmetric: {matrix[row, column]:.9g}, and {matrix[column, row]:.9g} in its transpose"
         raise DataError(Problem("not_symmetric", where, what, "Export both triangles of the same run"))
 
 
@@ -225,6 +227,21 @@ def _refuse_grounded(structure: Structure, rigid: Floats) -> None:
         what = f"the body resists a rigid motion here ({share[row, motion]:.2g} of the terms of its row are left)"
         remedy = "Give K of the free body, without supports, and what its rows are in the order of the matrix"
         raise DataError(Problem("grounded", where, what, remedy))
+
+
+def _refuse_parts(structure: Structure) -> None:
+    """Refuse a body whose nodes K does not join to one."""
+    nodes, number = np.unique(structure.node, return_inverse=True)
+    row, column = structure.K.nonzero()
+    links = sparse.coo_array((np.ones(row.size, dtype=np.bool_), (number[row], number[column])), (nodes.size,) * 2)
+    parts, of_node = connected_components(links, directed=False)
+    if parts == 1:
+        return
+    size = np.bincount(of_node)
+    least = int(size.argmin())
+    what = f"the body is in {parts} parts that nothing joins, and the one of this node has {size[least]} of its nodes"
+    remedy = "Connect it to the body, or leave it out of the model"
+    raise DataError(Problem("mechanism", f"K: node {nodes[of_node == least][0]}", what, remedy))
 
 
 def _without_stiffness(structure: Structure, row: int, diagonal: float) -> Problem:
