@@ -85,7 +85,7 @@ def simulated(study: Study, files: BaseFiles, bodies: Bodies, simulation: Simula
         vehicle = files.changed_vehicle(asked.changes)
         assert vehicle is not None
         case = None if simulation.case is None else simulation.case.case
-        made = ridden(vehicle, bodies.of(vehicle.car), study.source.rate_hz, asked, case, folder)
+        made = ridden(vehicle, bodies.of(vehicle), study.source.rate_hz, asked, case, folder)
     else:
         made = command.commanded(study, asked, folder, stop)
     _record(simulation, made)

@@ -18,12 +18,12 @@ from fatigue.files.mishaps import refused_writing
 from fatigue.readers.neutral.body.modes import read_modes
 from fatigue.reduce.folder import RECORD
 from fatigue.reduce.tables import FORCES, MODES, OBSERVED_SHAPES, POINTS, SHAPES
-from fatigue.study.reduced_body import coordinates_of_folder, reduced_body
+from fatigue.study.car_body import car_body
+from fatigue.study.reduced_body import coordinates_of_folder
 from fatigue.study.variants.source.made import Asked, Made, SourceNumber
 from fatigue.study.vehicle_file import FRAME
 from fatigue.vehicle.definition import Car, Vehicle
 from fatigue.vehicle.elastic import ElasticBody
-from fatigue.vehicle.frame_body import frame_body
 from fatigue.vehicle.in_time.thinned import thinned
 from fatigue.vehicle.run import Ride, ride
 from fatigue.vehicle.run_numbers import run_numbers
@@ -42,18 +42,17 @@ class Bodies:
         self._known: dict[Car, ElasticBody] = {}
         self._lock = Lock()
 
-    def of(self, car: Car) -> ElasticBody:
-        """The body of a car: the frame, or that of a folder of ``fatigue reduce``.
+    def of(self, vehicle: Vehicle) -> ElasticBody:
+        """The car body of a vehicle.
 
         Raises
         ------
-        DataError : the folder is none, or was changed
+        DataError : as ``car_body``
         """
         with self._lock:
-            if car not in self._known:
-                frame = car.body == FRAME
-                self._known[car] = frame_body(car) if frame else reduced_body(Path(car.body), car.floor_z_m)
-            return self._known[car]
+            if vehicle.car not in self._known:
+                self._known[vehicle.car] = car_body(vehicle)
+            return self._known[vehicle.car]
 
 
 def ridden(
