@@ -6,8 +6,8 @@ from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num
 from fatigue.study.claims.verdict import Verdict
 from fatigue.study.page.studied import Studied
 from fatigue.study.quantities import StudyRun
-from fatigue.study.variants.varied.names import shown
 from fatigue.study.variants.ratios import RatioRow
+from fatigue.study.variants.varied.names import shown
 
 MOST_ROWS = 600  # of the page; the files have all
 MOST_RUNS = 60

@@ -32,7 +32,7 @@ def studied(study: Study, plan: Plan, found: StudyFound) -> Studied:
 def source_in_words(study: Study) -> str:
     """Where the histories of a study come from, as the end of a sentence."""
     if study.is_builtin:
-        return "rides of the vehicle"
+        return "rides of the vehicle of this program"
     if study.source.command is not None:
-        return f"the command {study.source.command}"
-    return "the case itself" if study.source.files is None else f"files at {study.source.files}"
+        return f"what the command {study.source.command!r} leaves"
+    return "the case itself" if study.source.files is None else f"files that were there, {study.source.files}"

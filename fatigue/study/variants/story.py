@@ -25,6 +25,7 @@ from fatigue.study.page import study_page
 from fatigue.study.study_file import Study, load_study
 from fatigue.study.variants.dry import DryRun, dry_run
 from fatigue.study.variants.folder import begin, left_over, refuse_foreign, write_study
+from fatigue.study.variants.graphed import graphed
 from fatigue.study.variants.paged import studied
 from fatigue.study.variants.ratios import ratio_rows
 from fatigue.study.variants.runs.case_of_run import body_files
@@ -84,6 +85,8 @@ def run_study(
         refuse_foreign(folder, force=force, inputs=inputs)
         begin(folder)
         of_runs = gathered(study, runs, outcomes(study, files, runs, asked, threads, progress))
+        of_graph = tuple(graphed(claims, files, plan, study.seeds))
+        of_runs = replace(of_runs, numbers=(*of_runs.numbers, *of_graph))
         return _written(study, plan, claims, of_runs, folder, csv=csv)
 
 

@@ -179,14 +179,16 @@ def test_only_some_variants(copied):
     (reason,) = {n.reason for n in found.numbers if n.variant == "fe=36"}
     assert "not run" in reason
     assert found.exit_code == 0
-    with pytest.raises(CaseError, match="the study has no variant 'fe=28'. Write 'fe=27'"):
+    with pytest.raises(CaseError, match=r"the study has no variant 'fe=28'. Write 'fe=27'"):
         run_study(copied / "study.toml", copied / "out", only="fe=28")
 
 
 def test_a_run_that_fails_is_told_and_the_others_go_on(copied):
     """With its settings, the last lines of its stderr, and an exit code; its numbers are empty with the reason."""
     script = copied / "simulate.py"
-    script.write_text(script.read_text().replace("draw =", 'if size < 6 and seed == 2: sys.exit("no wheel left")\ndraw ='))
+    script.write_text(
+        script.read_text().replace("draw =", 'if size < 6 and seed == 2: sys.exit("no wheel left")\ndraw =')
+    )
     found = run_study(copied / "study.toml", copied / "out")
     (failure,) = found.failures
     assert failure.where == "variant 'fe=18', seed 2"
