@@ -22,6 +22,11 @@ def study() -> None:
 
     The vehicle is a small linear trailer with worn wheels, described by a vehicle.toml. It is invented; no number of it
     is a property of a real train.
+
+    \b
+    Examples:
+      fatigue study graph vehicle.toml -o graph
+      fatigue study run study.toml -o study
     """
 
 
