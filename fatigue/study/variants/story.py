@@ -5,7 +5,7 @@ the change concerns.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from numbers import Integral
@@ -20,13 +20,14 @@ from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.study import STUDY
 from fatigue.results.lock import locked
 from fatigue.stages import stage
-from fatigue.study.claims import Claim, Verdict, claim_rows, claim_seed_rows, read_claims, refuse_unplaced, verdicts
-from fatigue.study.page import Studied, Varied, study_page
+from fatigue.study.claims import Claim, claim_rows, claim_seed_rows, read_claims, refuse_unplaced, verdicts
+from fatigue.study.page import study_page
 from fatigue.study.study_file import Study, load_study
 from fatigue.study.variants.dry import DryRun, dry_run
 from fatigue.study.variants.folder import begin, left_over, refuse_foreign, write_study
 from fatigue.study.variants.graphed import graphed
-from fatigue.study.variants.ratios import RatioRow, ratio_rows
+from fatigue.study.variants.paged import studied
+from fatigue.study.variants.ratios import ratio_rows
 from fatigue.study.variants.runs.case_of_run import body_files
 from fatigue.study.variants.runs.gathered import Gathered, gathered
 from fatigue.study.variants.runs.outcomes import outcomes
@@ -36,7 +37,7 @@ from fatigue.study.variants.summary import StudyFound
 from fatigue.study.variants.tables import Tables, run_rows, variant_rows
 from fatigue.study.variants.varied.base_files import BaseFiles
 from fatigue.study.variants.varied.checked import key_problems, placeholder_problems
-from fatigue.study.variants.varied.expansion import Aspect, Plan, expanded
+from fatigue.study.variants.varied.expansion import Plan, expanded
 
 Progress = Callable[[str, int, int], None]
 
@@ -83,11 +84,10 @@ def run_study(
     with locked(folder, no_lock=no_lock), threadpool_limits(limits=1, user_api="blas"):
         refuse_foreign(folder, force=force, inputs=inputs)
         begin(folder)
-        found = gathered(study, runs, outcomes(study, files, runs, asked, threads, progress))
+        of_runs = gathered(study, runs, outcomes(study, files, runs, asked, threads, progress))
         of_graph = tuple(graphed(claims, files, plan, study.seeds))
-        stage("writing tables and page")
-        found = replace(found, numbers=(*found.numbers, *of_graph))
-        return _written(study, plan, claims, found, folder, csv=csv)
+        of_runs = replace(of_runs, numbers=(*of_runs.numbers, *of_graph))
+        return _written(study, plan, claims, of_runs, folder, csv=csv)
 
 
 def listed_study(study: Study | Path | str, folder: Path | str, only: str | Sequence[str] = ()) -> DryRun:
@@ -123,88 +123,54 @@ def planned_study(study: Study) -> tuple[BaseFiles, Plan, tuple[Claim, ...]]:
 
 
 def _written(
-    study: Study, plan: Plan, claims: Sequence[Claim], found: Gathered, folder: Path, *, csv: bool
+    study: Study, plan: Plan, claims: Sequence[Claim], of_runs: Gathered, folder: Path, *, csv: bool
 ) -> StudyFound:
+    """Write tables, page and record of what the runs came to."""
     variants = tuple(planned.variant for planned in plan.variants)
-    scatter, ratios = scatter_rows(found.numbers), ratio_rows(variants, found.numbers)
-    said = verdicts(claims, variants, found.numbers, study.seeds)
+    found = StudyFound(
+        title=study.title,
+        variants=variants,
+        runs=of_runs.runs,
+        numbers=of_runs.numbers,
+        scatter=tuple(scatter_rows(of_runs.numbers)),
+        ratios=tuple(ratio_rows(variants, of_runs.numbers)),
+        verdicts=verdicts(claims, variants, of_runs.numbers, study.seeds),
+        warnings=of_runs.warnings,
+        failures=of_runs.failures,
+        exit_code=of_runs.exit_code,
+        reused=of_runs.reused,
+        left_over=tuple(left_over(folder, [run.folder for run in of_runs.runs])),
+    )
+    stage("writing tables and page")
+    record = {
+        "title": study.title,
+        "seeds": list(study.seeds),
+        "inputs": {path.name: sha256(path) for path in _inputs(study)},
+        "variants": [{"name": p.variant.name, "folder": p.folder, "changes": dict(p.changes)} for p in plan.variants],
+        "warnings": [asdict(problem) for problem in found.warnings],
+        "failures": [asdict(problem) for problem in found.failures],
+    }
+    page = study_page(studied(study, plan, found))
+    written = write_study(folder, _tables(plan, found, folder), page, record, csv=csv)
+    return replace(found, written=tuple(str(folder / name) for name in written))
+
+
+def _tables(plan: Plan, found: StudyFound, folder: Path) -> Tables:
+    """Rows of every table; those of claims where there are any."""
     tables: Tables = {
         "variants": (STUDY["variants"], list(variant_rows(plan))),
         "runs": (STUDY["runs"], run_rows(found.runs, folder)),
         "numbers": (STUDY["numbers"], found.numbers),
-        "scatter": (STUDY["scatter"], scatter),
-        "ratios": (STUDY["ratios"], ratios),
+        "scatter": (STUDY["scatter"], found.scatter),
+        "ratios": (STUDY["ratios"], found.ratios),
     }
-    if claims:
-        tables = {
-            **tables,
-            "claims": (CLAIMED["claims"], claim_rows(said)),
-            "claim_seeds": (CLAIMED["claim_seeds"], claim_seed_rows(said)),
-        }
-    record = {
-        "title": study.title,
-        "study": {"file": study.path.name, "sha256": sha256(study.path)},
-        "seeds": list(study.seeds),
-        "inputs": {path.name: sha256(path) for path in _inputs(study)},
-        "variants": [{"name": p.variant.name, "folder": p.folder, "changes": dict(p.changes)} for p in plan.variants],
-        "warnings": [_as_dict(problem) for problem in found.warnings],
-        "failures": [_as_dict(problem) for problem in found.failures],
+    if not found.verdicts:
+        return tables
+    claimed: Tables = {
+        "claims": (CLAIMED["claims"], claim_rows(found.verdicts)),
+        "claim_seeds": (CLAIMED["claim_seeds"], claim_seed_rows(found.verdicts)),
     }
-    page = study_page(_studied(study, plan, found, said, ratios))
-    written = write_study(folder, tables, page, record, csv=csv)
-    return StudyFound(
-        title=study.title,
-        variants=variants,
-        runs=found.runs,
-        numbers=found.numbers,
-        scatter=tuple(scatter),
-        ratios=tuple(ratios),
-        verdicts=said,
-        warnings=found.warnings,
-        failures=found.failures,
-        exit_code=found.exit_code,
-        reused=found.reused,
-        left_over=tuple(left_over(folder, [run.folder for run in found.runs])),
-        written=tuple(str(folder / name) for name in written),
-    )
-
-
-def _studied(study: Study, plan: Plan, found: Gathered, said: Sequence[Verdict], ratios: Sequence[RatioRow]) -> Studied:
-    """What the page tells."""
-    return Studied(
-        title=study.title,
-        vehicle=study.base.vehicle,
-        case=study.base.case,
-        source=_source_in_words(study),
-        combine=study.combine,
-        varied=[_varied(aspect) for aspect in plan.aspects],
-        seeds=study.seeds,
-        variants=[planned.variant for planned in plan.variants],
-        runs=found.runs,
-        numbers=found.numbers,
-        ratios=ratios,
-        verdicts=said,
-        warnings=found.warnings,
-    )
-
-
-def _varied(aspect: Aspect) -> Varied:
-    """One thing that is varied, its base first."""
-    values = (aspect.base.setting, *(level.setting for level in aspect.levels))
-    return Varied(aspect.name, tuple(sorted(aspect.keys)), tuple(dict.fromkeys(values)))
-
-
-def _source_in_words(study: Study) -> str:
-    """Where histories come from, as the end of a sentence."""
-    if study.source.command is not None:
-        return f"what the command {study.source.command!r} leaves"
-    if study.source.files is not None:
-        return f"files that were there, {study.source.files}"
-    return "rides of the vehicle of this program"
-
-
-def _as_dict(problem: Problem) -> dict[str, object]:
-    return {"code": problem.code, "where": problem.where, "what": problem.what, "count": problem.count}
+    return {**tables, **claimed}
 
 
 def _base_problems(files: BaseFiles) -> Iterator[Problem]:

@@ -21,6 +21,7 @@ from fatigue.study.variants.runs.hashes import Hashes
 from fatigue.study.variants.runs.planned_runs import PlannedRun
 from fatigue.study.variants.runs.run import Done, completed, known
 from fatigue.study.variants.runs.simulation import Simulation, before, simulated, simulation_of
+from fatigue.study.variants.source.builtin import Bodies
 from fatigue.study.variants.source.made import Made
 from fatigue.study.variants.varied.base_files import BaseFiles
 
@@ -62,7 +63,7 @@ def outcomes(
     ``threads`` are by default one per processor core; as many runs are under way at a time, and where there are fewer
     runs each has several.
     """
-    hashes, stop = Hashes(), Event()
+    hashes, bodies, stop = Hashes(), Bodies(), Event()
     threads = threads or cpu_count() or 1
     first: dict[str, Simulation] = {}
     needed = [_simulations(study, files, run, hashes, first) for run in runs]
@@ -74,7 +75,7 @@ def outcomes(
             stage("making histories (%d runs of the source)", len(every))
         simulations = list(every.values())
         of_source = _side_by_side(
-            lambda one: simulated(study, files, one, stop), simulations, threads, progress, "histories", stop
+            lambda one: simulated(study, files, bodies, one, stop), simulations, threads, progress, "histories", stop
         )
         made = dict(zip(every, of_source, strict=True))
 
@@ -165,15 +166,20 @@ def _side_by_side(
 
 @contextmanager
 def quiet_threads() -> Iterator[None]:
-    """Keep what single runs say from the log on stderr and from its stages; their own logs have it."""
-    here = threading.get_ident()
+    """Keep what single runs say from the log on stderr and from its stages; their own logs have it.
+
+    The level of the log is theirs meanwhile: each would put it back as it found it, while others still write.
+    """
+    here, program = threading.get_ident(), logging.getLogger("fatigue")
 
     def is_of_the_study(record: logging.LogRecord) -> bool:
         return record.thread == here
 
     with ExitStack() as stack:
-        for name in ("fatigue", STAGES):
-            for handler in logging.getLogger(name).handlers:
+        stack.callback(program.setLevel, program.level)
+        program.setLevel(logging.INFO)
+        for log in (program, logging.getLogger(STAGES)):
+            for handler in log.handlers:
                 handler.addFilter(is_of_the_study)
                 stack.callback(handler.removeFilter, is_of_the_study)
         yield

@@ -62,7 +62,7 @@ def known(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, *, diagnose
     """
     numbers, histories = tuple(source_numbers(run, made)), _histories(made)
     if run.case is None:
-        return Done(numbers, (), histories, reused=True)
+        return Done(numbers, (), histories, reused=all(one.reused for one in made.values()))
     before = finished(run, _key(run, made, hashes, diagnosed=diagnosed))
     return None if before is None else replace(before, numbers=(*numbers, *before.numbers), histories=histories)
 

@@ -10,6 +10,7 @@ from fatigue.case import Case
 from fatigue.errors import FatigueError, Problem
 from fatigue.study.study_file import TAKEN, Study, short_name
 from fatigue.study.variants.runs.case_of_run import files_of_event
+from fatigue.study.variants.source.builtin import body_problems
 from fatigue.study.variants.varied.base_files import CASE, OWN, VEHICLE, BaseFiles
 from fatigue.study.variants.varied.expansion import Aspect, Plan, Planned
 from fatigue.study.variants.varied.names import shown
@@ -86,6 +87,8 @@ def _together(study: Study, files: BaseFiles, plan: Plan) -> Iterator[Problem]:
         for run in study.source.run:
             yield from _tried(files, f"{where}, event '{run.event}'", {**planned.changes, **run.set})
         yield from _events(study, files, planned, where)
+        if study.is_builtin:
+            yield from _bodies(files, planned, where)
 
 
 def _events(study: Study, files: BaseFiles, planned: Planned, where: str) -> Iterator[Problem]:
@@ -115,6 +118,13 @@ def _events(study: Study, files: BaseFiles, planned: Planned, where: str) -> Ite
         what += "a ride is"
         remedy = "Give [[source.run]] with the event and what it sets, or events under [source]"
         yield Problem("ambiguous_event", f"{where}: source", what, remedy)
+
+
+def _bodies(files: BaseFiles, planned: Planned, where: str) -> Iterator[Problem]:
+    """Refusals of a case that is not of the body that rides."""
+    vehicle, changed = files.changed_vehicle(planned.changes), files.changed_case(planned.changes)
+    if vehicle is not None and changed is not None:
+        yield from body_problems(vehicle, changed.case, where)
 
 
 def _out_of_reach(case: Case, names: Collection[str], where: str) -> Iterator[Problem]:
