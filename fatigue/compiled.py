@@ -17,7 +17,7 @@ from numba import njit
 P = ParamSpec("P")
 R = TypeVar("R")
 
-ROOMS = ("weld", "life", "spectrum")  # with compiled loops
+ROOMS = ("weld", "life", "spectrum", "vehicle")  # with compiled loops
 
 
 def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:

@@ -103,7 +103,7 @@ def free_body(structure: Structure) -> FreeBody:
     DataError : K or M not symmetric, K that resists rigid motions, M without mass, parts that nothing joins or a hinge
     """
     refuse_unsymmetric("M", structure.M, structure)
-    rigid = _unit_rigid_motions(structure)
+    rigid = unit_rigid_motions(structure)
     refuse_unsymmetric("K", structure.K, structure)
     _refuse_grounded(structure, rigid)
     _refuse_parts(structure)
@@ -197,7 +197,7 @@ def _pivots(rigid: Floats, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     return rows[order[:6]] if pivot[5] > ON_A_LINE * pivot[0] else np.zeros(0, dtype=np.int64)
 
 
-def _unit_rigid_motions(structure: Structure) -> Floats:
+def unit_rigid_motions(structure: Structure) -> Floats:
     """Rigid motions R (n, 6) with R' M R = 1.
 
     Raises

@@ -13,7 +13,7 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from fatigue.errors import DataError, Problem
-from fatigue.flexbody.factor import NOT_POSITIVE, FreeBody, factored
+from fatigue.flexbody.factor import NOT_POSITIVE, Factor, FreeBody, factored
 from fatigue.flexbody.lanczos import most_flexible
 from fatigue.flexbody.structure import Basis, Structure
 
@@ -39,15 +39,22 @@ def free_modes(body: FreeBody, *, count: int | None = None, upto_hz: float | Non
 
 
 def held_modes(
-    structure: Structure, held: NDArray[np.bool_], *, count: int | None = None, upto_hz: float | None = None
+    structure: Structure,
+    held: NDArray[np.bool_],
+    *,
+    count: int | None = None,
+    upto_hz: float | None = None,
+    factor: Factor | None = None,
 ) -> Basis:
     """Modes with the rows ``held`` (n,) at rest (fixed-interface modes), else as ``free_modes``; shapes are 0 there.
+
+    ``factor`` is that of the stiffness with these rows held, where the caller has it.
 
     Raises
     ------
     DataError : the rows do not hold the body; and as ``free_modes``
     """
-    factor = factored(structure, held)
+    factor = factored(structure, held) if factor is None else factor
     keep = sparse.diags_array((~held).astype(np.float64))
     M = sparse.csc_array(keep @ structure.M @ keep)
     return _lowest(factor.solve, M, np.zeros((len(held), 0)), count, upto_hz)
