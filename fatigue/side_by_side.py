@@ -6,6 +6,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from threading import Thread
 from typing import TypeVar
 
+RUN_THREADS = "fatigue-run"  # threads that have a whole assessment each; their logs do not mix
+
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 

@@ -14,6 +14,7 @@ from fatigue.case import case_schema
 from fatigue.cli import cli
 from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
+from fatigue.results.dictionary.claims import CLAIMED
 from tests.problem_codes import codes
 
 ROOT = Path(__file__).parents[1]
@@ -140,7 +141,7 @@ def key_text() -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS).items():
+    for table, its in (TABLES | BASIS | CLAIMED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])

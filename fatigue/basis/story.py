@@ -11,7 +11,7 @@ from pathlib import Path
 
 from fatigue.basis.counted import opened
 from fatigue.basis.finding import Finding
-from fatigue.basis.folder import refuse_foreign, write_basis
+from fatigue.basis.folder import FILLED, write_basis
 from fatigue.basis.loaded.flexibility import flexibility
 from fatigue.basis.loaded.interface import interface
 from fatigue.basis.loaded.shapes import loaded_points
@@ -22,6 +22,7 @@ from fatigue.basis.two_bases.compare import two_bases
 from fatigue.case import Case, given_case
 from fatigue.case.tables import BASIS_FILES
 from fatigue.errors import CaseError, Problem, given_path, refuse
+from fatigue.files.recorded import refuse_foreign
 from fatigue.pipeline.solve.body import Body, read_body
 from fatigue.stages import stage
 
@@ -74,7 +75,7 @@ def basis(
     folder = None if into is None else given_path(into, "into")
     inputs = list(_inputs(case, compared))
     if folder is not None:
-        refuse_foreign(folder, force=force, inputs=inputs)
+        refuse_foreign(folder, FILLED, force=force, inputs=inputs)
     stage("reading the body")
     body = read_body(case, strict=strict)
     against = None if compared is None else read_body(compared, strict=strict)

@@ -63,7 +63,17 @@ def load_case(path: Path | str) -> Case:
         with every mistake of the file, not only the first
     """
     path = given_path(path, "case")
-    text = _text(path)
+    return parsed_case(path, _text(path))
+
+
+def parsed_case(path: Path, text: str) -> Case:
+    """Case of the text of a case file, which need not be there; the files it names are relative to it.
+
+    Raises
+    ------
+    CaseError
+        as ``load_case``
+    """
     problems: list[Problem] = []
     try:
         raw = tomllib.loads(text)

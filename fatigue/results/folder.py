@@ -2,7 +2,8 @@
 
 import logging
 import sys
-from collections.abc import Collection, Iterable, Iterator
+import threading
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from fatigue.results.columns import TABLES
 from fatigue.results.origin import case_of, is_same_case, way_to_case
 from fatigue.results.provenance import CHECKSUMS, PROVENANCE, parsed_provenance
 from fatigue.shown import VisibleFormatter
+from fatigue.side_by_side import RUN_THREADS
 
 LOG = "fatigue.log"
 OUTPUTS = (*(f"{table}.parquet" for table in TABLES), PICTURE, PAGE, LIST, LOG, PROVENANCE, CHECKSUMS)
@@ -139,6 +141,7 @@ def result_log(folder: Path) -> Iterator[None]:
         handler = _ResultLog(path, mode="a", encoding="utf-8", errors="backslashreplace")
     handler.setFormatter(VisibleFormatter("%(asctime)s %(levelname)s %(message)s"))
     handler.setLevel(logging.INFO)
+    handler.addFilter(_said_by(threading.current_thread().name))
     program = logging.getLogger("fatigue")
     level = program.level
     program.setLevel(logging.INFO)
@@ -149,6 +152,11 @@ def result_log(folder: Path) -> Iterator[None]:
         program.setLevel(level)
         program.removeHandler(handler)
         handler.close()
+
+
+def _said_by(thread: str) -> Callable[[logging.LogRecord], bool]:
+    """What belongs into the log of an assessment on a thread: all but what others say that run beside it."""
+    return lambda record: not str(record.threadName).startswith(RUN_THREADS) or record.threadName == thread
 
 
 def stale_files(folder: Path, inputs: Collection[Path] = ()) -> list[str]:

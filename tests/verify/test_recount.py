@@ -56,7 +56,7 @@ CASES = {
         scale=(1.0, 2.0, -0.5, 1.0),
         extra_mode=True,
         files="csv",
-        samples=401,
+        samples=241,
     ),
     "element forces, kinks, cut-off extension": TinyCase(
         curve='name = "master-aluminium"\nextension = "cutoff"\nsurvival = "mean"',

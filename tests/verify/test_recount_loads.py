@@ -79,7 +79,7 @@ def pressure(step: float, samples: int) -> pd.DataFrame:
 
 def written(folder: Path, load: pd.DataFrame, mission: str, counting: dict, curve: dict) -> Path:
     """Write the small case with two unit loads, and levels of its events that differ."""
-    made = case()
+    made = case(seconds=2.4)
     made.counting, made.curve = {"upsample": 1, **counting}, {**made.curve, **curve}
     for name, level in (("sine", 40.0), ("noise", 90.0)):
         made.histories[name]["q_1"] += level
@@ -137,29 +137,23 @@ def test_pipeline_and_recount_agree(tmp_path, name):
     assert found.passed, found.as_text()
     of_few = recount(result, sample=1, most_samples=1)
     assert of_few.passed, of_few.as_text()
-    assert max(c.difference for c in found.columns if c.column != "load_factor") < 1e-9
+    wider = ("load_factor", "power_sum_per_pass", "multiaxial_bound")  # the last is raised by 1e-9 of the range
+    assert max(c.difference for c in found.columns if c.column not in wider) < 1e-9
 
 
 # ------------------------------------------------------------------------------------------------ spoiled results
 
-SEQUENCE = {
-    ("nodes", "damage_per_km_transitions", None),
-    ("damage", "damage_per_pass", "(sequence 1)"),
-    ("damage", "cycles_per_pass", "(sequence 2)"),
-    ("damage", "max_range_MPa", "(sequence 1)"),
-    ("damage", "max_equivalent_range_dS", "(sequence 2)"),
-    ("cycles", "start_s", "(sequence 1)"),
-    ("cycles", "range_MPa", "(sequence 2)"),
-    ("cycles", "count", "(sequence 1)"),
-    ("cycles", "damage", "(sequence 1)"),
-    ("cycles", "start_event", "(sequence 1)"),
-    ("cycles", "end_event", "noise"),
-    ("damage", "mean_stress_MPa", "payload"),
-    ("cycles", "mean_MPa", "payload"),  # which exceeds the range there: a mean is compared relative to both
-    ("structural_stress", "membrane_MPa", "gravity"),
-    ("structural_stress", "unit_load", "gravity"),
-    ("histogram", "power_sum_per_pass", "passing"),
-}
+SPOILED = [  # a value of each table at a time, so that few recounts tell of all
+    {("nodes", "damage_per_km_transitions"): None, ("damage", "damage_per_pass"): "(sequence 1)"}
+    | {("cycles", "start_s"): "(sequence 1)", ("histogram", "power_sum_per_pass"): "passing"}
+    | {("structural_stress", "membrane_MPa"): "gravity"},
+    {("damage", "cycles_per_pass"): "(sequence 2)", ("cycles", "range_MPa"): "(sequence 2)"},
+    {("damage", "max_range_MPa"): "(sequence 1)", ("cycles", "count"): "(sequence 1)"},
+    {("damage", "max_equivalent_range_dS"): "(sequence 2)", ("cycles", "damage"): "(sequence 1)"},
+    {("damage", "mean_stress_MPa"): "payload", ("cycles", "mean_MPa"): "payload"},  # a mean that exceeds the range
+    {("cycles", "start_event"): "(sequence 1)"},
+    {("cycles", "end_event"): "noise"},
+]
 
 
 @pytest.fixture(scope="module")
@@ -169,33 +163,45 @@ def sound(tmp_path_factory) -> Path:
     return assessed(tmp_path_factory.mktemp("loads"), load, mission, counting, {"yield_MPa": 20.0})
 
 
-@pytest.mark.parametrize(("table", "column", "of"), sorted(SEQUENCE, key=str))
-def test_a_wrong_value_is_found(tmp_path, sound, table, column, of):
-    """One value, by a hundred-thousandth of itself; one text."""
-    shutil.copytree(sound.parent, tmp_path / "copy")
-    folder = without_hashes(tmp_path / "copy" / "result")
+@pytest.mark.parametrize("values", SPOILED, ids=lambda values: ",".join(".".join(column) for column in values))
+def test_wrong_values_are_found(tmp_path, sound, values):
+    """Values of an event or a load, by a hundred-thousandth of themselves; texts."""
+    folder = copied(sound, tmp_path)
+    for (table, column), of in values.items():
+        edit(folder, table, lambda frame, table=table, column=column, of=of: spoiled(frame, table, column, of))
+    assert differing(recount(folder, sample=None)) >= {f"{table}.{column}" for table, column in values}
 
-    def spoiled(frame: pd.DataFrame) -> pd.DataFrame:
-        name = "unit_load" if table == "structural_stress" else "event"
-        rows = frame if of is None else frame[frame[name] == of]
-        values = rows[column]
-        if values.dtype.kind == "f":
-            row = values.abs().idxmax()
-            frame.loc[row, column] = values[row] * 1.00001
-        else:
-            frame.loc[values.index[0], column] = "nothing"
-        return frame
 
-    edit(folder, table, spoiled)
-    assert f"{table}.{column}" in differing(recount(folder, sample=None)) or column == "unit_load"
+def test_a_load_that_is_not_there_is_found(tmp_path, sound):
+    """The name of a unit load, which is part of the key of a row."""
+    folder = copied(sound, tmp_path)
+    edit(folder, "structural_stress", lambda frame: spoiled(frame, "structural_stress", "unit_load", "gravity"))
     assert not recount(folder, sample=None).passed
+
+
+def copied(sound: Path, into: Path) -> Path:
+    """Copy of the result and its inputs, to be spoiled."""
+    shutil.copytree(sound.parent, into / "copy")
+    return without_hashes(into / "copy" / "result")
+
+
+def spoiled(frame: pd.DataFrame, table: str, column: str, of: str | None) -> pd.DataFrame:
+    """Largest value of a column in rows of one event or load, changed; a text becomes another."""
+    name = "unit_load" if table == "structural_stress" else "event"
+    rows = frame if of is None else frame[frame[name] == of]
+    values = rows[column]
+    if values.dtype.kind == "f":
+        row = values.abs().idxmax()
+        frame.loc[row, column] = values[row] * 1.00001
+    else:
+        frame.loc[values.index[0], column] = "nothing"
+    return frame
 
 
 @pytest.mark.parametrize("table", ["cycles", "damage", "histogram"])
 def test_a_missing_row_of_a_loop_is_found(tmp_path, sound, table):
     """The last row of a loop, or of an event, taken out."""
-    shutil.copytree(sound.parent, tmp_path / "copy")
-    folder = without_hashes(tmp_path / "copy" / "result")
+    folder = copied(sound, tmp_path)
     edit(folder, table, lambda frame: frame[:-1])
     assert not recount(folder, sample=None).passed
 

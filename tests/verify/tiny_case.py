@@ -27,7 +27,7 @@ class TinyCase:
     extra_mode: bool = False
     files: str = "parquet"
     welds: tuple[str, ...] = ("seam", "curved", "ring", "angle", "square", "short")
-    samples: int = 400
+    samples: int = 240
     dead: str = ""  # a weld without forces
     still: str = ""  # an event in which nothing moves
     target_km: float = 1e6

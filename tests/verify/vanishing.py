@@ -10,11 +10,11 @@ from tests.small_case import SmallCase, small_case
 FORCES = ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]
 
 
-def case(*changes: Callable[[SmallCase], None]) -> SmallCase:
-    """The small case with two of its events, short, and changed."""
-    made = small_case(seconds=2.4)
-    made.nodal_forces = made.nodal_forces[made.nodal_forces["node"] % 100 < 3]
-    made.weld_nodes = made.weld_nodes[made.weld_nodes["order"] <= 3]
+def case(*changes: Callable[[SmallCase], None], seconds: float = 1.6, stations: int = 2) -> SmallCase:
+    """The small case with two of its events, short, at few stations of each weld, and changed."""
+    made = small_case(seconds=seconds)
+    made.nodal_forces = made.nodal_forces[made.nodal_forces["node"] % 100 < stations]
+    made.weld_nodes = made.weld_nodes[made.weld_nodes["order"] <= stations]
     for change in changes:
         change(made)
     return made
@@ -155,3 +155,5 @@ CASES: dict[str, SmallCase] = {
     "two samples, upsampled": case(_two_samples, _UP),
     "two samples, auto": case(_two_samples, _AUTO),
 }
+# an ordinary stress about a static part as of the dead load, of which every column has something to tell
+ABOUT_DEAD_LOAD = case(_of_record(_static(1e3)), _MLP, seconds=2.4, stations=3)

@@ -15,7 +15,7 @@ from fatigue.verify.recount.anew.across_events.loop import loop_pass
 from fatigue.verify.recount.anew.curve import curve_named
 from fatigue.verify.recount.anew.mission import RecountEvent, bounds_of_point, point_values
 from fatigue.verify.recount.anew.point import OnePass, RecountPoint, Values, one_pass, point_of
-from fatigue.verify.recount.anew.record import read_record, spectrum_rules
+from fatigue.verify.recount.anew.record import FEWEST_SAMPLES, read_record, spectrum_rules
 from fatigue.verify.recount.anew.shear.columns import AtPoint, ShearExtent, shear_bounds, shear_extent, shear_values
 from fatigue.verify.recount.anew.shear.passes import ShearPass, ShearRules, shear_pass
 from fatigue.verify.recount.anew.varied import RAW_END, SAMPLING, SHEAR, expected_variants, limited, varied_case
@@ -114,11 +114,23 @@ def check_sensitivity(
     if not keys.passed:
         return [keys]
     job = Job(inputs, coordinates, record, rules, strength_factors(inputs))
-    welds = _chosen(rows, stored, job, station_of, sample=sample, seed=seed, most=most, samples=samples)
+    known = [row for row in rows if row["variant"] != "upsample_auto" or _peaks_are_known(job, stored)]
+    welds = _chosen(known, stored, job, station_of, sample=sample, seed=seed, most=most, samples=samples)
     points = [point for weld in welds for point in weld.points.values()]
     events = _count(points, job, stored, sampling)
     own = [_row(weld, {at: _utilisation(point, job, events) for at, point in weld.points.items()}) for weld in welds]
     return [keys, *merged(compare("sensitivity", [*consistent(rows, stored.welds), *own], {}))]
+
+
+def _peaks_are_known(job: Job, stored: Stored) -> bool:
+    """Whether the result has peaks per second of every event that is a signal.
+
+    One that is shorter than a segment has none in its tables: the program upsamples it by shorter segments.
+    """
+    events = job.record["mission"]["events"]
+    by_auto = replace(job.inputs, case=varied_case(job.inputs.case, "upsample_auto"))
+    fastest = fastest_peaks(stored.folder, by_auto, [event["name"] for event in job.inputs.case["mission"]["event"]])
+    return all(peaks > 0.0 or event["samples"] < FEWEST_SAMPLES for peaks, event in zip(fastest, events, strict=True))
 
 
 def _chosen(

@@ -3,24 +3,22 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.io import mmread
 
 from fatigue.errors import DataError, Problem
-from fatigue.files.naming import missing_file
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.body.participation import refuse_unknown_modes
+from fatigue.readers.neutral.body.symmetric_matrix import read_symmetric_matrix
 from fatigue.readers.neutral.tables import Table, open_table
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
+COMPONENTS = ("1", "2", "3", "4", "5", "6")
 XYZ = ("x_mm", "y_mm", "z_mm")
 SHAPE = ("ux_mm", "uy_mm", "uz_mm", "rx_rad", "ry_rad", "rz_rad")
-UNEQUAL = 1e-6  # of the largest value, between M and its transpose: files are written with six digits or more
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,56 +46,7 @@ def read_mass_matrix(path: Path) -> sparse.csc_array:
     ------
     DataError : missing, of another format, damaged, not square, not symmetric, without mass, or with masses below 0
     """
-    if not path.is_file():
-        raise DataError(missing_file(path))
-    readers = {".mtx": mmread, ".npz": sparse.load_npz}
-    reader = readers.get(path.suffix.lower())
-    if reader is None:
-        what = f"unknown kind of file {path.suffix!r}"
-        remedy = "Give a .mtx file of Matrix Market or a .npz file that scipy.sparse.save_npz wrote"
-        raise DataError(Problem("unknown_format", str(path), what, remedy))
-    try:
-        with path.open("rb") as file:
-            read = reader(file)
-        matrix = sparse.csc_array(read, dtype=np.float64) if np.isrealobj(getattr(read, "data", read)) else None
-    except (ValueError, OSError, LookupError, TypeError, OverflowError, EOFError, BadZipFile) as error:
-        detail = str(error).splitlines()[0] if str(error) else type(error).__name__
-        what = f"cannot be read as a matrix ({detail})"
-        raise DataError(Problem("damaged_file", str(path), what, "Write the file again")) from None
-    if matrix is None:
-        raise DataError(Problem("bad_value", path.name, "its values are complex", "Give a real mass matrix"))
-    _refuse_no_mass_matrix(path, matrix)
-    return matrix
-
-
-def _refuse_no_mass_matrix(path: Path, M: sparse.csc_array) -> None:
-    """Refuse a matrix that cannot be one of masses."""
-    rows, columns = M.shape
-    if rows != columns or not rows:
-        what = f"the matrix has {rows} rows and {columns} columns"
-        raise DataError(Problem("bad_shape", path.name, what, "Give a square matrix, as many rows as columns"))
-    bad = ~np.isfinite(M.data)
-    if bad.any():
-        entry = int(bad.argmax())
-        where = f"{path.name}: row {M.indices[entry] + 1}, column {np.searchsorted(M.indptr, entry, side='right')}"
-        raise DataError(Problem("bad_value", where, f"{M.data[entry]} is not finite", "Give a finite number"))
-    largest = float(np.abs(M.data).max(initial=0.0))
-    if largest == 0.0:
-        raise DataError(Problem("bad_value", path.name, "the matrix is 0", "Give the mass matrix [t, t mm, t mm2]"))
-    difference = abs(M - M.T).tocoo()
-    if difference.nnz and difference.data.max() > UNEQUAL * largest:
-        at = int(difference.data.argmax())
-        row, column = sorted((int(difference.coords[0][at]), int(difference.coords[1][at])))
-        one_sided = sparse.triu(M, 1).nnz == 0 or sparse.tril(M, -1).nnz == 0
-        what = f"the matrix is not symmetric: {M[row, column]:g}, and {M[column, row]:g} in row {column + 1}"
-        what += "; only one of its triangles is there" if one_sided else ""
-        remedy = "Write both triangles, or a .mtx file whose head says symmetric" if one_sided else "Export it again"
-        raise DataError(Problem("not_symmetric", f"{path.name}: row {row + 1}, column {column + 1}", what, remedy))
-    diagonal = M.diagonal()
-    if diagonal.min() < 0.0:
-        row = int(diagonal.argmin())
-        what = f"{diagonal[row]:g} on the diagonal is below 0"
-        raise DataError(Problem("bad_value", f"{path.name}: row {row + 1}", what, "Give a mass matrix, masses above 0"))
+    return read_symmetric_matrix(path, "mass matrix", "[t, t mm, t mm2]", "masses")
 
 
 def read_mass_rows(
@@ -105,25 +54,26 @@ def read_mass_rows(
 ) -> tuple[MassRows, list[Problem]]:
     """Read ``row, node, direction`` and, where present, ``x_mm, y_mm, z_mm, held``: one row for each of the matrix.
 
-    ``row`` counts from 1. Places are given here, or by the ``mesh`` of the case. Rows that are ``held`` are the
-    boundary that was fixed where the modes were computed.
+    ``row`` counts from 1. The direction is x, y, z, rx, ry, rz; instead of it, ``component`` has its number, 1 to 6.
+    Places are given here, or by the ``mesh`` of the case. Rows that are ``held`` are the boundary that was fixed where
+    the modes were computed.
 
     Raises
     ------
     DataError : rows missing, twice or beyond the matrix; unknown directions or nodes; nodes without a place
     """
     table = open_table(path, texts=("direction",))
-    table.expect(("row", "node", "direction"), (*XYZ, "held"), strict=strict)
+    numbered = "component" in table.position and "direction" not in table.position
+    of_row = "component" if numbered else "direction"
+    table.expect(("row", "node", of_row), (*XYZ, "held"), strict=strict)
     row, node = table.integers("row"), table.integers("node")
-    direction = table.texts("direction")
-    table.choices("direction", direction, DIRECTIONS)
+    code = _components(table) if numbered else _directions(table)
     held = table.flags("held", default=False)
     beyond = (row < 1) | (row > rows)
     what = f"row {row[int(beyond.argmax())]} is none of the {rows} of {matrix}"
     table.report(beyond, "unknown_id", "row", what, "Count the rows of the matrix from 1")
     table.unique({"row": row})
-    code = np.array([DIRECTIONS.index(d) if d in DIRECTIONS else 0 for d in direction], dtype=np.int64)
-    table.unique({"node": node, "direction": code}, {"direction": DIRECTIONS})
+    table.unique({"node": node, of_row: code}, {of_row: COMPONENTS if numbered else DIRECTIONS})
     xyz = _places(table, node, mesh)
     table.refuse()
     if table.rows < rows:
@@ -134,6 +84,22 @@ def read_mass_rows(
         raise DataError(Problem("missing_id", f"{path.name}: column row", what, remedy))
     order = np.argsort(row)
     return MassRows(node[order], code[order], xyz[order], held[order]), table.warnings
+
+
+def _directions(table: Table) -> NDArray[np.int64]:
+    """Direction of every row (r,), 0 to 5, by name."""
+    direction = table.texts("direction")
+    table.choices("direction", direction, DIRECTIONS)
+    return np.array([DIRECTIONS.index(d) if d in DIRECTIONS else 0 for d in direction], dtype=np.int64)
+
+
+def _components(table: Table) -> NDArray[np.int64]:
+    """Direction of every row (r,), 0 to 5, by its number from 1."""
+    component = table.integers("component")
+    unknown = (component < 1) | (component > len(COMPONENTS))
+    what = f"{component[int(unknown.argmax())]} is no component"
+    table.report(unknown, "bad_value", "component", what, "Give 1 to 3 for x, y, z, 4 to 6 for rotations about them")
+    return np.where(unknown, 0, component - 1)
 
 
 def _places(table: Table, node: NDArray[np.int64], mesh: Mesh | None) -> NDArray[np.float64]:

@@ -57,7 +57,7 @@ def read_weld_elements(
         a needed weld without elements, an unknown weld, an element named twice
     """
     table = open_table(path, texts=("weld",))
-    table.expect(("weld", "element"), (), strict=strict)
+    table.expect(("weld", "element"), ("shares_edge",), strict=strict)  # by an edge, or by a corner of the line
     names, code = table.groups("weld")
     element = table.integers("element")
     table.known("weld", names, code, {weld.name for weld in welds}, "the welds")
