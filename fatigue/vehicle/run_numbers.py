@@ -132,6 +132,10 @@ def _number(record: Floats | str, unit: str, of: Callable[[Floats], Found]) -> R
 
 
 def _channel(of: Ride, name: str) -> Floats | str:
+    """A channel of a ride that lasts long enough for a segment of a spectrum, or why there is none."""
+    duration = len(of.time_s) * of.step_s
+    if duration < SEGMENT_S:
+        return f"{duration:.3g} s of the ride are kept, and its spectra need {SEGMENT_S:g} s"
     return of.channels.get(name, f"the car body has no point for {name}")
 
 
