@@ -14,7 +14,7 @@ from scipy import signal, stats
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.vehicle.run import Ride
 from fatigue.vibration.alarm import PERIODS, cannot_be_filtered, count_alarms
-from fatigue.vibration.standards.sperling import EXPONENT, Direction, comfort_weight
+from fatigue.vibration.standards.sperling import Direction, wz_of_density
 
 Floats = NDArray[np.float64]
 
@@ -93,16 +93,6 @@ def density(values: Floats, step_s: float) -> tuple[Floats, Floats]:
     """Frequencies [Hz] and one-sided density of a record (Welch: segments of 4.096 s, Hann, half overlap)."""
     hz, G = signal.welch(values, 1.0 / step_s, nperseg=min(round(SEGMENT_S / step_s), values.size))
     return hz, G
-
-
-def wz_of_density(hz: Floats, G: Floats, direction: Direction) -> float:
-    """Sperling's index in the filter form of a density (n,) over frequencies, ``(2e4 integral B^2 G df)^(1/6.67)``.
-
-    The integral goes from 0.5 to 40 Hz, by the trapezoidal rule.
-    """
-    band = (hz >= COMFORT_HZ[0]) & (hz <= COMFORT_HZ[1])
-    weighted = comfort_weight(hz[band], direction) ** 2 * G[band]
-    return float((2e4 * np.trapezoid(weighted, hz[band])) ** (1.0 / EXPONENT))
 
 
 class Peak(NamedTuple):
@@ -191,7 +181,7 @@ def _rms_worn(record: Floats, of: Ride) -> Found:
 
 
 def _comfort_of(direction: Direction, step_s: float) -> Callable[[Floats], float]:
-    return lambda record: wz_of_density(*density(record, step_s), direction)
+    return lambda record: wz_of_density(*density(record, step_s), direction, COMFORT_HZ)
 
 
 def _std(record: Floats) -> float:
