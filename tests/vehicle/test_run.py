@@ -182,6 +182,11 @@ def test_a_mode_far_above_the_sampling_rate_follows_its_load(body):
     [
         (Run(step_s=0.0), SHORT, r"\[run\] step_s: 0.0 s is no step"),
         (Run(dropped_s=9.0), SHORT, r"\[run\] dropped_s: 9.0 s of the start are dropped of a ride that lasts 6.17 s"),
+        (
+            Run(step_s=1e-8),
+            SHORT,
+            r"\[run\] step_s: a ride of 6.17 s in steps of 1e-08 s takes more than 1e\+07 of them",
+        ),
         (Run(seed=-3), SHORT, r"\[run\] seed: -3 is no seed"),
         (Run(), Track(distance_m=-5.0), r"\[track\] distance_m: -5.0 m is no such length"),
         (Run(speed_km_h=0.0), SHORT, r"\[run\] speed_km_h: .* Give a speed above 0"),
