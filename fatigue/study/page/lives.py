@@ -26,7 +26,7 @@ def lives_of(of: Studied) -> Lives:
     for one in of.numbers:
         if one.quantity == LIFE and one.weld:
             values.setdefault((one.variant, one.weld), []).append(float(one.value))
-    return {place: scatter(np.minimum(lives, LONGEST), logarithmic=True) for place, lives in values.items()}
+    return {place: scatter([min(life, LONGEST) for life in lives], logarithmic=True) for place, lives in values.items()}
 
 
 def lives_figure(group: Group, lives: Lives) -> go.Figure | None:
@@ -54,7 +54,10 @@ def lives_figure(group: Group, lives: Lives) -> go.Figure | None:
     lives_axis = log_axis("life [km]", low, high)
     if high >= np.log10(LONGEST):
         kept = [(v, t) for v, t in zip(lives_axis["tickvals"], lives_axis["ticktext"], strict=True) if v < LONGEST]
-        lives_axis["tickvals"], lives_axis["ticktext"] = [*(v for v, _ in kept), LONGEST], [*(t for _, t in kept), "> 1e12"]
+        lives_axis["tickvals"], lives_axis["ticktext"] = (
+            [*(v for v, _ in kept), LONGEST],
+            [*(t for _, t in kept), "> 1e12"],
+        )
     return figure(
         data,
         height=110 + max(26, 9 * len(names)) * len(welds),

@@ -48,9 +48,7 @@ def spectra_of(of: Studied, groups: Sequence[Group]) -> Spectra:
     """Spectra of all runs of the variants of some groups, by variant and seed; none of a run that is not there."""
     wanted = {one.name for group in groups for one in group.variants}
     return {
-        (run.variant, run.seed): list(_of_run(run))
-        for run in of.runs
-        if run.variant in wanted and run.state == "done"
+        (run.variant, run.seed): list(_of_run(run)) for run in of.runs if run.variant in wanted and run.state == "done"
     }
 
 
