@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import cholesky, qr, solve_triangular
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
 from fatigue.errors import DataError, Problem
@@ -23,6 +24,7 @@ NAMES = ("x", "y", "z", "rx", "ry", "rz")
 UNEQUAL = 1e-6  # of the roots of the diagonal, between K and K': files are written with six digits or more
 GROUNDED = 1e-5  # of the terms that cancel in K R: ten times what six digits leave
 MOVES_FREELY = 1e-14  # stiffness of a motion over that of its rows one by one: rounding, some 100 units of it
+NOT_POSITIVE = "Export K without geometric stiffness, and M of the same run"
 ON_A_LINE = 1e-6  # sixth pivot of the rigid motions of the rows that may be held, over the first
 
 
@@ -46,7 +48,7 @@ def factored(structure: Structure, held: Mask) -> Factor:
 
     Raises
     ------
-    DataError : a row without stiffness, a part that moves freely, K not symmetric
+    DataError : a row without stiffness, a part that moves freely, K not symmetric or not positive
     """
     refuse_unsymmetric("K", structure.K, structure)
     free = np.flatnonzero(~held)
@@ -62,8 +64,12 @@ def factored(structure: Structure, held: Mask) -> Factor:
         raise DataError(_mechanism(structure, free[_softest(K, diagonal)])) from None
     motion = _inverse_iteration(lu, diagonal)
     energy = float(motion @ (K @ motion)) / float(diagonal @ motion**2)
+    row = int(free[np.argmax(diagonal * motion**2)])
+    if energy < -MOVES_FREELY:
+        what = "the stiffness of a motion that is largest here is negative"
+        raise DataError(Problem("not_positive", f"K: {row_name(structure, row)}", what, NOT_POSITIVE))
     if not energy > MOVES_FREELY:
-        raise DataError(_mechanism(structure, free[int(np.argmax(diagonal * motion**2))]))
+        raise DataError(_mechanism(structure, row))
     return Factor(lu, held)
 
 
@@ -94,12 +100,13 @@ def free_body(structure: Structure) -> FreeBody:
 
     Raises
     ------
-    DataError : K or M not symmetric, K that resists rigid motions, M without mass, a part that moves freely
+    DataError : K or M not symmetric, K that resists rigid motions, M without mass, parts that nothing joins or a hinge
     """
     refuse_unsymmetric("M", structure.M, structure)
     rigid = unit_rigid_motions(structure)
     refuse_unsymmetric("K", structure.K, structure)
     _refuse_grounded(structure, rigid)
+    _refuse_parts(structure)
     held = np.zeros(len(structure.node), dtype=np.bool_)
     held[support(structure)] = True
     return FreeBody(structure, factored(structure, held), rigid)
@@ -153,7 +160,7 @@ def refuse_unsymmetric(name: str, matrix: sparse.csc_array, structure: Structure
         worst = int(of_scale.argmax())
         row, column = sorted((int(i[worst]), int(j[worst])))
         where = f"{name}: {row_name(structure, row)} with {row_name(structure, column)}"
-        what = f"the matrix is not symmetric: {matrix[row, column]:g}, and {matrix[column, row]:g} in its transpose"
+        what = f"the matrix is not symmetric: {matrix[row, column]:.9g}, and {matrix[column, row]:.9g} in its transpose"
         raise DataError(Problem("not_symmetric", where, what, "Export both triangles of the same run"))
 
 
@@ -225,6 +232,21 @@ def _refuse_grounded(structure: Structure, rigid: Floats) -> None:
         what = f"the body resists a rigid motion here ({share[row, motion]:.2g} of the terms of its row are left)"
         remedy = "Give K of the free body, without supports, and what its rows are in the order of the matrix"
         raise DataError(Problem("grounded", where, what, remedy))
+
+
+def _refuse_parts(structure: Structure) -> None:
+    """Refuse a body whose nodes K does not join to one."""
+    nodes, number = np.unique(structure.node, return_inverse=True)
+    row, column = structure.K.nonzero()
+    links = sparse.coo_array((np.ones(row.size, dtype=np.bool_), (number[row], number[column])), (nodes.size,) * 2)
+    parts, of_node = connected_components(links, directed=False)
+    if parts == 1:
+        return
+    size = np.bincount(of_node)
+    least = int(size.argmin())
+    what = f"the body is in {parts} parts that nothing joins, and the one of this node has {size[least]} of its nodes"
+    remedy = "Connect it to the body, or leave it out of the model"
+    raise DataError(Problem("mechanism", f"K: node {nodes[of_node == least][0]}", what, remedy))
 
 
 def _without_stiffness(structure: Structure, row: int, diagonal: float) -> Problem:

@@ -1,7 +1,7 @@
 """Normal modes of a body, free or held, by Lanczos iteration on its flexibility.
 
 The flexibility of a free body is that of its elastic motions, so that rigid motions are none of its modes. Modes are
-sought in batches, each in the space that those before it leave; the last one says that none is left below the limit.
+sought until enough have settled, and once more in the space that they leave: none may be left there below the limit.
 """
 
 from collections.abc import Callable
@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import eigh
-from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from fatigue.errors import DataError, NumericalError, Problem
-from fatigue.flexbody.factor import Factor, FreeBody, factored
+from fatigue.errors import DataError, Problem
+from fatigue.flexbody.factor import NOT_POSITIVE, Factor, FreeBody, factored
+from fatigue.flexbody.lanczos import most_flexible
 from fatigue.flexbody.structure import Basis, Structure
 
 Floats = NDArray[np.float64]
 Solve = Callable[[Floats], Floats]
 
 SMALL = 240  # rows: all modes at once, by dense matrices
-FIRST = 24  # modes of the first batch where a frequency is asked for
-CHECKED = 1e-3  # accuracy of an eigenvalue that is only held against a limit
+SETTLED = 1e-10  # accuracy of a flexibility; that of a shape is its root over the gap to the next one
+CHECKED = 1e-3  # of one that is only held against a limit
 LEFT = 1e-12  # of the largest flexibility: what rounding leaves
 
 
@@ -34,7 +34,6 @@ def free_modes(body: FreeBody, *, count: int | None = None, upto_hz: float | Non
     Raises
     ------
     DataError : K is not positive on elastic motions
-    NumericalError : the iteration found no end
     """
     return _lowest(body.factor.solve, body.structure.M, body.rigid, count, upto_hz)
 
@@ -99,63 +98,40 @@ def _lowest(solve: Solve, M: sparse.csc_array, rigid: Floats, count: int | None,
     """Lowest modes by flexibility ``solve``, those of ``rigid`` (n, r) left out."""
     if (count is None) == (upto_hz is None):
         raise ValueError("one of count and upto_hz")
-    found = _Found(M, rigid, M @ rigid, np.zeros(0))
     n = M.shape[0]
+    found = _Found(M, rigid, np.asarray(M @ rigid), np.zeros(0))
+    if n <= SMALL or (count is not None and count > n // 3):
+        found.add(*_all_modes(lambda loads: found.without(solve(found.balanced(loads))), M))
+        return _basis(found, rigid.shape[1], count, upto_hz)
+    largest = 1.0 / (2.0 * np.pi * upto_hz) ** 2 if upto_hz else np.inf
 
-    def flexibility(loads: Floats) -> Floats:
-        return found.without(solve(found.balanced(loads)))
+    def enough(flexible: Floats) -> bool:
+        return len(flexible) >= count if count is not None else bool(np.any(np.abs(flexible) < largest))
 
-    while True:
-        limit = _limit(found.frequency, count, upto_hz)
-        if limit is None:
-            wanted = _still_wanted(found.frequency, count, upto_hz)
-            if n <= SMALL or wanted > n // 3:
-                found.add(*_all_modes(flexibility, M))
-                break
-            shapes, frequency = _batch(flexibility, M, wanted, len(found.frequency), 0.0)
-            found.add(shapes, frequency)
-            if len(frequency) < wanted:
-                break
-        else:
-            _, estimate = _batch(flexibility, M, 1, len(found.frequency), CHECKED)
-            if not estimate.size or estimate[0] > limit * (1.0 + CHECKED):
-                break
-            shapes, frequency = _batch(flexibility, M, 1, len(found.frequency), 0.0)
-            if not frequency.size or frequency[0] > limit:
-                break
-            found.add(shapes, frequency)
+    def sought(enough: Callable[[Floats], bool], accuracy: float) -> tuple[Floats, Floats]:
+        start = np.random.default_rng(len(found.frequency)).standard_normal(n)
+        return _positive(*most_flexible(solve, M, (found.shapes, found.M_shapes), start, enough, accuracy))
+
+    found.add(*sought(enough, SETTLED))
+    while True:  # of modes with one frequency one start finds one, so that others say whether any is left
+        limit = upto_hz if upto_hz is not None else _nth(found.frequency, count)
+        _, estimate = sought(_any, CHECKED)
+        if not estimate.size or estimate[0] > limit * (1.0 + CHECKED):
+            break
+        shapes, frequency = sought(_any, SETTLED)
+        if not frequency.size or frequency[0] > limit:
+            break
+        found.add(shapes, frequency)
     return _basis(found, rigid.shape[1], count, upto_hz)
 
 
-def _limit(frequency: Floats, count: int | None, upto_hz: float | None) -> float | None:
-    """Frequency below which no mode may be left; None while too few are found to tell."""
-    if upto_hz is not None:
-        return upto_hz if frequency.max(initial=0.0) > upto_hz else None
-    return float(np.sort(frequency)[count - 1]) if count and len(frequency) >= count else None
+def _any(flexible: Floats) -> bool:
+    return len(flexible) > 0
 
 
-def _still_wanted(frequency: Floats, count: int | None, upto_hz: float | None) -> int:
-    """Modes of the next batch; the number of modes of plates grows with the frequency."""
-    if count is not None:
-        return count - len(frequency)
-    if not frequency.size or upto_hz is None:
-        return FIRST
-    expected = len(frequency) * min(upto_hz / frequency.max(), 3.0)
-    return max(int(1.1 * expected) - len(frequency), 0) + 4
-
-
-def _batch(flexibility: Solve, M: sparse.csc_array, wanted: int, found: int, accuracy: float) -> tuple[Floats, Floats]:
-    """Shapes (n, k) and frequencies (k,) [Hz] of the most flexible motions, k at most ``wanted``."""
-    n = M.shape[0]
-    inverse = LinearOperator((n, n), matvec=flexibility, dtype=np.float64)
-    start = flexibility(M @ np.random.default_rng(found).standard_normal(n))
-    try:  # in this mode of ARPACK the first matrix only says how large the problem is
-        w2, shapes = eigsh(M, wanted, M=M, sigma=0.0, OPinv=inverse, v0=start, tol=accuracy)
-    except ArpackError as error:
-        what = f"the iteration for {wanted} modes did not end ({error})"
-        remedy = "Ask for fewer modes, and look for masses many orders apart"
-        raise NumericalError(Problem("no_convergence", "modes", what, remedy)) from None
-    return _positive(shapes, w2)
+def _nth(frequency: Floats, count: int | None) -> float:
+    """Frequency of the last mode that is wanted, infinite while there are fewer."""
+    return float(np.sort(frequency)[count - 1]) if count and len(frequency) >= count else np.inf
 
 
 def _all_modes(flexibility: Solve, M: sparse.csc_array) -> tuple[Floats, Floats]:
@@ -169,26 +145,23 @@ def _all_modes(flexibility: Solve, M: sparse.csc_array) -> tuple[Floats, Floats]
     moved = flexibility(root)
     flexible, W = eigh(root.T @ moved)
     kept = np.abs(flexible) > LEFT * np.abs(flexible).max(initial=0.0)
-    return _positive(moved @ W[:, kept], 1.0 / flexible[kept])
+    return _positive(flexible[kept], moved @ W[:, kept])
 
 
-def _positive(shapes: Floats, w2: Floats) -> tuple[Floats, Floats]:
-    """Shapes and frequencies [Hz] in ascending order; what is only rounding is left out.
+def _positive(flexible: Floats, shapes: Floats) -> tuple[Floats, Floats]:
+    """Shapes (n, k) and frequencies (k,) [Hz], ascending, of flexibilities 1/w^2; what is only rounding is left out.
 
     Raises
     ------
-    DataError : an eigenvalue is negative
+    DataError : a flexibility is negative
     """
-    size = np.abs(w2)
-    kept = size < size.min(initial=np.inf) / LEFT
-    order = np.argsort(w2[kept], kind="stable")
-    w2, shapes = w2[kept][order], shapes[:, kept][:, order]
-    if w2.size and w2[0] < 0.0:
-        what = f"the stiffness of a motion is negative, w^2 = {w2[0]:g} rad2/s2"
-        raise DataError(
-            Problem("not_positive", "K", what, "Export K without geometric stiffness, and M of the same run")
-        )
-    return shapes, np.sqrt(w2) / (2.0 * np.pi)
+    kept = np.abs(flexible) > LEFT * np.abs(flexible).max(initial=0.0)
+    flexible, shapes = flexible[kept], shapes[:, kept]
+    if (flexible < 0.0).any():
+        what = f"the stiffness of a motion is negative, w^2 = {1.0 / flexible.min():g} rad2/s2"
+        raise DataError(Problem("not_positive", "K", what, NOT_POSITIVE))
+    order = np.argsort(-flexible, kind="stable")
+    return shapes[:, order], 1.0 / (2.0 * np.pi * np.sqrt(flexible[order]))
 
 
 def _basis(found: _Found, rigid: int, count: int | None, upto_hz: float | None) -> Basis:

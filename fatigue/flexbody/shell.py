@@ -13,6 +13,7 @@ from fatigue.flexbody.elements.quad import quad_stiffness
 from fatigue.flexbody.elements.quad_mass import quad_mass
 from fatigue.flexbody.elements.section import Section
 from fatigue.flexbody.elements.triangle import triangle_mass, triangle_stiffness
+from fatigue.flexbody.shell_check import refuse_bad_elements
 from fatigue.flexbody.shell_mesh import ShellMesh
 from fatigue.flexbody.structure import Structure
 
@@ -23,7 +24,13 @@ CHUNK = 4096  # elements at once: their matrices take some 40 MB
 
 
 def structure(mesh: ShellMesh) -> Structure:
-    """K [N/mm, N, N mm] and consistent M [t, t mm2] of the free body; six rows of each node, in the order of nodes."""
+    """K [N/mm, N, N mm] and consistent M [t, t mm2] of the free body; six rows of each node, in the order of nodes.
+
+    Raises
+    ------
+    DataError : an element without area, folded, or with a node twice
+    """
+    refuse_bad_elements(mesh)
     nodes = len(mesh.node)
     of_all = np.arange(len(mesh.element))
     K = _assembled(((dofs, dofs, K) for _, dofs, K in _stiffness(mesh, of_all)), 6 * nodes, 6 * nodes)

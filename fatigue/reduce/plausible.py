@@ -87,7 +87,8 @@ def element_problems(mesh: ShellMesh, file: str) -> Iterator[Problem]:
     flat = (area <= NO_AREA * longest**2) & ~twice
     if flat.any():
         what = f"its area is {area[flat][0]:.3g} mm2{_and_more(flat)}"
-        yield Problem("no_area", f"{file}: element {element[flat][0]}", what, "Correct its nodes, or take it out")
+        remedy = "Number its corners around it, or take it out"
+        yield Problem("no_area", f"{file}: element {element[flat][0]}", what, remedy)
     turn = np.cross(np.roll(p, -1, axis=1) - p, np.roll(p, 1, axis=1) - p)
     inwards = (np.einsum("ecj,ej->ec", turn, normal) <= 0.0).any(axis=1) & ~(triangle | flat | twice)
     if inwards.any():

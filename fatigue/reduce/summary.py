@@ -102,10 +102,11 @@ class Reduction:
         least = (
             f"least local flexibility {kept.min():.4g} of the body's, at {' '.join(self.loaded[int(kept.argmin())])}"
         )
+        observed = len(self.points) - len(loaded)
         lines = [
             f"{self.recipe.name} basis: {modes}; modal mass 1 t, rigid motions left out",
             f"body: {self.rigid.mass_t:.5g} t, centre of mass at ({x:.1f}, {y:.1f}, {z:.1f}) mm",
-            f"{len(loaded)} loaded points in {len(kept)} directions, {len(self.points) - len(loaded)} observed; {least}",
+            f"{len(loaded)} loaded points in {len(kept)} directions, {observed} observed; {least}",
         ]
         if self.welds:
             lines.append(f"forces of {len(self.welds)} weld lines at {self.weld_nodes} nodes")

@@ -1,5 +1,8 @@
 """The car body of a vehicle: the built-in frame, or a folder that ``fatigue reduce`` wrote."""
 
+from pathlib import Path
+
+from fatigue.study.reduced_body import reduced_body
 from fatigue.study.vehicle_file import FRAME
 from fatigue.vehicle.definition import Vehicle
 from fatigue.vehicle.elastic import ElasticBody
@@ -11,8 +14,8 @@ def car_body(vehicle: Vehicle) -> ElasticBody:
 
     Raises
     ------
-    CaseError, DataError : the folder of the body is damaged
+    CaseError, DataError : the folder of the body is none, or was changed
     """
     if vehicle.car.body == FRAME:
         return frame_body(vehicle.car)
-    raise NotImplementedError
+    return reduced_body(Path(vehicle.car.body), vehicle.car.floor_z_m)

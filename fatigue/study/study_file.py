@@ -4,15 +4,16 @@ What is varied is checked later, key by key, against the vehicle and the case th
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field, PrivateAttr, ValidationError
+from pydantic_core import ErrorDetails
 
-from fatigue.case.problems import absent, clash, model_problems, path_problems
-from fatigue.case.table import Table, Text
+from fatigue.case.problems import Contradictions, absent, clash, model_problems, path_problems
+from fatigue.case.table import Positive, Table, Text
 from fatigue.errors import CaseError, Problem, given_path
 from fatigue.study.toml_file import read_toml
 
@@ -170,6 +171,9 @@ class Source(Table):
         description="the file of the history, or a folder with the files that the case names for the event, relative "
         "to the study; {fe}, {seed} and {event} stand for settings",
     )
+    rate_hz: Positive | None = Field(
+        default=None, description="samples per second of the histories of a ride, above 0; left out: one each step"
+    )
     inputs: Annotated[tuple[Text, ...], Field(strict=False)] = Field(
         default=(), description="a list of files that the command reads: if one changes, runs are made anew"
     )
@@ -188,6 +192,8 @@ class Source(Table):
             yield clash(given[1], f"{' and '.join(given)} are all given", "Keep one of them: histories have one source")
         if self.inputs and self.command is None:
             yield clash("inputs", "inputs are those of a command, and none is given", "Remove it, or give a command")
+        if self.rate_hz is not None and (self.command or self.files):
+            yield clash("rate_hz", "rate_hz is of rides of the vehicle, and these are none", "Remove it")
         if self.events and self.run:
             yield clash("events", "events and [[source.run]] are both given", "Keep one of them")
         yield from _twice("events", list(self.events))
@@ -280,5 +286,13 @@ def load_study(path: Path | str) -> Study:
     try:
         return Study.model_validate(raw, context=path)
     except ValidationError as error:
-        problems = [problem for details in error.errors() for problem in model_problems(details, MODELS, raw)]
+        problems = [problem for details in error.errors() for problem in _problems(details, raw)]
     raise CaseError(*(replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
+
+
+def _problems(details: ErrorDetails, raw: dict[str, Any]) -> Iterable[Problem]:
+    """Refusals that one finding of the models stands for; what contradicts itself across tables has its place."""
+    cause = details.get("ctx", {}).get("error")
+    if not details["loc"] and isinstance(cause, Contradictions):
+        return cause.problems
+    return model_problems(details, MODELS, raw)

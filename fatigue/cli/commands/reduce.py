@@ -28,7 +28,7 @@ FILE = click.Path(path_type=Path)
     type=click.Choice(["residual", "strong", "weak", "guyan", "kuhar"]),
     default="residual",
     show_default=True,
-    help="residual: normal and residual attachment modes; strong, weak: Craig-Bampton with all points, or external ones.",
+    help="residual: normal and residual attachment modes; strong, weak: Craig-Bampton, all or external points.",
 )
 @click.option("-o", "--output", type=FOLDER, metavar="DIR", required=True, help="Folder to write, made if not there.")
 @click.option(

@@ -11,13 +11,15 @@ from fatigue.flexbody.structure import Structure
 
 Floats = NDArray[np.float64]
 
+NOTHING_LEFT = 1e-10  # of the flexibility under a load: the modes have all of it, and what is left is rounding
+
 
 def free_interface(body: FreeBody, loads: Floats, *, upto_hz: float | None = None, count: int | None = None) -> Floats:
     """T (n, 6 + k + c) = [X_r, Phi_k, X_res]: rigid motions, free modes, residual attachment modes of the ``loads``.
 
     ``X_res = X_a - Phi_k diag(1/w_k^2) Phi_k' F``, with X_a the inertia-relief answer to the columns F (n, c): what the
     modes leave of the static answer. Exact for static loads of these columns, whatever the cut. Each X_res is
-    orthogonal to the modes, which come out of the reduced body as they are.
+    orthogonal to the modes, which come out of the reduced body as they are; one that is only rounding is 0.
 
     Parameters
     ----------
@@ -28,7 +30,11 @@ def free_interface(body: FreeBody, loads: Floats, *, upto_hz: float | None = Non
     """
     normal = free_modes(body, upto_hz=upto_hz, count=count)
     Phi, w2 = normal.shapes, (2.0 * np.pi * normal.frequency) ** 2
-    return np.hstack([body.rigid, Phi, body.elastic(loads) - (Phi / w2) @ (Phi.T @ loads)])
+    X_a = body.elastic(loads)
+    X_res = X_a - (Phi / w2) @ (Phi.T @ loads)
+    flexibility, left = np.einsum("ij,ij->j", loads, X_a), np.einsum("ij,ij->j", loads, X_res)
+    X_res[:, left <= NOTHING_LEFT * flexibility] = 0.0
+    return np.hstack([body.rigid, Phi, X_res])
 
 
 def shared_load(

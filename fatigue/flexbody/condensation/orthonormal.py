@@ -13,6 +13,7 @@ from fatigue.flexbody.structure import Basis, Structure
 Floats = NDArray[np.float64]
 
 DEPENDENT = 1e-11  # square of the part of a column that is its own, of unit columns: a thousand times rounding
+ROUNDING = 1e-12  # of the ratio of stiffness and mass of single rows: ten thousand units of it
 MASSLESS = 1e-14  # of the largest mass per energy: a combination that moves nothing that has mass
 
 
@@ -44,37 +45,39 @@ def orthonormal(structure: Structure, T: Floats, normal_upto_hz: float) -> Ortho
     Sources: Craig and Bampton 1968; theory of flexible bodies in multibody codes (orthonormalised Craig-Bampton).
     """
     X_r = unit_rigid_motions(structure)
-    K_r, M_r = reduced(structure, T)
-    of_rigid = X_r.T @ (structure.M @ T)  # what of each column is rigid motion
+    rigid = X_r.T @ (structure.M @ T)  # what of each column is rigid motion
+    X = T - X_r @ rigid
+    K_e, M_e = reduced(structure, X)
+    M_r = M_e + rigid.T @ rigid
 
     # A local column has next to no mass, a rigid one no stiffness: K + s M sees what either of them is.
-    G = K_r + _between(K_r, M_r) * M_r
-    size = np.sqrt(np.diag(G))
-    D = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
-    span = D[:, None] * _independent(D[:, None] * G * D)
-    rank = span.shape[1]
-    elastic = span.T @ (G - _between(K_r, M_r) * of_rigid.T @ of_rigid) @ span
-    span = span @ _independent(elastic)
+    s = _between(structure, K_e, M_r)
+    size = np.sqrt(np.diag(K_e + s * M_r))
+    D = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)[:, None]
+    rank = _independent(D * (K_e + s * M_r) * D.T).shape[1]
+    span = D * _independent(D * (K_e + s * M_e) * D.T)
 
-    share = of_rigid @ span
-    flexible, N = eigh(span.T @ M_r @ span - share.T @ share)
+    flexible, N = eigh(span.T @ M_e @ span)
     has_mass = flexible > MASSLESS * flexible.max(initial=0.0)
     N = (span @ (N[:, has_mass] / np.sqrt(flexible[has_mass])))[:, ::-1]
-    shapes = T @ N - X_r @ (of_rigid @ N)
-    frequency = np.sqrt(np.einsum("ij,ij->j", N, K_r @ N)) / (2.0 * np.pi)
+    frequency = np.sqrt(np.einsum("ij,ij->j", N, K_e @ N)) / (2.0 * np.pi)
     dependent = T.shape[1] - rank + int(np.count_nonzero(~has_mass))
-    return Orthonormal(Basis(signed(shapes), frequency, frequency <= normal_upto_hz), dependent)
+    return Orthonormal(Basis(signed(X @ N), frequency, frequency <= normal_upto_hz), dependent)
 
 
-def _between(K_r: Floats, M_r: Floats) -> float:
-    """Weight s [1/s^2] that makes mass and stiffness of the columns comparable: their median ratio."""
+def _between(structure: Structure, K_r: Floats, M_r: Floats) -> float:
+    """Weight s [1/s^2] that makes mass and stiffness of the columns comparable: their median ratio.
+
+    Where most of them are rigid motions that is rounding, and the rounding of the matrices is taken instead.
+    """
     stiffness, mass = np.diag(K_r), np.diag(M_r)
-    s = float(np.median(stiffness[mass > 0.0] / mass[mass > 0.0])) if (mass > 0.0).any() else 1.0
-    return s if s > 0.0 else 1.0
+    of_columns = float(np.median(stiffness[mass > 0.0] / mass[mass > 0.0])) if (mass > 0.0).any() else 0.0
+    of_rows = float(structure.K.diagonal().sum() / structure.M.diagonal().sum())
+    return max(of_columns, ROUNDING * of_rows)
 
 
 def _independent(G: Floats) -> Floats:
-    """Combinations (k, j), orthonormal by G (k, k), of columns that depend on no others."""
+    """Combinations (k, j), orthonormal by G (k, k) of unit columns, that depend on no others."""
     value, vector = eigh(G)
-    apart = value > DEPENDENT * value.max(initial=0.0)
+    apart = value > DEPENDENT
     return np.asarray(vector[:, apart] / np.sqrt(value[apart]))

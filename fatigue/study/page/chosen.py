@@ -8,7 +8,7 @@ from fatigue.study.claims.place import variant_of
 from fatigue.study.claims.verdict import Verdict
 from fatigue.study.page.studied import Studied
 from fatigue.study.quantities import Variant
-from fatigue.study.variants.names import shown
+from fatigue.study.variants.varied.names import shown
 
 MOST_LINES = 6  # of one figure
 MOST_GROUPS = 4

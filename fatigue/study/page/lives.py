@@ -26,7 +26,7 @@ def lives_of(of: Studied) -> Lives:
     for one in of.numbers:
         if one.quantity == LIFE and one.weld:
             values.setdefault((one.variant, one.weld), []).append(float(one.value))
-    return {place: scatter(np.minimum(lives, LONGEST), logarithmic=True) for place, lives in values.items()}
+    return {place: scatter([min(life, LONGEST) for life in lives], logarithmic=True) for place, lives in values.items()}
 
 
 def lives_figure(group: Group, lives: Lives) -> go.Figure | None:

@@ -2,20 +2,19 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-import pandas as pd
 import plotly.graph_objects as go
 
-from fatigue.case import load_case
+from fatigue.case import Case, load_case
 from fatigue.errors import FatigueError
+from fatigue.readers.neutral.body.mesh import read_mesh
 from fatigue.report.figures import BodyOutline, body_outline, line_rows, projections, worst_faces
-from fatigue.readers.neutral import read_mesh
 from fatigue.results import read_table
 from fatigue.study.page.chosen import facing
 from fatigue.study.page.studied import Studied
 from fatigue.study.quantities import StudyRun, Variant
 
 CASE, RESULT = "case.toml", "result"
+NODE_COLUMNS = ["weld", "part", "order", "toe", "utilisation", "x_mm", "y_mm", "z_mm", "life_km"]
 MOST_EDGES = 6000  # of the outline of the body: of a finer mesh the weld lines alone are drawn
 
 
@@ -43,3 +42,23 @@ def weld_maps(of: Studied) -> list[WeldMap]:
             maps = [_map(one, run) for one, run in zip(pair, both, strict=True) if run is not None]
             return [one for one in maps if one is not None] if all(maps) else []
     return []
+
+
+def _map(variant: Variant, run: StudyRun) -> WeldMap | None:
+    """Map of one run; None where case or result cannot be read."""
+    try:
+        case = load_case(run.folder / CASE)
+        stations = worst_faces(read_table(run.folder / RESULT, "nodes", NODE_COLUMNS))
+        drawn = projections(stations, line_rows(stations, frozenset()), case.mission.target_km, _outline(case))
+    except FatigueError:
+        return None
+    return WeldMap(variant.name, run.seed, drawn)
+
+
+def _outline(case: Case) -> BodyOutline | None:
+    """Outline of the body; None without a mesh, and of one so fine that it would outweigh the page."""
+    if case.body.nodes is None or case.body.elements is None:
+        return None
+    mesh, _ = read_mesh(case.resolve(case.body.nodes), case.resolve(case.body.elements), strict=False)
+    outline = body_outline(mesh.node, mesh.xyz, mesh.corners[:, :4])
+    return outline if len(outline.edge) <= MOST_EDGES else None

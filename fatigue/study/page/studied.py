@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fatigue.errors import Problem
 from fatigue.study.claims.verdict import Verdict
 from fatigue.study.quantities import Number, StudyRun, Variant
+from fatigue.study.variants.ratios import RatioRow
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,7 @@ class Studied:
     variants : the base first
     runs : of every variant under every seed
     numbers : of every variant under every seed
+    ratios : of every quantity between variants that differ in one thing, and between each and the base
     verdicts : one of every claim, in the order of the study
     warnings : of the study and of its runs, one of each kind
     """
@@ -45,5 +47,6 @@ class Studied:
     variants: Sequence[Variant]
     runs: Sequence[StudyRun]
     numbers: Sequence[Number]
+    ratios: Sequence[RatioRow]
     verdicts: Sequence[Verdict] = ()
     warnings: Sequence[Problem] = ()

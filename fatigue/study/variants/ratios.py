@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from math import inf, isnan
 
 from fatigue.study.quantities import Number, Variant, is_life
-from fatigue.study.variants.names import shown
 from fatigue.study.variants.scatter import Key, by_variant, spread, usable
+from fatigue.study.variants.varied.names import shown
 
 
 @dataclass(frozen=True, slots=True)

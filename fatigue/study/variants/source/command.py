@@ -15,9 +15,9 @@ from fatigue.files.mishaps import reason, refused_writing
 from fatigue.results import write_json
 from fatigue.shown import visible
 from fatigue.study.study_file import Study
-from fatigue.study.variants.base_files import CASE
 from fatigue.study.variants.source.made import Asked, Made, SourceNumber
 from fatigue.study.variants.source.placeholders import filled, names_in, values_of
+from fatigue.study.variants.varied.base_files import CASE
 
 SETTINGS, NUMBERS = "settings.json", "numbers.json"
 STDOUT, STDERR = "stdout.txt", "stderr.txt"

@@ -54,8 +54,10 @@ class Made:
     files : where each file of an event is, by event and the name that the case has for it
     added : keys of an event that follow from the run, as its speed, by event
     numbers : what the source says of the run
+    reused : it was made by an earlier command
     """
 
     files: Mapping[str, Mapping[str, Path]]
     added: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     numbers: tuple[SourceNumber, ...] = ()
+    reused: bool = False

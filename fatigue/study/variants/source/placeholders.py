@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem
-from fatigue.study.variants.names import shown
 from fatigue.study.variants.source.made import Asked
+from fatigue.study.variants.varied.names import shown
 
 
 def names_in(text: str) -> set[str]:

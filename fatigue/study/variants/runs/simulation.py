@@ -16,12 +16,12 @@ from fatigue.files.mishaps import refused_writing
 from fatigue.files.whole import replacing
 from fatigue.results import write_json
 from fatigue.study.study_file import Study
-from fatigue.study.variants.base_files import BaseFiles, ChangedCase
-from fatigue.study.variants.hashes import Hashes, are_unchanged, as_json, file_hash, files_below, from_json, key_of
+from fatigue.study.variants.runs.hashes import Hashes, are_unchanged, as_json, file_hash, files_below, from_json, key_of
 from fatigue.study.variants.source import command
-from fatigue.study.variants.source.builtin import body_inputs, ridden
+from fatigue.study.variants.source.builtin import Bodies, body_inputs, ridden
 from fatigue.study.variants.source.files import found
 from fatigue.study.variants.source.made import Asked, Made, SourceNumber
+from fatigue.study.variants.varied.base_files import BaseFiles, ChangedCase
 
 RECORD = "simulation.json"
 
@@ -58,7 +58,7 @@ def simulation_of(
         body = {str(path.name): hashes.of(path) for path in body_inputs(vehicle)}
         tables = asdict(vehicle)
         tables["car"].pop("body")
-        record = {"vehicle": tables, "body": body, "has_case": case is not None}
+        record = {"vehicle": tables, "body": body, "rate_hz": study.source.rate_hz, "has_case": case is not None}
     else:
         words = command.words_of(study, asked, folder)
         inputs = {path.name: hashes.of(path) for path in command.read_by(study, words)}
@@ -66,7 +66,7 @@ def simulation_of(
     return Simulation(asked, case, key_of({"simulation": record}), folder)
 
 
-def simulated(study: Study, files: BaseFiles, simulation: Simulation, stop: Event) -> Made:
+def simulated(study: Study, files: BaseFiles, bodies: Bodies, simulation: Simulation, stop: Event) -> Made:
     """What a run of the source gave: as it was left if it is finished, else made now.
 
     Raises
@@ -76,8 +76,8 @@ def simulated(study: Study, files: BaseFiles, simulation: Simulation, stop: Even
     asked, folder = simulation.asked, simulation.folder
     if study.source.files is not None:
         return found(study, asked)
-    if (before := finished(simulation)) is not None:
-        return before
+    if (earlier := finished(simulation)) is not None:
+        return earlier
     with refused_writing(folder):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -85,11 +85,21 @@ def simulated(study: Study, files: BaseFiles, simulation: Simulation, stop: Even
         vehicle = files.changed_vehicle(asked.changes)
         assert vehicle is not None
         case = None if simulation.case is None else simulation.case.case
-        made = ridden(vehicle, asked, case, folder)
+        made = ridden(vehicle, bodies.of(vehicle), study.source.rate_hz, asked, case, folder)
     else:
         made = command.commanded(study, asked, folder, stop)
     _record(simulation, made)
     return made
+
+
+def before(study: Study, simulation: Simulation) -> Made | None:
+    """What an earlier command left; None where there is nothing.
+
+    Raises
+    ------
+    DataError : files are not where the pattern of the study says
+    """
+    return found(study, simulation.asked) if study.source.files is not None else finished(simulation)
 
 
 def finished(simulation: Simulation) -> Made | None:
@@ -101,7 +111,7 @@ def finished(simulation: Simulation) -> Made | None:
             return None
         files = {event: {name: folder / path for name, path in of.items()} for event, of in record["files"].items()}
         numbers = tuple(SourceNumber(n, from_json(v), u, r) for n, v, u, r in record["numbers"])
-        return Made(files, record["added"], numbers)
+        return Made(files, record["added"], numbers, reused=True)
     except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return None
 

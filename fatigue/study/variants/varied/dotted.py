@@ -40,24 +40,24 @@ def put(tables: dict[str, Any], key: str, value: Any) -> None:
 
 def _last_table(tables: Any, key: str, *, makes: bool) -> tuple[Any, str]:
     """The table that has the last part of a key, None where there is none, and this part."""
+    if key.startswith(".") or key.endswith("."):
+        raise NoSuchKey(f"{key!r} is no key: something is missing beside a dot", "Write the tables and the key")
     at, done, rest = tables, "", key
-    while True:
-        part, _, beyond = rest.partition(".")
-        if not part:
-            raise NoSuchKey(f"{key!r} is no key: something is missing beside a dot", "Write the tables and the key")
-        if isinstance(at, Mapping) and not beyond:
-            return at, part
+    while rest:
         if isinstance(at, list):
-            at, part, beyond = _named(at, done, rest)
+            at, part, rest = _named(at, done, rest)
         elif isinstance(at, Mapping):
+            part, _, rest = rest.partition(".")
+            if not rest:
+                return at, part
             if part not in at and not makes:
                 return None, rest
-            at = at.setdefault(part, {}) if makes and isinstance(at, dict) else at[part]
-        if not isinstance(at, Mapping | list) or not beyond:
-            what = f"{key!r} goes on inside {f'{done}.{part}'.lstrip('.')!r}, which is no table"
-            what = what if beyond else f"{key!r} is a table, not a key in one"
+            at = at.setdefault(part, {}) if isinstance(at, dict) else at[part]
+        else:
+            what = f"{key!r} goes on inside {done!r}, which is no table"
             raise NoSuchKey(what, "Write the tables and the key")
-        done, rest = f"{done}.{part}".lstrip("."), beyond
+        done = f"{done}.{part}".lstrip(".")
+    raise NoSuchKey(f"{key!r} is a table, not a key in one", "Write the tables and the key")
 
 
 def _named(tables: list[Any], done: str, rest: str) -> tuple[Any, str, str]:

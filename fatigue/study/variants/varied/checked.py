@@ -2,14 +2,18 @@
 
 import difflib
 import string
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
+from fatigue.case import Case
 from fatigue.errors import FatigueError, Problem
 from fatigue.study.study_file import TAKEN, Study, short_name
-from fatigue.study.variants.base_files import CASE, OWN, VEHICLE, BaseFiles
-from fatigue.study.variants.expansion import Aspect, Plan, Planned
-from fatigue.study.variants.names import shown
+from fatigue.study.variants.runs.case_of_run import files_of_event
+from fatigue.study.variants.source.builtin import body_problems
+from fatigue.study.variants.varied.base_files import CASE, OWN, VEHICLE, BaseFiles
+from fatigue.study.variants.varied.expansion import Aspect, Plan, Planned
+from fatigue.study.variants.varied.names import shown
 
 SEED = "vehicle.run.seed"
 PREFIXES = "vehicle.<table>.<key>, case.<table>.<key>, case, or own.<name>"
@@ -83,6 +87,8 @@ def _together(study: Study, files: BaseFiles, plan: Plan) -> Iterator[Problem]:
         for run in study.source.run:
             yield from _tried(files, f"{where}, event '{run.event}'", {**planned.changes, **run.set})
         yield from _events(study, files, planned, where)
+        if study.is_builtin:
+            yield from _bodies(files, planned, where)
 
 
 def _events(study: Study, files: BaseFiles, planned: Planned, where: str) -> Iterator[Problem]:
@@ -102,6 +108,8 @@ def _events(study: Study, files: BaseFiles, planned: Planned, where: str) -> Ite
         elif events[name].history is None:
             what = f"event {name!r} is a static load case, which has no history"
             yield Problem("contradiction", place, what, "Remove it")
+    if study.source.command is not None:
+        yield from _out_of_reach(changed.case, [name for _, name in named] or list(events), where)
     with_history = [name for name, event in events.items() if event.history is not None]
     if study.is_builtin and not named and len(with_history) != 1:
         what = (
@@ -110,6 +118,25 @@ def _events(study: Study, files: BaseFiles, planned: Planned, where: str) -> Ite
         what += "a ride is"
         remedy = "Give [[source.run]] with the event and what it sets, or events under [source]"
         yield Problem("ambiguous_event", f"{where}: source", what, remedy)
+
+
+def _bodies(files: BaseFiles, planned: Planned, where: str) -> Iterator[Problem]:
+    """Refusals of a case that is not of the body that rides."""
+    vehicle, changed = files.changed_vehicle(planned.changes), files.changed_case(planned.changes)
+    if vehicle is not None and changed is not None:
+        yield from body_problems(vehicle, changed.case, where)
+
+
+def _out_of_reach(case: Case, names: Collection[str], where: str) -> Iterator[Problem]:
+    """Refusals of files that a command would have to leave outside the folder of its run."""
+    for event in case.mission.event:
+        for name in files_of_event(event) if event.name in names else ():
+            if Path(name).is_absolute() or ".." in Path(name).parts:
+                what = f"event {event.name!r} has {name}, which a command in the folder of its run cannot leave there"
+                remedy = (
+                    f"Name it {Path(name).name} in {case.path.name}, or name the events it makes under [source] events"
+                )
+                yield Problem("contradiction", f"{where}: source.command", what, remedy)
 
 
 def _unknown_kind(study: Study, where: str, key: str) -> Iterator[Problem]:

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from fatigue.case import Case
 from fatigue.study.study_file import Study, short_name
-from fatigue.study.variants.base_files import BaseFiles, ChangedCase
-from fatigue.study.variants.case_of_run import files_of_event
-from fatigue.study.variants.expansion import Plan, Planned
-from fatigue.study.variants.names import folder_names
+from fatigue.study.variants.runs.case_of_run import files_of_event
 from fatigue.study.variants.source.made import NO_EVENT, Asked
+from fatigue.study.variants.varied.base_files import BaseFiles, ChangedCase
+from fatigue.study.variants.varied.expansion import Plan, Planned
+from fatigue.study.variants.varied.names import folder_names
 
 RUNS, SIMULATION = "runs", "simulation"
 

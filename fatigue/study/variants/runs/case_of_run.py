@@ -9,7 +9,7 @@ from typing import Any
 from fatigue.case import Case, Event
 from fatigue.case.checks import CHECK_FILES
 from fatigue.case.tables import BASIS_FILES, BODY_FILES
-from fatigue.study.variants.toml_text import toml_text
+from fatigue.study.variants.varied.toml_text import toml_text
 
 CASE_FILE = "case.toml"
 

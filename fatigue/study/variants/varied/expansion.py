@@ -8,7 +8,7 @@ from typing import Any
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.study.quantities import Variant
 from fatigue.study.study_file import GivenVariant, Set, Study, same_value, short_name
-from fatigue.study.variants.names import BASE, folder_names, shown
+from fatigue.study.variants.varied.names import BASE, folder_names, shown
 
 Known = Callable[[str], Any]
 Setting = float | int | str | bool

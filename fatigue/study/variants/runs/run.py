@@ -21,10 +21,10 @@ from fatigue.results import read_provenance, write_json
 from fatigue.results.provenance import PROVENANCE
 from fatigue.ride.story import ride
 from fatigue.study.quantities import Number
-from fatigue.study.variants.case_of_run import CASE_FILE, body_files, run_case_text
-from fatigue.study.variants.collected import diagnosis_numbers, ride_numbers, weld_numbers
-from fatigue.study.variants.hashes import Hashes, as_json, file_hash, from_json, key_of
-from fatigue.study.variants.planned_runs import PlannedRun
+from fatigue.study.variants.runs.case_of_run import CASE_FILE, body_files, run_case_text
+from fatigue.study.variants.runs.collected import diagnosis_numbers, ride_numbers, weld_numbers
+from fatigue.study.variants.runs.hashes import Hashes, as_json, file_hash, from_json, key_of
+from fatigue.study.variants.runs.planned_runs import PlannedRun
 from fatigue.study.variants.source.made import Made, SourceNumber
 
 RECORD, RESULT = "run.json", "result"
@@ -51,23 +51,34 @@ def _number(run: PlannedRun, of: SourceNumber, behind: str) -> Number:
     return Number(run.variant, run.seed, f"{of.quantity}{behind}", "", of.value, of.unit, of.reason)
 
 
+def known(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, *, diagnosed: bool) -> Done | None:
+    """A run as an earlier command left it; None where it is not finished, or anything it depends on has changed.
+
+    ``made`` is what the source gave, by event. A run without case is known as soon as its source is.
+
+    Raises
+    ------
+    DataError : a file that it depends on cannot be read
+    """
+    numbers, histories = tuple(source_numbers(run, made)), _histories(made)
+    if run.case is None:
+        return Done(numbers, (), histories, reused=all(one.reused for one in made.values()))
+    before = finished(run, _key(run, made, hashes, diagnosed=diagnosed))
+    return None if before is None else replace(before, numbers=(*numbers, *before.numbers), histories=histories)
+
+
 def completed(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, threads: int, *, diagnosed: bool) -> Done:
-    """Take a run whose histories are there to its numbers; ``made`` is what the source gave, by event.
+    """Take a run whose histories are there to its numbers, unless it is known; ``made`` as of ``known``.
 
     Raises
     ------
     CaseError, DataError, NumericalError : what assessment or case say
     """
+    before = known(run, made, hashes, diagnosed=diagnosed)
+    if before is not None or run.case is None:
+        return before or Done((), (), {})
     given = {event: files for one in made.values() for event, files in one.files.items()}
-    histories = {f"{event}: {name}": file_hash(path) for event, files in given.items() for name, path in files.items()}
-    numbers = tuple(source_numbers(run, made))
-    if run.case is None:
-        return Done(numbers, (), histories)
     added = {event: keys for one in made.values() for event, keys in one.added.items()}
-    depends = {"histories": histories, "added": added, "diagnosed": diagnosed}
-    key = key_of({**depends, "case": run.case.tables, "inputs": hashes.of_all(_inputs(run.case.case, given))})
-    if (before := finished(run, key)) is not None:
-        return replace(before, numbers=(*numbers, *before.numbers), histories=histories)
     case_file = run.folder / CASE_FILE
     with refused_writing(run.folder):
         run.folder.mkdir(parents=True, exist_ok=True)
@@ -76,8 +87,8 @@ def completed(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, threads
     with replacing(case_file) as unfinished:
         unfinished.write_text(text, encoding="utf-8", newline="\n")
     done = _assessed(run, case_file, threads, diagnosed=diagnosed)
-    _record(run, key, done)
-    return replace(done, numbers=(*numbers, *done.numbers), histories=histories)
+    _record(run, _key(run, made, hashes, diagnosed=diagnosed), done)
+    return replace(done, numbers=(*source_numbers(run, made), *done.numbers), histories=_histories(made))
 
 
 def _assessed(run: PlannedRun, case_file: Path, threads: int, *, diagnosed: bool) -> Done:
@@ -133,6 +144,29 @@ def _record(run: PlannedRun, key: str, done: Done) -> None:
     }
     with replacing(run.folder / RECORD) as unfinished:
         write_json(unfinished, record)
+
+
+def _histories(made: Mapping[str, Made]) -> dict[str, str]:
+    """Hash of every file that the source gave, by event and name."""
+    files = {
+        (event, name): path for one in made.values() for event, of in one.files.items() for name, path in of.items()
+    }
+    return {f"{event}: {name}": file_hash(path) for (event, name), path in files.items()}
+
+
+def _key(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, *, diagnosed: bool) -> str:
+    """Key of everything the numbers of an assessed run depend on."""
+    assert run.case is not None
+    events = {event for one in made.values() for event in one.files}
+    return key_of(
+        {
+            "case": run.case.tables,
+            "inputs": hashes.of_all(_inputs(run.case.case, events)),
+            "histories": _histories(made),
+            "added": {event: keys for one in made.values() for event, keys in one.added.items()},
+            "diagnosed": diagnosed,
+        }
+    )
 
 
 def _inputs(case: Case, events: Collection[str]) -> dict[str, Path]:
