@@ -39,13 +39,21 @@ def assess(*arguments):
     return fatigue("assess", *arguments, "--no-report")
 
 
-COMMANDS = sorted(cli.commands)
+def _commands(group, before=""):
+    """Every command by the words that call it, groups and what they hold."""
+    for name, command in sorted(group.commands.items()):
+        yield before + name, command
+        if isinstance(command, click.Group):
+            yield from _commands(command, f"{before}{name} ")
+
+
+COMMANDS = dict(_commands(cli))
 
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_has_help_with_an_example(name):
     """A command without a word of help and an example that begins with the program's name is not finished."""
-    command = cli.commands[name]
+    command = COMMANDS[name]
     text = command.get_help(click.Context(command, info_name=f"fatigue {name}"))
     assert f"fatigue {name}" in (command.help or "")
     assert "Example" in text

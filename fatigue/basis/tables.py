@@ -1,27 +1,18 @@
-"""Tables of a basis on disk: rows of dataclasses as Parquet with unit and meaning of every column, and as CSV."""
+"""Tables of a basis on disk, by their names in the dictionary."""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
-import pyarrow.csv as pa_csv
-import pyarrow.parquet as pq
 
-from fatigue.files.mishaps import refused_writing
+from fatigue.results import plain_tables
 from fatigue.results.dictionary.basis import BASIS
-
-_TYPES = {"text": pa.string(), "int": pa.int64(), "flag": pa.bool_(), "float": pa.float64()}
-_FORMULA = r"^([=+\-@\t\r])"  # what a spreadsheet would take for one gets an apostrophe before it
 
 
 def table_of(name: str, rows: Sequence[Any]) -> pa.Table:
     """Rows as an Arrow table; NaN and None are null."""
-    fields = [
-        pa.field(c.name, _TYPES[c.type], metadata={"unit": c.unit, "description": c.meaning}) for c in BASIS[name]
-    ]
-    arrays = [pa.array([getattr(row, f.name) for row in rows], f.type, from_pandas=True) for f in fields]
-    return pa.Table.from_arrays(arrays, schema=pa.schema(fields, metadata={"program": "fatigue", "table": name}))
+    return plain_tables.table_of(name, BASIS[name], rows)
 
 
 def write_table(folder: Path, name: str, rows: Sequence[Any]) -> Path:
@@ -31,10 +22,7 @@ def write_table(folder: Path, name: str, rows: Sequence[Any]) -> Path:
     ------
     DataError : the disk is full or the place cannot be written
     """
-    path = folder / f"{name}.parquet"
-    with refused_writing(path):
-        pq.write_table(table_of(name, rows), path, compression="zstd", write_page_checksum=True)
-    return path
+    return plain_tables.write_table(folder, name, BASIS[name], rows)
 
 
 def write_csv(folder: Path, name: str, rows: Sequence[Any]) -> Path:
@@ -44,11 +32,4 @@ def write_csv(folder: Path, name: str, rows: Sequence[Any]) -> Path:
     ------
     DataError : as ``write_table``
     """
-    path, table = folder / f"{name}.csv", table_of(name, rows)
-    for i, field in enumerate(table.schema):
-        if field.type == pa.string():
-            harmless = pa.compute.replace_substring_regex(table[i], _FORMULA, r"'\1")
-            table = table.set_column(i, field, harmless)
-    with refused_writing(path):
-        pa_csv.write_csv(table, path, pa_csv.WriteOptions(quoting_style="needed"))
-    return path
+    return plain_tables.write_csv(folder, name, BASIS[name], rows)

@@ -24,6 +24,7 @@ NAMES = ("x", "y", "z", "rx", "ry", "rz")
 UNEQUAL = 1e-6  # of the roots of the diagonal, between K and K': files are written with six digits or more
 GROUNDED = 1e-5  # of the terms that cancel in K R: ten times what six digits leave
 MOVES_FREELY = 1e-14  # stiffness of a motion over that of its rows one by one: rounding, some 100 units of it
+NOT_POSITIVE = "Export K without geometric stiffness, and M of the same run"
 ON_A_LINE = 1e-6  # sixth pivot of the rigid motions of the rows that may be held, over the first
 
 
@@ -47,7 +48,7 @@ def factored(structure: Structure, held: Mask) -> Factor:
 
     Raises
     ------
-    DataError : a row without stiffness, a part that moves freely, K not symmetric
+    DataError : a row without stiffness, a part that moves freely, K not symmetric or not positive
     """
     refuse_unsymmetric("K", structure.K, structure)
     free = np.flatnonzero(~held)
@@ -63,8 +64,12 @@ def factored(structure: Structure, held: Mask) -> Factor:
         raise DataError(_mechanism(structure, free[_softest(K, diagonal)])) from None
     motion = _inverse_iteration(lu, diagonal)
     energy = float(motion @ (K @ motion)) / float(diagonal @ motion**2)
+    row = int(free[np.argmax(diagonal * motion**2)])
+    if energy < -MOVES_FREELY:
+        what = "the stiffness of a motion that is largest here is negative"
+        raise DataError(Problem("not_positive", f"K: {row_name(structure, row)}", what, NOT_POSITIVE))
     if not energy > MOVES_FREELY:
-        raise DataError(_mechanism(structure, free[int(np.argmax(diagonal * motion**2))]))
+        raise DataError(_mechanism(structure, row))
     return Factor(lu, held)
 
 

@@ -32,7 +32,7 @@ def most_flexible(
     ----------
     flexibility : displacement (n,) under loads (n,), symmetric
     beside : shapes (n, m), orthonormal in M, to which all motions are orthogonal, and M times them
-    start : (n,) any motion
+    start : (n,) any motion; what it does to loads begins the iteration, so that rows without mass follow the others
     enough : whether the flexibilities that have settled, in order from the largest, are enough
     accuracy : of the flexibilities, relative; an empty space, or one that all steps have filled, ends the iteration
     """
@@ -40,7 +40,7 @@ def most_flexible(
     Q = np.zeros((n, 64), order="F")
     alpha: list[float] = []
     beta: list[float] = []
-    w = _orthogonal(start, M, beside, Q[:, :0])
+    w = _orthogonal(flexibility(M @ start), M, beside, Q[:, :0])
     size, largest = np.sqrt(w @ (M @ w)), 0.0
     if not size > 0.0:
         return np.zeros(0), np.zeros((n, 0))

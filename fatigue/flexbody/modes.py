@@ -13,7 +13,7 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from fatigue.errors import DataError, Problem
-from fatigue.flexbody.factor import Factor, FreeBody, factored
+from fatigue.flexbody.factor import NOT_POSITIVE, Factor, FreeBody, factored
 from fatigue.flexbody.lanczos import most_flexible
 from fatigue.flexbody.structure import Basis, Structure
 
@@ -159,8 +159,7 @@ def _positive(flexible: Floats, shapes: Floats) -> tuple[Floats, Floats]:
     flexible, shapes = flexible[kept], shapes[:, kept]
     if (flexible < 0.0).any():
         what = f"the stiffness of a motion is negative, w^2 = {1.0 / flexible.min():g} rad2/s2"
-        remedy = "Export K without geometric stiffness, and M of the same run"
-        raise DataError(Problem("not_positive", "K", what, remedy))
+        raise DataError(Problem("not_positive", "K", what, NOT_POSITIVE))
     order = np.argsort(-flexible, kind="stable")
     return shapes[:, order], 1.0 / (2.0 * np.pi * np.sqrt(flexible[order]))
 

@@ -13,6 +13,7 @@ from typing import Any, get_type_hints
 
 from fatigue.case.problems import clash
 from fatigue.errors import CaseError, Problem, given_path, refuse
+from fatigue.files.misplaced import misplaced
 from fatigue.files.naming import control_characters
 from fatigue.study.toml_file import read_toml
 from fatigue.study.vehicle_keys import KEYS, OF_SETTING, Key
@@ -55,7 +56,10 @@ def load_vehicle(
     given: dict[str, _Given] = {}
     if path is not None:
         path = given_path(path, "vehicle")
-        given, problems = _of_file(read_toml(path, WHAT), path)
+        raw = read_toml(path, WHAT)
+        if raw and not any(table in KEYS for table in raw) and (other := misplaced(path, path.name)) is not None:
+            raise CaseError(other)
+        given, problems = _of_file(raw, path)
     of_file = set(given)
     for key, value in (changed or {}).items():
         where = f"{changed_in}: {key}"
@@ -111,7 +115,9 @@ def _no_table(table: str, values: object, where: str) -> Problem:
             f"Write [{near[0]}]" if near else f"Remove it; the tables are {', '.join(f'[{name}]' for name in KEYS)}"
         )
         return Problem("unknown_key", where, "there is no such table of a vehicle", remedy)
-    near = [name for name in _HOMES if name.startswith(f"{table}_")] or difflib.get_close_matches(table, _HOMES, n=1)
+    near = [name for name in _HOMES if name.startswith(f"{table}_")] or difflib.get_close_matches(
+        table, _HOMES, n=1, cutoff=0.75
+    )
     remedy = f"Remove it; the tables are {', '.join(f'[{name}]' for name in KEYS)}"
     if near:
         remedy = f"Write {near[0]!r} below [{_HOMES[near[0]]}]"

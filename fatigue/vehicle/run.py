@@ -9,9 +9,6 @@ like them, and the exact step is what makes it decay. It carries the static part
 it they lose most of their force.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,35 +17,13 @@ from fatigue.vehicle.assembly import LinearVehicle, assembled
 from fatigue.vehicle.definition import Vehicle
 from fatigue.vehicle.elastic import ElasticBody
 from fatigue.vehicle.in_time.contact import contact_of, worn_flag
-from fatigue.vehicle.in_time.recorded import accelerations, moved
+from fatigue.vehicle.in_time.recorded import Ride, accelerations, moved
 from fatigue.vehicle.in_time.stepping import Met
 from fatigue.vehicle.track import LATERAL, Realisation, realised, under_axles
 
+__all__ = ["Ride", "ride"]
+
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Ride:
-    """What a ride leaves, from the end of its start on: n samples, one every ``step_s``.
-
-    Attributes
-    ----------
-    time_s : (n,) since the ride began; the middle of the vehicle has come ``speed_m_s`` times as many metres
-    q : (m, n) modal coordinates of the car body of unit modal mass [m sqrt(kg)]
-    channels : accelerations (n,) by name [m/s2]
-    recovered : further outputs (n,) of the car body by name, in its unit
-    wheelsets_m : (axles, n) lateral displacement over the track [m]
-    worn : (axles, n) how far the contact of an axle is worn, 0 to 1
-    """
-
-    step_s: float
-    speed_m_s: float
-    time_s: Floats
-    q: Floats
-    channels: Mapping[str, Floats]
-    recovered: Mapping[str, Floats]
-    wheelsets_m: Floats
-    worn: Floats
 
 
 def ride(vehicle: Vehicle, body: ElasticBody) -> Ride:

@@ -13,7 +13,7 @@ from scipy import signal, stats
 
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.vehicle.run import Ride
-from fatigue.vibration.alarm import cannot_be_filtered, count_alarms
+from fatigue.vibration.alarm import PERIODS, cannot_be_filtered, count_alarms
 from fatigue.vibration.standards.sperling import EXPONENT, Direction, comfort_weight
 
 Floats = NDArray[np.float64]
@@ -164,14 +164,16 @@ def _mean_density(record: Floats, step_s: float) -> float:
 def _in_alarm_band(record: Floats | str, step_s: float) -> Floats | str:
     """A record through the band of the alarm, without delay (Butterworth of order 4, forward and backward).
 
-    A ride is cut out of a longer one, so its ends are not faded, as those of measured records are in ``band_passed``.
+    A ride is cut out of a longer one. Its ends are mirrored: turned over, as ``sosfiltfilt`` does by default, a sine
+    that is cut swings to twice its amplitude there; faded, as in ``band_passed``, the first and last second are lost.
     """
     if isinstance(record, str):
         return record
     reason = cannot_be_filtered(record.size, step_s, BOGIE_HZ)
     if reason is None:
         sos = signal.butter(4, BOGIE_HZ, "bandpass", fs=1.0 / step_s, output="sos")
-        return np.asarray(signal.sosfiltfilt(sos, record))
+        beside = min(round(PERIODS / (BOGIE_HZ[0] * step_s)), record.size - 1)
+        return np.asarray(signal.sosfiltfilt(sos, record, padtype="even", padlen=beside))
     return {
         "above_nyquist": f"steps of {step_s:g} s hold nothing up to {BOGIE_HZ[1]:g} Hz",
         "short": f"the ride is too short for a filter from {BOGIE_HZ[0]:g} Hz on",

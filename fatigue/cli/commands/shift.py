@@ -9,14 +9,13 @@ from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
 from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.known_values import known_values
 from fatigue.cli.main import cli
-from fatigue.cli.numbers import DAMPED
+from fatigue.cli.numbers import DAMPED, numbers_of
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 
 log = logging.getLogger(__name__)
 
 LARGEST = "largest"
-MOST_STEPS = 1000
 
 
 @cli.command()
@@ -63,7 +62,7 @@ def shift(
       fatigue shift result --mode 7 --to-damping 0.01,0.02,0.03 --event "worn 350" --json
     """
     wanted = None if mode == LARGEST else _mode(mode)
-    frequencies, dampings = _numbers(to_hz, "--to"), _numbers(to_damping, "--to-damping")
+    frequencies, dampings = numbers_of(to_hz, "--to"), numbers_of(to_damping, "--to-damping")
     if not frequencies and not dampings:
         raise click.UsageError("Say where the mode moves: --to 12:15:0.5, --to-damping 0.01,0.02, or both.")
     if any(value >= 1.0 for value in dampings):
@@ -102,25 +101,3 @@ def _mode(text: str) -> int:
         return int(text)
     except ValueError:
         raise click.BadParameter(f"{text!r} is no mode id and not 'largest'.", param_hint="--mode") from None
-
-
-def _numbers(text: str | None, option: str) -> tuple[float, ...]:
-    """Numbers above 0 of a list, or of a range from A to B, B included where the step leads there."""
-    if text is None:
-        return ()
-    try:
-        values = _of_range(text) if ":" in text else tuple(float(number) for number in text.split(","))
-    except ValueError:
-        values = ()
-    if not values or not all(0.0 < value < float("inf") for value in values):
-        what = f"{text!r} is no range A:B:STEP with A up to B, nor a list, of numbers above 0"
-        raise click.BadParameter(f"{what}, of {MOST_STEPS} at most.", param_hint=option)
-    return values
-
-
-def _of_range(text: str) -> tuple[float, ...]:
-    first, last, step = (float(number) for number in text.split(":"))
-    if not (step > 0.0 and last >= first and (last - first) / step < MOST_STEPS):
-        raise ValueError(text)
-    steps = int((last - first) / step + 1e-9)
-    return tuple(round(first + i * step, 12) for i in range(steps + 1))

@@ -1,13 +1,19 @@
 """The commands of a study of a vehicle: its analysis graph, and runs of its variants."""
 
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import click
 
 from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
 from fatigue.cli.main import cli
+from fatigue.cli.numbers import ABOVE_ZERO, numbers_of
 from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
+
+Numbers: TypeAlias = tuple[float, ...]
+
+SETTINGS = ("hard", "mid", "soft", "long_wheelbase")
 
 
 @cli.group()
@@ -16,7 +22,95 @@ def study() -> None:
 
     The vehicle is a small linear trailer with worn wheels, described by a vehicle.toml. It is invented; no number of it
     is a property of a real train.
+
+    \b
+    Examples:
+      fatigue study graph vehicle.toml -o graph
+      fatigue study run study.toml -o study
     """
+
+
+@study.command()
+@click.argument("vehicles", metavar="VEHICLE...", type=CASE, nargs=-1, required=True)
+@click.option("-o", "--output", type=FOLDER, metavar="DIR", help="Folder for tables and page, made if not there.")
+@click.option(
+    "--setting",
+    "settings",
+    type=click.Choice(SETTINGS),
+    multiple=True,
+    help="Setting of the suspension instead of that of the file; several are laid side by side.",
+)
+@click.option(
+    "--speeds", metavar="A:B[:STEP]|V,...", help="Speeds of the map [km/h].  [default: 60:700 in steps of 10]"
+)
+@click.option(
+    "--conicities",
+    metavar="A:B[:STEP]|C,...",
+    help="Conicities of the map; without STEP 60 at even ratios.  [default: 0.01:1.2]",
+)
+@click.option(
+    "--at-speed",
+    "at_speeds",
+    type=ABOVE_ZERO,
+    multiple=True,
+    help="Speed [km/h] at which roots are followed over conicity, beside that of the run; may be given several times."
+    "  [default: 350, 380, 420]",
+)
+@click.option(
+    "--at-conicity",
+    "at_conicities",
+    type=ABOVE_ZERO,
+    multiple=True,
+    help="Conicity at which roots are followed over speed, beside that of the contact; may be given several times."
+    "  [default: 0.03, 0.06, 0.1, 0.3, 0.5, 0.7]",
+)
+@click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
+@click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue study graph did not write.")
+@as_json
+@click.pass_obj
+def graph(
+    options: dict[str, bool],
+    vehicles: tuple[Path, ...],
+    output: Path | None,
+    settings: tuple[str, ...],
+    speeds: str | None,
+    conicities: str | None,
+    at_speeds: tuple[float, ...],
+    at_conicities: tuple[float, ...],
+    csv: bool,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Draw the analysis graph: where a vehicle is stable over speed and conicity, and which root takes it away.
+
+    Roots are followed over conicity and over speed and named by the body that moves. Prints stable ranges with the
+    frequency of the root that changes at their ends; with -o, the tables roots, critical and stability and the page
+    graph.html are written into DIR. Several vehicles, or settings of one, are laid side by side.
+
+    \b
+    Examples:
+      fatigue study graph vehicle.toml -o graph
+      fatigue study graph vehicle.toml --setting hard --setting soft --setting long_wheelbase -o graph
+    """
+    if output is None and (csv or force):
+        raise click.UsageError("--csv and --force are about files: name their folder with -o")
+    of_map = _range(speeds, "--speeds"), _range(conicities, "--conicities")
+    from fatigue.study.graph.story import graph as run
+
+    with narrated(quiet=options["quiet"]) as progress:
+        found = run(
+            vehicles,
+            settings,
+            asked=_asked(*of_map, at_speeds, at_conicities),
+            into=output,
+            csv=csv,
+            force=force,
+            progress=progress,
+        )
+    if as_json:
+        print_json(found.as_record())
+    else:
+        say(found.as_text())
 
 
 @study.command()
@@ -96,3 +190,25 @@ def run(
         say(f"error: {problem}", err=True)
     if found.exit_code:
         raise SystemExit(found.exit_code)
+
+
+def _range(text: str | None, option: str) -> Numbers:
+    """Values of an option, ascending; the two ends where they have no step."""
+    ends = text.split(":") if text is not None else []
+    values = numbers_of(",".join(ends) if len(ends) == 2 else text, option)
+    if values and (len(values) < 2 or list(values) != sorted(set(values))):
+        raise click.BadParameter(f"{text!r} is no range: give two values or more that ascend.", param_hint=option)
+    return values
+
+
+def _asked(speeds: Numbers, conicities: Numbers, at_speeds: Numbers, at_conicities: Numbers) -> Any:
+    """What is asked of the graph; what is empty has its default."""
+    from fatigue.study.graph.asked import Asked, conicities_of, speeds_of
+
+    usual = Asked()
+    return Asked(
+        speeds_of(speeds) if speeds else usual.speeds,
+        conicities_of(conicities) if conicities else usual.conicities,
+        at_speeds or usual.at_speeds,
+        at_conicities or usual.at_conicities,
+    )

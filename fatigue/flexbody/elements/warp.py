@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-FLAT = 1e-9  # of the diagonal: less is rounding of the corners
+FLAT = 1e-12  # of the diagonal: less is rounding of the corners
 
 
 def warp(corners: Floats, axes: Floats) -> Floats:

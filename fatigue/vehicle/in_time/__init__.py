@@ -1,1 +1,1 @@
-"""A vehicle in time: what linear contact leaves out, one step, limit cycles, histories thinned for the assessor."""
+"""A vehicle in time: what linear contact leaves out, one step, what is kept of the states, histories thinned."""

@@ -1,4 +1,4 @@
-"""What is kept of the states of a vehicle, and where it has left the track."""
+"""What is kept of the states of a vehicle, what a ride leaves of it, and where it has left the track."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -14,6 +14,30 @@ from fatigue.vehicle.in_time.stepping import AxleRows, Met, exact_step, states
 Floats = NDArray[np.float64]
 
 OFF_TRACK_M = 0.1  # of a wheelset, a dozen times the clearance of its flange: small motions say nothing beyond it
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ride:
+    """What a ride leaves, from the end of its start on: n samples, one every ``step_s``.
+
+    Attributes
+    ----------
+    time_s : (n,) since the ride began; the middle of the vehicle has come ``speed_m_s`` times as many metres
+    q : (m, n) modal coordinates of the car body of unit modal mass [m sqrt(kg)]
+    channels : accelerations (n,) by name [m/s2]
+    recovered : further outputs (n,) of the car body by name, in its unit
+    wheelsets_m : (axles, n) lateral displacement over the track [m]
+    worn : (axles, n) how far the contact of an axle is worn, 0 to 1
+    """
+
+    step_s: float
+    speed_m_s: float
+    time_s: Floats
+    q: Floats
+    channels: Mapping[str, Floats]
+    recovered: Mapping[str, Floats]
+    wheelsets_m: Floats
+    worn: Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -19,6 +19,7 @@ Band: TypeAlias = tuple[float, float]
 EXPONENT = 6.67  # of the filter form: Wz = (sum)^(1/6.67)
 COMFORT_FACTOR: Mapping[str, float] = {"z": 0.588, "y": 0.737}
 EDGE = 0.005  # how far beyond the band the filter form looks, so that a sine at an edge of it counts whole
+EXACTLY = 1e-9  # a frequency at an end of the band lies in it, however it was rounded
 HANN_CUBES = 1.25  # sum of the cubes of what a Hann window makes of a line: 1 and two neighbours of 1/2
 
 
@@ -56,6 +57,21 @@ def wz_filter(values: Floats, step: float, direction: Direction, band: Band, *, 
     inside = (frequency >= band[0] * (1 - EDGE)) & (frequency <= band[1] * (1 + EDGE)) & (frequency > 0)
     weight = ride_quality_weight(frequency[inside]) if of_vehicle else comfort_weight(frequency[inside], direction)
     return float((2e4 * (weight**2 @ mean_square[inside])) ** (1 / EXPONENT))
+
+
+def wz_of_density(frequency: Floats, density: Floats, direction: Direction, band: Band) -> float:
+    """Wz of a one-sided density G (n,) [(m/s2)2/Hz] in the filter form, ``(2e4 integral of B^2 G df)^(1/6.67)``.
+
+    The integral is that of the trapezoidal rule over the frequencies (n,) [Hz] in the band, its ends included.
+
+    >>> f = np.linspace(0.0, 50.0, 5001)
+    >>> round(wz_of_density(f, np.full(f.size, 1e-3), "z", (0.5, 40.0)), 3)
+    1.876
+    """
+    inside = (frequency >= band[0] * (1 - EXACTLY)) & (frequency <= band[1] * (1 + EXACTLY))
+    f = frequency[inside]
+    weighted = comfort_weight(f, direction) ** 2 * density[inside]
+    return float((2e4 * np.trapezoid(weighted, f)) ** (1 / EXPONENT))
 
 
 def line_weight(frequency: Floats, direction: Direction) -> Floats:

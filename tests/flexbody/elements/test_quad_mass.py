@@ -1,7 +1,7 @@
 """Consistent mass: of a rigid motion it is that of the surface exactly."""
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fatigue.flexbody.elements.bilinear import jacobians
@@ -27,6 +27,7 @@ def test_inertia_of_a_plate():
     np.testing.assert_allclose(found, np.diag(exact), atol=1e-12 * max(exact))
 
 
+@settings(max_examples=40, deadline=None)
 @given(st.lists(st.floats(-2.0, 2.0), min_size=8, max_size=8))
 def test_inertia_of_any_quad_is_that_of_its_two_triangles(moved):
     """Any convex quad has the inertia of the triangles that make it, within rounding, and a positive mass matrix."""

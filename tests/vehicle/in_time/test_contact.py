@@ -28,7 +28,7 @@ SATURATED = contact_of(Vehicle(contact=ContactKeys(saturation_mu=0.35)), SPEED)
 
 def test_constants_are_those_of_the_keys_and_of_the_setting():
     """Lengths are in metres; the worn conicity of a setting gives way to one of its own."""
-    assert HARD == (0.1, 1.2, 0.002, 10e6, 9e6, 0.7465, 0.46, 0.008, 5e6, np.inf, SPEED)
+    assert list(HARD) == [0.1, 1.2, 0.002, 10e6, 9e6, 0.7465, 0.46, 0.008, 5e6, np.inf, SPEED]
     assert contact_of(Vehicle(suspension=Suspension(setting="soft")), SPEED).worn_conicity == 0.9
     own = Vehicle(suspension=Suspension(setting="soft"), contact=ContactKeys(worn_conicity=0.5))
     assert contact_of(own, SPEED).worn_conicity == 0.5

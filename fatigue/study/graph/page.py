@@ -1,0 +1,196 @@
+"""The page of an analysis graph: one HTML file that needs nothing but itself, in the look of the report."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from fatigue import __version__
+from fatigue.report.environment import environment
+from fatigue.report.figures import CONFIG, TEMPLATE
+from fatigue.report.sections.cells import Cell, Heading, PageTable, num, text
+from fatigue.report.sections.embed import Figures, Shown, embedded
+from fatigue.study.graph.asks import asks_table
+from fatigue.study.graph.figures.along import along_figure
+from fatigue.study.graph.figures.colours import WORDS, palette
+from fatigue.study.graph.figures.energy import energy_figure, that_cross
+from fatigue.study.graph.figures.maps import boundaries_figure, stability_figure
+from fatigue.study.graph.figures.plane import plane_figure
+from fatigue.study.graph.line import Line
+from fatigue.study.graph.summary import Graph, ranges_of, value_of
+from fatigue.study.graph.vehicle_graph import VehicleGraph
+from fatigue.study.vehicle_keys import KEYS, OF_SETTING
+from fatigue.vehicle.settled import settled
+
+PAGE = "graph.html"
+
+
+def graph_page(found: Graph) -> str:
+    """Return the page as text."""
+    figs = Figures()
+    several = len(found.vehicles) > 1
+    compared = _compared(found, figs) if several else None
+    context = {
+        "title": ", ".join(of.name for of in found.vehicles),
+        "version": __version__,
+        "key": _key(found),
+        "compared": compared,
+        "vehicles": [_vehicle(of, found, figs, number) for number, of in enumerate(found.vehicles, 1)],
+        "asks": asks_table(found),
+        "parameters": _parameters(found),
+        "config": embedded(CONFIG),
+        "template": embedded(TEMPLATE.to_plotly_json()),
+        "plotly": Markup(get_plotlyjs()),
+    }
+    return environment("fatigue.study").get_template("graph.html").render(context)
+
+
+def _key(found: Graph) -> list[dict[str, str]]:
+    """The first numbers of the page: range of conicity and what ends it, of one vehicle or of each."""
+    rows = []
+    for of in found.vehicles:
+        numbers = found.numbers[of.name]
+        low, high = (numbers[f"conicity_{end}"][0] for end in ("min", "max"))
+        hz = numbers["hunting_hz_at_crossing"][0]
+        is_none = math.isnan(low)
+        rows.append(
+            {
+                "name": of.name,
+                "at": f"{of.vehicle.run.speed_km_h:g} km/h",
+                "range": "unstable" if is_none else f"{low:.3g} – {high:.3g}",
+                "then": "" if math.isnan(hz) else f"then hunting at {hz:.1f} Hz",
+            }
+        )
+    return rows
+
+
+def _compared(found: Graph, figs: Figures) -> Shown:
+    caption = (
+        "Where each vehicle stops being stable, over speed and equivalent conicity. Circles: at the speed of the run, "
+        "with the frequency of the root that loses stability there; star: contact of the run."
+    )
+    return figs.add("boundaries", boundaries_figure(found.vehicles), caption, wide=True, of_curve=False)
+
+
+def _vehicle(of: VehicleGraph, found: Graph, figs: Figures, number: int) -> dict[str, Any]:
+    under = figs.under(f"v{number}-")
+    first, speed = of.over_conicity[0], of.over_speed[0]
+    crossing = that_cross(first)
+    colours = palette((first, speed, *of.lines))
+    return {
+        "id": f"vehicle-{number}",
+        "name": of.name,
+        "said": _said(of),
+        "map": under.add(
+            "map",
+            stability_figure(of),
+            "Least damping of the roots of car body, bogies and wheelsets. Black: the boundary of stability, with the "
+            "frequency of the root that changes there. Star: speed and conicity of the run.",
+            wide=True,
+            of_curve=False,
+        ),
+        "own": _critical((first, speed), f"own-{number}"),
+        "critical": _critical(of.lines, f"critical-{number}"),
+        "along": [
+            under.add(
+                f"over-{line.along}",
+                along_figure(line, own, colours),
+                f"Damping and frequency of the roots that {line.along} moves, at {_stays(line)}. "
+                "Red: the vehicle is unstable; dotted: its run.",
+                of_curve=False,
+            )
+            for line, own in ((first, of.vehicle.contact.conicity), (speed, of.vehicle.run.speed_km_h))
+        ],
+        "planes": [
+            under.add(
+                f"plane-{lines[0].along}",
+                plane_figure(lines, colours),
+                f"Root loci over {lines[0].along}: points grow with it, some say at which. Left of zero a root grows. "
+                "The list above the figure chooses the other lines.",
+                of_curve=False,
+            )
+            for lines in (of.over_conicity, of.over_speed)
+        ],
+        "energy": under.add(
+            "energy",
+            energy_figure(first, crossing),
+            "Who has the kinetic energy of the roots that lose stability, over conicity. "
+            "Dotted: where the vehicle gains or loses stability.",
+            wide=True,
+            of_curve=False,
+        )
+        if crossing
+        else None,
+    }
+
+
+def _stays(line: Line) -> str:
+    return f"{line.at:g} km/h" if line.along == "conicity" else f"a conicity of {line.at:g}"
+
+
+def _said(of: VehicleGraph) -> list[str]:
+    """Sentences about one vehicle."""
+    first, speed = of.over_conicity[0], of.over_speed[0]
+    return [
+        f"At {first.at:g} km/h, the speed of its run, it is stable for {ranges_of(first)}.",
+        f"At {speed.at:g}, the conicity of its contact, it is stable for {ranges_of(speed)}.",
+    ]
+
+
+def _critical(lines: Sequence[Line], id_: str) -> PageTable:
+    """Crossings of some lines; a line without any has a row with what is stable."""
+    headings = (
+        Heading("at", numeric=False),
+        Heading("stable", numeric=False),
+        Heading("crossing"),
+        Heading("frequency", "Hz"),
+        Heading("from there on", numeric=False),
+        Heading("root", numeric=False),
+        Heading("energy", numeric=False),
+    )
+    rows = []
+    for line in lines:
+        head = (Cell(_stays(line)), Cell(ranges_of(line)))
+        for crossing in line.crossings:
+            of_root, hz = crossing.root.of, crossing.root.frequency_hz
+            unit = "" if line.along == "conicity" else " km/h"
+            change = "unstable" if crossing.change == "loses" else "stable"
+            share = f"{100.0 * of_root.shares[of_root.group]:.0f} % {WORDS[of_root.group]}"
+            at = Cell(f"{value_of(line, crossing.at)}{unit}", crossing.at)
+            rows.append((*head, at, Cell(f"{hz:.2f}", hz), text(change), text(of_root.name), text(share)))
+        if not line.crossings:
+            rows.append((*head, num(None), num(None), text(None), text(None), text(None)))
+    return PageTable(id_, headings, tuple(rows))
+
+
+def _parameters(found: Graph) -> PageTable:
+    """Values in which the vehicles differ from the reference, or from one another; those of the setting always."""
+    settings = [settled(of.vehicle) for of in found.vehicles]
+    rows = []
+    for table, keys in KEYS.items():
+        for name, key in keys.items():
+            dotted = f"{table}.{name}"
+            values = [getattr(getattr(of.vehicle, table), name) for of in found.vehicles]
+            if dotted in OF_SETTING or name == "worn_conicity":
+                values = [getattr(setting, name) for setting in settings]
+            if dotted in _ALWAYS or len(set(map(str, values))) > 1:
+                rows.append((Cell(dotted), *(_cell(value) for value in values), Cell(key.origin), Cell(key.meaning)))
+    names = tuple(Heading(of.name) for of in found.vehicles)
+    headings = (
+        Heading("key", numeric=False),
+        *names,
+        Heading("origin", numeric=False),
+        Heading("what it is", numeric=False),
+    )
+    return PageTable("parameters", headings, tuple(rows))
+
+
+_ALWAYS = (*OF_SETTING, "suspension.setting", "run.speed_km_h", "contact.conicity", "car.body", "converter.fe_hz")
+
+
+def _cell(value: Any) -> Cell:
+    if value is None:
+        return Cell("–")
+    return num(value) if isinstance(value, int | float) else Cell(str(value))
