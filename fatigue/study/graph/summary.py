@@ -85,7 +85,7 @@ def ranges_of(line: Line, *, with_hz: bool = False) -> str:
             said.append(f"from {first}{unit} on")
         else:
             said.append(f"{first} to {last}{unit}")
-    return f"{'conicities' if line.along == 'conicity' else 'speeds'} {', '.join(said)}"
+    return f"{'conicities' if line.along == 'conicity' else 'speeds'} {' and '.join(said)}"
 
 
 def value_of(line: Line, value: float) -> str:
