@@ -44,17 +44,8 @@ def story(of: Studied) -> Iterator[str]:
 def _combined(of: Studied) -> str:
     """How variants are made of what is varied."""
     sizes = [len(one.values) for one in of.varied]
-    full = of.combine == "full"
-    made = math.prod(sizes) if full else 1 + sum(size - 1 for size in sizes)
-    how = (
-        ""
-        if len(sizes) == 1
-        else ", in combination"
-        if full and made != len(of.variants)
-        else ", in all combinations"
-        if full
-        else ", one at a time"
-    )
+    made = math.prod(sizes) if of.combine == "full" else 1 + sum(size - 1 for size in sizes)
+    how = "" if len(sizes) == 1 else ", in combination" if of.combine == "full" else ", one at a time"
     return how if made == len(of.variants) else f"{how}, beside variants stated by themselves"
 
 
