@@ -65,7 +65,9 @@ def _told(tree: ast.Module) -> Iterator[str]:
 
 def _problems(node: ast.AST) -> Iterator[ast.Call]:
     """Problems that are made inside a node."""
-    return (call for call in ast.walk(node) if isinstance(call, ast.Call) and _name(call.func) == "Problem")
+    return (
+        call for call in ast.walk(node) if isinstance(call, ast.Call) and call.args and _name(call.func) == "Problem"
+    )
 
 
 def _of_name(name: str, function: ast.FunctionDef) -> Iterator[str]:
