@@ -15,6 +15,11 @@ from fatigue.cli import cli
 from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
+from fatigue.results.dictionary.graph import GRAPH
+from fatigue.study.vehicle_file import keys_of
+from fatigue.study.vehicle_keys import KEYS, Key
+from fatigue.study.vehicle_text import toml_value
+from fatigue.vehicle.definition import Vehicle
 from tests.problem_codes import codes
 
 ROOT = Path(__file__).parents[1]
@@ -38,6 +43,8 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("verify", "Result folders and documents"),
     ("decide", "Bench programmes"),
     ("bench", "Bench programmes"),
+    ("study", "Studies of a vehicle"),
+    ("vehicle", "Studies of a vehicle"),
     ("", "Commands and arguments"),
 )
 CASE_TABLES = {  # of case.toml, and the models that describe them
@@ -61,8 +68,16 @@ CASE_TABLES = {  # of case.toml, and the models that describe them
 
 
 def commands() -> dict[str, click.Command]:
-    """Commands of the program in the order of their names, the program itself under the empty one."""
-    return {"": cli, **dict(sorted(cli.commands.items()))}
+    """Commands of the program in the order of their names, the program itself under the empty one.
+
+    Those of a group stand behind it, as ``study graph``.
+    """
+    found: dict[str, click.Command] = {"": cli}
+    for name, command in sorted(cli.commands.items()):
+        found[name] = command
+        if isinstance(command, click.Group):
+            found |= {f"{name} {part}": command.commands[part] for part in sorted(command.commands)}
+    return found
 
 
 def options(command: click.Command) -> list[click.Option]:
@@ -138,10 +153,34 @@ def key_text() -> str:
     return "\n\n".join(parts)
 
 
+def vehicle_key_text() -> str:
+    """Keys of ``vehicle.toml`` with the values of the reference trailer, their origin and range, table by table."""
+    reference, parts = keys_of(Vehicle()), []
+    for table, keys in KEYS.items():
+        rows = [
+            f"| `{name}` | {_value_of(reference[f'{table}.{name}'])} | {key.origin} | {key.meaning}{_allowed(key)} |"
+            for name, key in keys.items()
+        ]
+        lines = [f"### Vehicle: [{table}]", "", "| key | value | origin | what it is |", "|---|---|---|---|", *rows]
+        parts.append("\n".join(lines))
+    return "\n\n".join(parts)
+
+
+def _value_of(value: object) -> str:
+    return "" if value is None else f"`{toml_value(value)}`"
+
+
+def _allowed(key: Key) -> str:
+    """Choices of a key, or its range."""
+    if key.choices and key.choices[0] not in key.meaning:
+        return ": " + ", ".join(f"`{choice}`" for choice in key.choices)
+    return "" if key.choices or str(key.range) == "finite" else f"; {key.range}"
+
+
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS | CLAIMED).items():
+    for table, its in (TABLES | BASIS | GRAPH | CLAIMED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])
@@ -168,6 +207,7 @@ def with_collected(page: str) -> str:
     collected = {
         "commands": command_text(),
         "keys": key_text(),
+        "vehicle keys": vehicle_key_text(),
         "columns": column_text(),
         "codes": refusal_text(page),
     }

@@ -35,7 +35,7 @@ def _row(table: str, name: str, key: Key, vehicle: Vehicle, reference: Vehicle) 
     if key.choices and key.choices[0] not in key.meaning:
         about += f": {', '.join(key.choices)}"
     if value is not None:
-        return f"{name} = {_toml(value)}", about
+        return f"{name} = {toml_value(value)}", about
     if key.none:
         return f'{name} = "{key.none}"', about
     return f"# {name} = {_unset(table, name, vehicle)}", about
@@ -44,16 +44,16 @@ def _row(table: str, name: str, key: Key, vehicle: Vehicle, reference: Vehicle) 
 def _unset(table: str, name: str, vehicle: Vehicle) -> str:
     """What a key that is left out stands for."""
     if f"{table}.{name}" in OF_SETTING or name == "worn_conicity":
-        return _toml(getattr(SETTINGS[vehicle.suspension.setting], name))
+        return toml_value(getattr(SETTINGS[vehicle.suspension.setting], name))
     return "0.3"
 
 
-def _toml(value: Any) -> str:
-    """Value as TOML writes it."""
+def toml_value(value: Any) -> str:
+    """Value as TOML writes it, large and small numbers with an exponent."""
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
     if isinstance(value, tuple):
-        return f"[{', '.join(map(_toml, value))}]"
+        return f"[{', '.join(map(toml_value, value))}]"
     if isinstance(value, int):
         return str(value)
     text = repr(value)

@@ -91,8 +91,9 @@ def _vehicle(of: VehicleGraph, found: Graph, figs: Figures, number: int) -> dict
             wide=True,
             of_curve=False,
         ),
-        "own": _critical((first, speed), f"own-{number}"),
-        "critical": _critical(of.lines, f"critical-{number}"),
+        "own": _crossings((first, speed), f"own-{number}"),
+        "ranges": _ranges(of.lines, f"ranges-{number}"),
+        "critical": _crossings(of.lines, f"critical-{number}"),
         "along": [
             under.add(
                 f"over-{line.along}",
@@ -139,30 +140,32 @@ def _said(of: VehicleGraph) -> list[str]:
     ]
 
 
-def _critical(lines: Sequence[Line], id_: str) -> PageTable:
-    """Crossings of some lines; a line without any has a row with what is stable."""
+def _crossings(lines: Sequence[Line], id_: str) -> PageTable:
+    """Crossings of some lines: which root, how fast, and what the vehicle is from there on."""
     headings = (
         Heading("at", numeric=False),
-        Heading("stable", numeric=False),
         Heading("crossing"),
-        Heading("frequency", "Hz"),
         Heading("from there on", numeric=False),
+        Heading("frequency", "Hz"),
         Heading("root", numeric=False),
-        Heading("energy", numeric=False),
+        Heading("most of its energy", numeric=False),
     )
     rows = []
     for line in lines:
-        head = (Cell(_stays(line)), Cell(ranges_of(line)))
+        unit = "" if line.along == "conicity" else " km/h"
         for crossing in line.crossings:
             of_root, hz = crossing.root.of, crossing.root.frequency_hz
-            unit = "" if line.along == "conicity" else " km/h"
             change = "unstable" if crossing.change == "loses" else "stable"
             share = f"{100.0 * of_root.shares[of_root.group]:.0f} % {WORDS[of_root.group]}"
             at = Cell(f"{value_of(line, crossing.at)}{unit}", crossing.at)
-            rows.append((*head, at, Cell(f"{hz:.2f}", hz), text(change), text(of_root.name), text(share)))
-        if not line.crossings:
-            rows.append((*head, num(None), num(None), text(None), text(None), text(None)))
+            rows.append((Cell(_stays(line)), at, text(change), Cell(f"{hz:.2f}", hz), text(of_root.name), text(share)))
     return PageTable(id_, headings, tuple(rows))
+
+
+def _ranges(lines: Sequence[Line], id_: str) -> PageTable:
+    """Stable ranges of some lines."""
+    rows = tuple((Cell(_stays(line)), Cell(ranges_of(line))) for line in lines)
+    return PageTable(id_, (Heading("at", numeric=False), Heading("stable for", numeric=False)), rows)
 
 
 def _parameters(found: Graph) -> PageTable:

@@ -78,14 +78,14 @@ def ranges_of(line: Line, *, with_hz: bool = False) -> str:
     unit = "" if line.along == "conicity" else " km/h"
     said = []
     for a, b in line.stable:
-        first, last = (f"{value_of(line, end)}{hz.get(end, '')}" for end in (a, b))
+        first, last = (f"{value_of(line, end)}{unit}{hz.get(end, '')}" for end in (a, b))
         if a == low and b < high:
-            said.append(f"up to {last}{unit}")
+            said.append(f"up to {last}")
         elif b == high and a > low:
-            said.append(f"from {first}{unit} on")
+            said.append(f"from {first} on")
         else:
-            said.append(f"{first} to {last}{unit}")
-    return f"{'conicities' if line.along == 'conicity' else 'speeds'} {', '.join(said)}"
+            said.append(f"{first.removesuffix(unit)} to {last}")
+    return f"{'conicities' if line.along == 'conicity' else 'speeds'} {' and '.join(said)}"
 
 
 def value_of(line: Line, value: float) -> str:

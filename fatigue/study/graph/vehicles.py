@@ -4,8 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from fatigue.errors import CaseError, refuse
-from fatigue.errors import Problem as Mistake
+from fatigue.errors import CaseError, Problem, refuse
 from fatigue.study.vehicle_file import load_vehicle
 from fatigue.vehicle.definition import Vehicle
 
@@ -19,7 +18,7 @@ def named_vehicles(files: Sequence[Path], settings: Sequence[str] = ()) -> dict[
     ------
     CaseError : the mistakes of all files
     """
-    problems: list[Mistake] = []
+    problems: list[Problem] = []
     found: dict[str, Vehicle] = {}
     for file, name in zip(files, _names(files), strict=True):
         for setting in settings or (None,):

@@ -30,8 +30,17 @@ def stability_figure(of: VehicleGraph) -> go.Figure:
     percent = np.clip(100.0 * its.damping, -MOST, MOST)
     field = {"x": its.speeds, "y": its.conicities, "type": "contour", "hoverinfo": "skip"}
     bar = colour_bar(
-        "least damping [%]", tickvals=[-12, -6, 0, 6, 12], ticktext=["≤ −12", "−6", "0", "6", "≥ 12"], len=0.9
+        "least damping [%]",
+        tickvals=[-12, -6, 0, 6, 12],
+        ticktext=["≤ −12", "−6", "0", "6", "≥ 12"],
+        orientation="h",
+        y=1.0,
+        yanchor="bottom",
+        x=0.0,
+        xanchor="left",
+        len=0.62,
     )
+    bar["title"]["side"] = "top"
     colours = {"zmin": -MOST, "zmax": MOST, "colorscale": DAMPING, "colorbar": bar}
     steps = {"start": -MOST, "end": MOST, "size": 1.0}
     data = [
@@ -44,12 +53,12 @@ def stability_figure(of: VehicleGraph) -> go.Figure:
     crossed = [(*told, INK) for told in _told_crossings(of)]
     return figure(
         data,
-        height=520,
+        height=570,
         xaxis=axis("speed [km/h]", range=_ends(its.speeds), showgrid=False),
         yaxis=_conicity_axis(its.conicities),
         annotations=[*_regions(its), *_labels(crossed, its)],
         showlegend=False,
-        margin={"l": 64, "r": 8, "t": 14, "b": 48},
+        margin={"l": 64, "r": 12, "t": 70, "b": 48},
     )
 
 
@@ -216,6 +225,7 @@ def _regions(its: StabilityMap) -> Iterator[Trace]:
                 "y": float(np.log10(its.conicities[i])),
                 "text": f"<b>{_hunter(its, inside)}</b><br>{hz.min():.1f} to {hz.max():.1f} Hz",
                 "showarrow": False,
+                "xanchor": "right" if its.speeds[j] > its.speeds[0] + 0.7 * np.ptp(its.speeds) else "center",
                 "font": {"size": 12, "color": PAPER if its.damping[inside].mean() < -0.04 else INK},
             }
 
