@@ -28,7 +28,7 @@ class _Interrupted(Exception):
     """An interrupted command; click would turn the interrupt itself into a line of its own."""
 
     def __init__(self, cause: KeyboardInterrupt, command: str | None) -> None:
-        super().__init__(GOES_ON if command == "assess" else AGAIN)
+        super().__init__(GOES_ON if command in ("assess", "study") else AGAIN)
         self.cause = cause
 
 

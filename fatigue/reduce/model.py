@@ -15,14 +15,7 @@ from fatigue.readers.model.read import BodyModel, read_model
 from fatigue.readers.model.shells import read_shell_mesh
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.tables import open_table
-from fatigue.reduce.plausible import (
-    element_problems,
-    loose_rows,
-    loose_shells,
-    material_problems,
-    other_thickness,
-    size_problems,
-)
+from fatigue.reduce.plausible import material_problems, other_thickness, size_problems
 from fatigue.reduce.welds import Welds, read_welds_of, table_in
 from fatigue.stages import stage
 
@@ -73,8 +66,7 @@ def read_given(folder: Path, properties: Path | None, welds: Path | None, units:
     assert given.mesh is not None
     nodes, elements, of_shells = given.files
     body, pid = given.body, given.mesh.pid
-    refuse(DataError, [*material_problems(body, pid, of_shells.name), *element_problems(body, elements.name)])
-    refuse(DataError, loose_shells(body, elements.name))
+    refuse(DataError, material_problems(body, pid, of_shells.name))
     warnings = [*given.warnings]
     if properties is None:
         warnings += other_thickness(body, pid, _thickness(of_shells), elements, of_shells)
@@ -91,7 +83,6 @@ def read_given(folder: Path, properties: Path | None, welds: Path | None, units:
 def _of_matrices(folder: Path, given: BodyModel, matrices: Structure, welds: Path | None) -> Model:
     """Model of K and M, which have no elements and so no weld forces."""
     K, M = given.files[0].name, given.files[1].name
-    refuse(DataError, loose_rows(matrices, K))
     units = "Give K and M in N, mm, t, or name their units with --units; places are in mm"
     refuse(DataError, size_problems(matrices.xyz, _mass(matrices), f"{M} and the places of nodes", units))
     has_welds = any(table_in(welds or folder, name) is not None for name in ("welds", "weld_nodes", "weld_elements"))

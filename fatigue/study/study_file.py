@@ -20,7 +20,7 @@ from fatigue.study.toml_file import read_toml
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 WHAT = "a study (study.toml)"
 TAKEN = ("seed", "run", "study", "event", "variant")  # placeholders of every command and pattern
-UNIT = re.compile(r"_(?:hz|km_h|kg_m2|t_mm2|Nm_rad|Ns_m|N_m|m_s2|per_1000_km|mm|MPa|Nm|kg|km|m|N|s|t)$")
+UNIT = re.compile(r"(?<!per_1000)_(?:hz|km_h|kg_m2|t_mm2|Nm_rad|Ns_m|N_m|m_s2|mm|MPa|Nm|kg|km|m|N|s|t)$")
 
 Value = float | int | str | bool | list[Any]
 Label = Annotated[str, Field(min_length=1)]

@@ -77,7 +77,7 @@ def run_study(
     stage("trying every variant of the study")
     files, plan, claims = planned_study(study)
     asked = _chosen(study, plan, given_names(only, "only"))
-    inputs = list(_inputs(study))
+    inputs = [study.resolve(name) for name in _inputs(study)]
     refuse_foreign(folder, force=force, inputs=inputs)
     runs = planned_runs(study, files, plan, folder)
     refuse(DataError, _missing_files(runs))
@@ -145,7 +145,7 @@ def _written(
     record = {
         "title": study.title,
         "seeds": list(study.seeds),
-        "inputs": {path.name: sha256(path) for path in _inputs(study)},
+        "inputs": {name: sha256(study.resolve(name)) for name in _inputs(study)},
         "variants": [{"name": p.variant.name, "folder": p.folder, "changes": dict(p.changes)} for p in plan.variants],
         "warnings": [asdict(problem) for problem in found.warnings],
         "failures": [asdict(problem) for problem in found.failures],
@@ -182,12 +182,10 @@ def _base_problems(files: BaseFiles) -> Iterator[Problem]:
             yield from error.problems
 
 
-def _inputs(study: Study) -> Iterator[Path]:
-    """Files that the study names: none of them is overwritten."""
-    yield study.path
-    for name in (study.base.vehicle, study.base.case, *study.source.inputs):
-        if name is not None:
-            yield study.resolve(name)
+def _inputs(study: Study) -> Iterator[str]:
+    """Files that the study names, and its own: none of them is overwritten."""
+    yield study.path.name
+    yield from filter(None, (study.base.vehicle, study.base.case, *study.source.inputs))
 
 
 def _chosen(study: Study, plan: Plan, only: Collection[str]) -> set[str]:

@@ -55,13 +55,13 @@ def simulation_of(
         vehicle = files.changed_vehicle(asked.changes)
         assert vehicle is not None
         vehicle = replace(vehicle, run=replace(vehicle.run, seed=asked.seed))
-        body = {str(path.name): hashes.of(path) for path in body_inputs(vehicle)}
+        body = {path.name: hashes.of(path) for path in body_inputs(vehicle)}
         tables = asdict(vehicle)
         tables["car"].pop("body")
         record = {"vehicle": tables, "body": body, "rate_hz": study.source.rate_hz, "has_case": case is not None}
     else:
         words = command.words_of(study, asked, folder)
-        inputs = {path.name: hashes.of(path) for path in command.read_by(study, words)}
+        inputs = sorted((path.name, hashes.of(path)) for path in command.read_by(study, words))
         record = {"command": study.source.command, "inputs": inputs, "told": command.told(study, asked)}
     return Simulation(asked, case, key_of({"simulation": record}), folder)
 
