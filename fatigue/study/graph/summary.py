@@ -86,7 +86,8 @@ def ranges_of(line: Line, *, with_hz: bool = False) -> str:
         elif b == high and a > low:
             said.append(f"from {first} on")
         else:
-            said.append(f"{first.removesuffix(unit)} to {last}")
+            every = ", all that were looked at" if (a, b) == (low, high) else ""
+            said.append(f"{first.removesuffix(unit)} to {last}{every}")
     return f"{'conicities' if line.along == 'conicity' else 'speeds'} {' and '.join(said)}"
 
 
