@@ -26,6 +26,11 @@ OF_GRAPH = {
     "least_damping": "-",
     "least_damping_hz": "Hz",
     "worn_hunting_hz": "Hz",
+    "converter_in_series_hz": "Hz",
+    "converter_coupled_hz": "Hz",
+    "converter_coupled_share": "-",
+    "converter_running_hz": "Hz",
+    "converter_running_damping": "-",
 }
 """Numbers of the analysis graph and their units."""
 
