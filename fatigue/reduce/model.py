@@ -17,7 +17,7 @@ from fatigue.readers.model.read import BodyModel, read_model
 from fatigue.readers.model.shells import read_shell_mesh
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.tables import open_table
-from fatigue.reduce.plausible import material_problems, other_thickness, size_problems
+from fatigue.reduce.plausible import mass_problems, material_problems, other_thickness, size_problems
 from fatigue.reduce.welds import Welds, read_welds_of, table_in
 from fatigue.stages import stage
 
@@ -85,6 +85,7 @@ def read_given(folder: Path, properties: Path | None, welds: Path | None, units:
 def _of_matrices(folder: Path, given: BodyModel, matrices: Structure, welds: Path | None) -> Model:
     """Model of K and M, which have no elements and so no weld forces."""
     K, M = given.named
+    refuse(DataError, mass_problems(matrices, M))
     units = "Give K and M in N, mm, t, or name their units with --units; places are in mm"
     refuse(DataError, size_problems(matrices.xyz, _mass(matrices), f"{M} and the places of nodes", units))
     has_welds = any(table_in(welds or folder, name) is not None for name in ("welds", "weld_nodes", "weld_elements"))
