@@ -7,7 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import Problem
+from fatigue.flexbody.factor import row_name
 from fatigue.flexbody.shell_mesh import ShellMesh
+from fatigue.flexbody.structure import Structure
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -16,6 +18,7 @@ STIFFEST = 1.5e6  # MPa: diamond has 1.1e6
 HARD = 300.0  # MPa: a body whose stiffest part is softer carries no vehicle; metals in GPa stay below
 DENSEST = 2.3e-8  # t/mm3: osmium
 LIGHTEST = 1e-13  # t/mm3 of the box around a body: a tenth of air
+INDEFINITE = 1e-9  # of the largest mass: files are written with some digits
 THIN = 1e-2  # of its longest side: what a flat body counts as thick
 UNITS_OF_E = {"Pa": 1e6, "GPa": 1e-3}  # how many of them are 1 MPa
 UNITS_OF_RHO = {"kg/m3": 1e12, "g/cm3": 1e9, "kg/mm3": 1e3}  # 1 t/mm3
@@ -62,6 +65,22 @@ def size_problems(xyz: Floats, mass_t: float, where: str, units: str) -> Iterato
         than = "heavier than osmium" if density >= DENSEST else "lighter than air"
         what = f"{mass_t:.4g} t in a box of {size} mm are {than}"
         yield Problem("other_unit", where, what, units)
+
+
+def mass_problems(structure: Structure, file: str) -> Iterator[Problem]:
+    """Refusal of a mass matrix that gives some motion a negative energy: ``M_ij^2 > M_ii M_jj`` of two of its rows."""
+    M = structure.M.tocoo()
+    i, j = M.coords
+    diagonal = structure.M.diagonal()
+    own = np.sqrt(diagonal[i] * diagonal[j])
+    over = np.abs(M.data) - own
+    if over.size and np.any(over > INDEFINITE * diagonal.max()):
+        at = int(over.argmax())
+        a, b = sorted((int(i[at]), int(j[at])))
+        where = f"{file}: {row_name(structure, a)} with {row_name(structure, b)}"
+        what = f"{M.data[at]:.4g} between them is above {own[at]:.4g}, the root of their own: some motion has a "
+        what += "negative mass"
+        yield Problem("not_positive", where, what, "Export M again, and its rows in the order of dof")
 
 
 def _and_more(wrong: NDArray[np.bool_]) -> str:

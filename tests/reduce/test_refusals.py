@@ -200,6 +200,12 @@ def test_matrices_give_the_same_basis_without_weld_forces(tmp_path, body):
     assert "no case" in done.as_text()
 
 
+def coupled(M, i, j):
+    """Mass matrix with more between two rows than they have themselves."""
+    size = 10.0 * M[i, i]
+    return M + sparse.csc_array(([size, size], ([i, j], [j, i])), shape=M.shape)
+
+
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
@@ -208,11 +214,12 @@ def test_matrices_give_the_same_basis_without_weld_forces(tmp_path, body):
             r"K.npz: row 4, column 41: .* not symm",
         ),
         (lambda K, M: (K, -M), "below 0"),
+        (lambda K, M: (K, coupled(M, 60, 240)), r"node 11, x with node 41, x: .* negative mass"),
         (lambda K, M: (K, 1e6 * M), "heavier than osmium"),
         (lambda K, M: (K + sparse.diags_array(np.full(K.shape[0], 50.0)), M), "resists a rigid motion"),
         (lambda K, M: (K, M[:-1, :-1]), "rows, and K.npz has"),
     ],
-    ids=["unsymmetric", "negative mass", "units", "held", "sizes"],
+    ids=["unsymmetric", "negative mass", "negative motion", "units", "held", "sizes"],
 )
 def test_matrices_that_cannot_be(tmp_path, spoil, said):
     """Matrices of no free body in mm and t are refused with the place and the size of what is wrong."""

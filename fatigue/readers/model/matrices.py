@@ -42,8 +42,10 @@ def read_structure(
     return structure_in_mm(Structure(stiffness, mass, rows.node, rows.direction, rows.xyz), units), warnings
 
 
-def read_structure_of_deck(path: Path, mesh: Mesh | None, units: UnitSystem) -> tuple[Structure, tuple[Path, ...]]:
-    """Structure of the DMIG of a NASTRAN file, and the files it includes.
+def read_structure_of_deck(
+    path: Path, mesh: Mesh | None, units: UnitSystem
+) -> tuple[Structure, tuple[str, str], tuple[Path, ...]]:
+    """Structure of the DMIG of a NASTRAN file, the names of its matrices, and the files it includes.
 
     Places are those of its grids, in ``units``, or those of the ``mesh`` [mm].
 
@@ -63,7 +65,8 @@ def read_structure_of_deck(path: Path, mesh: Mesh | None, units: UnitSystem) -> 
         what = f"nothing says where grid {missing[0]} is{also}"
         raise DataError(Problem("no_grid", str(path), what, "Add its GRID to the file, or a table nodes to its folder"))
     xyz = np.array([known[int(node)] for node in nodes])[np.searchsorted(nodes, deck.node)]
-    return structure_in_mm(Structure(deck.K, deck.M, deck.node, deck.direction, xyz), units), deck.included
+    given = Structure(deck.K, deck.M, deck.node, deck.direction, xyz)
+    return structure_in_mm(given, units), deck.names, deck.included
 
 
 def structure_in_mm(structure: Structure, units: UnitSystem) -> Structure:

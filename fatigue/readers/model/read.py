@@ -7,6 +7,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.files.naming import missing_file
 from fatigue.flexbody.shell_mesh import ShellMesh
 from fatigue.flexbody.structure import Structure
+from fatigue.readers.foreign.nastran.matrices.deck import has_dmig
 from fatigue.readers.model.matrices import DECK_ENDINGS, MATRIX_ENDINGS, read_structure, read_structure_of_deck
 from fatigue.readers.model.shells import read_shell_mesh
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
@@ -24,12 +25,14 @@ class BodyModel:
     body : a shell mesh, which has element forces at welds, or matrices, which have none
     mesh : nodes and elements for pictures; None where the folder has none
     files : what was read
+    named : the files of K and M, or of elements and properties, in messages
     warnings : met while reading
     """
 
     body: ShellMesh | Structure
     mesh: Mesh | None
     files: tuple[Path, ...]
+    named: tuple[str, str]
     warnings: tuple[Problem, ...]
 
 
@@ -56,7 +59,7 @@ def read_model(path: Path, *, units: str = "mm-t-s", strict: bool = False) -> Bo
     K, M = (_found(path, name, MATRIX_ENDINGS) for name in ("K", "M"))
     of_matrices = {"K.mtx": K, "M.mtx": M, "dof.csv": dof}
     of_shells = {"nodes.csv": nodes, "elements.csv": elements, "properties.csv": properties}
-    decks = sorted(file for file in path.iterdir() if file.suffix.lower() in DECK_ENDINGS)
+    decks = sorted(file for file in path.iterdir() if file.suffix.lower() in DECK_ENDINGS and has_dmig(file))
     by_matrix = any(file is not None for file in of_matrices.values())
     kinds = [
         *([properties.name] if properties is not None else []),
@@ -75,16 +78,17 @@ def read_model(path: Path, *, units: str = "mm-t-s", strict: bool = False) -> Bo
         return _of_deck(decks[0], mesh, beside, system, warnings)
     if by_matrix or mesh is None:
         structure, more = read_structure(needed[0], needed[1], needed[2], mesh, system, strict=strict)
-        return BodyModel(structure, mesh, (*needed, *beside), (*warnings, *more))
+        return BodyModel(structure, mesh, (*needed, *beside), (needed[0].name, needed[1].name), (*warnings, *more))
     shells, more = read_shell_mesh(mesh, needed[1], needed[2], strict=strict)
-    return BodyModel(shells, mesh, needed, (*warnings, *more))
+    return BodyModel(shells, mesh, needed, (needed[1].name, needed[2].name), (*warnings, *more))
 
 
 def _of_deck(
     path: Path, mesh: Mesh | None, beside: tuple[Path, ...], system: UnitSystem, warnings: list[Problem]
 ) -> BodyModel:
-    structure, included = read_structure_of_deck(path, mesh, system)
-    return BodyModel(structure, mesh, (path, *included, *beside), tuple(warnings))
+    structure, names, included = read_structure_of_deck(path, mesh, system)
+    named = (f"{names[0]} of {path.name}", f"{names[1]} of {path.name}")
+    return BodyModel(structure, mesh, (path, *included, *beside), named, tuple(warnings))
 
 
 def _found(folder: Path, name: str, endings: tuple[str, ...]) -> Path | None:

@@ -193,7 +193,7 @@ def test_models_of_two_kinds_are_refused(tmp_path):
         read_model(folder)
     (folder / "K.npz").unlink()
     for name in ("a.pch", "b.bdf"):
-        (folder / name).write_text("GRID,1,,0.,0.,0.\n")
+        (folder / name).write_text("DMIG,KAAX,0,6,2,0,,,1\n")
     with pytest.raises(DataError, match=r"a\.pch is here, and b\.bdf too"):
         read_model(folder)
     (folder / "nodes.parquet").write_bytes(b"")

@@ -40,6 +40,12 @@ class DeckMatrices:
     included: tuple[Path, ...] = ()
 
 
+def has_dmig(path: Path) -> bool:
+    """Whether a file of the system's text holds a DMIG card."""
+    with path.open("rb") as file:
+        return any(line.lstrip()[:4].upper() == b"DMIG" for line in file)
+
+
 def read_dmig(path: Path) -> DeckMatrices:
     """Read the stiffness and the mass of a deck: DMIG whose names begin with K and M, as KAAX and MAAX do.
 
