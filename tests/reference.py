@@ -7,6 +7,7 @@ written there by hand.
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -16,6 +17,8 @@ from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.graph import GRAPH
+from fatigue.results.dictionary.study import STUDY
+from fatigue.study.study_file import Study
 from fatigue.study.vehicle_file import keys_of
 from fatigue.study.vehicle_keys import KEYS, Key
 from fatigue.study.vehicle_text import toml_value
@@ -64,6 +67,14 @@ CASE_TABLES = {  # of case.toml, and the models that describe them
     "[checks.stress_category]": "StressCategory",
     "[[checks.interaction]]": "Interaction",
     "[[checks.endurance]]": "EnduranceCheck",
+}
+STUDY_TABLES = {  # of study.toml
+    "Study: the keys above all tables": "Study",
+    "Study: [base]": "Base",
+    "Study: [[vary]]": "Vary",
+    "Study: [[variant]]": "GivenVariant",
+    "Study: [source]": "Source",
+    "Study: [[source.run]]": "SourceRun",
 }
 
 
@@ -140,12 +151,22 @@ def _default(option: click.Option) -> str:
 
 def key_text() -> str:
     """Keys of ``case.toml`` with default and meaning, table by table."""
-    models = case_schema()["$defs"]
+    return _keys_of_models(CASE_TABLES, case_schema())
+
+
+def study_key_text() -> str:
+    """Keys of ``study.toml`` with default and meaning, table by table."""
+    return _keys_of_models(STUDY_TABLES, Study.model_json_schema())
+
+
+def _keys_of_models(tables: dict[str, str], schema: dict[str, Any]) -> str:
+    """Keys of the models of some tables, by heading and name; the schema itself is the model of its title."""
+    models = {**schema["$defs"], schema["title"]: schema}
     parts = []
-    for heading, model in CASE_TABLES.items():
+    for heading, model in tables.items():
         of, rows = models[model], []
         for key, about in of["properties"].items():
-            given = about.get("default")
+            given = None if isinstance(about.get("default"), dict) else about.get("default")
             default = "required" if key in of.get("required", ()) else "" if given is None else f"`{json.dumps(given)}`"
             rows.append(f"| `{key}` | {default} | {about['description']} |")
         lines = [f"### {heading}", "", of["description"], "", "| key | default | what it is |", "|---|---|---|", *rows]
@@ -180,7 +201,7 @@ def _allowed(key: Key) -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS | GRAPH | CLAIMED).items():
+    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])
@@ -208,6 +229,7 @@ def with_collected(page: str) -> str:
         "commands": command_text(),
         "keys": key_text(),
         "vehicle keys": vehicle_key_text(),
+        "study keys": study_key_text(),
         "columns": column_text(),
         "codes": refusal_text(page),
     }

@@ -4,7 +4,7 @@ What is varied is checked later, key by key, against the vehicle and the case th
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -14,8 +14,9 @@ from pydantic_core import ErrorDetails
 
 from fatigue.case.problems import Contradictions, absent, clash, model_problems, path_problems
 from fatigue.case.table import Positive, Table, Text
-from fatigue.errors import CaseError, Problem, given_path
+from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.study.toml_file import read_toml
+from fatigue.study.vehicle_keys import KEYS
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 WHAT = "a study (study.toml)"
@@ -283,11 +284,26 @@ def load_study(path: Path | str) -> Study:
     """
     path = given_path(path, "study")
     raw = read_toml(path, WHAT)
+    refuse(CaseError, _another_file(raw, path))
     try:
         return Study.model_validate(raw, context=path)
     except ValidationError as error:
         problems = [problem for details in error.errors() for problem in _problems(details, raw)]
     raise CaseError(*(replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
+
+
+def _another_file(raw: Mapping[str, Any], path: Path) -> Iterator[Problem]:
+    """Refusal of a case or a vehicle that is given instead of a study."""
+    if "base" in raw or not raw:
+        return
+    kinds = {"a case (case.toml)": {"body", "mission"}, "a vehicle (vehicle.toml)": set(KEYS)}
+    for kind, tables in kinds.items():
+        if tables & raw.keys():
+            remedy = (
+                f"Give a study.toml that names it under [base], as in {'vehicle' if 'car' in tables else 'case'} = "
+            )
+            yield Problem("foreign_format", path.name, f"this is {kind}, not a study", f"{remedy}{path.name!r}")
+            return
 
 
 def _problems(details: ErrorDetails, raw: dict[str, Any]) -> Iterable[Problem]:

@@ -67,6 +67,8 @@ def test_all_mistakes_are_told_at_once(tmp_path):
         (BASE + '[[source.run]]\nevent = "e"\n', "nothing says where these come from"),
         ('[base]\nvehicle = "v"\n[source]\nfiles = "y"\n', "base.case"),
         (BASE + "x = \n", "not valid TOML"),
+        ("[body]\n[mission]\n", "this is a case (case.toml), not a study"),
+        ("[track]\n", "this is a vehicle (vehicle.toml), not a study"),
     ],
 )
 def test_mistakes(tmp_path, text, words):

@@ -51,10 +51,10 @@ def test_a_sound_study(folder):
         ("vehicle.converter.fe", "14.0", "vary[1] (fe = 14): vehicle.toml: converter.fe: unknown key"),
         ("vehicle.converter.fe_hz", "'14'", "should be a number"),
         ("vehicle.converter.fe_hz", "-1.0", "vehicle.toml: converter.fe_hz: -1.0"),
-        ("vehicle.contact.state", "'wron'", "none of the choices"),
+        ("vehicle.contact.state", "'broken'", "none of the choices"),
         ("vehicle.car.body", "'none'", "there is no folder"),
         ("vehicle.run.seed", "3", "'seed' has a meaning of its own in every study"),
-        ("case.curve.survival", "'men'", "vary[1] (survival = men): case.toml: curve.survival"),
+        ("case.curve.survival", "'low'", "vary[1] (survival = low): case.toml: curve.survival"),
         ("case.curve.survivl", "'mean'", "unknown key"),
         ("case.mission.target_km", "'far'", "should be a valid number"),
         ("case.mission.event.nose.stress_factor", "2.0", "no table of the name 'nose'. Write 'noise'"),
@@ -79,7 +79,7 @@ def test_the_seed_is_not_varied(folder):
 
 def test_all_of_them_at_once(folder):
     """One line each; a mistake that several variants would make again is told once."""
-    text = vary("vehicle.converter.fe_hz", "-1.0, -2.0") + '[[vary]]\nkey = "case.curve.survival"\nvalues = ["men"]\n'
+    text = vary("vehicle.converter.fe_hz", "-1.0, -2.0") + '[[vary]]\nkey = "case.curve.survival"\nvalues = ["low"]\n'
     assert len(refused(folder, text)) == 3
 
 

@@ -3,12 +3,14 @@
 import json
 import logging
 import math
+import shutil
 import threading
 import time
 
 import pyarrow.parquet as pq
 import pytest
 
+import fatigue.study.variants.runs.run as run_module
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError
@@ -210,6 +212,31 @@ def test_a_history_that_no_assessment_reads(copied):
     assert len(found.failures) >= 4
     assert all(problem.where.startswith("variant ") for problem in found.failures)
     assert found.exit_code == 3
+
+
+def test_a_fault_of_the_program_costs_one_run(copied, monkeypatch):
+    """It is told with exit code 4, and the others are there."""
+
+    def assess_one(case_file, *arguments, **options):
+        if "fe-18/seed_2" in case_file.as_posix():
+            raise ZeroDivisionError("a bug")
+        return assess(case_file, *arguments, **options)
+
+    monkeypatch.setattr(run_module, "assess", assess_one)
+    shutil.rmtree(copied / "out" / "runs" / "fe-18")
+    found = run_study(copied / "study.toml", copied / "out")
+    (failure,) = found.failures
+    assert failure.where.startswith("variant 'fe=18', seed 2")
+    assert "this should not have happened (ZeroDivisionError: a bug)" in failure.what
+    assert (found.exit_code, [run.state for run in found.runs]) == (4, ["done", "done", "done", "failed"])
+
+
+def test_a_diagnosis_of_every_run(copied):
+    """If it is asked for: what makes the damage, as numbers of each weld."""
+    written(copied, **{"seeds = [1, 2]": "seeds = [1]\ndiagnose = true", "values = [9.0, 18.0]": "values = [9.0]"})
+    found = run_study(copied / "study.toml", copied / "out")
+    assert 0.0 < value(found, "base", 1, "largest_mode_share", "A") <= 1.5
+    assert value(found, "base", 1, "event_share", "B") == 1.0
 
 
 def test_seeds_and_variants_that_change_nothing(tmp_path):

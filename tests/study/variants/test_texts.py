@@ -54,7 +54,7 @@ def test_a_table_of_a_list_has_its_name():
 @pytest.mark.parametrize(
     ("key", "words", "remedy"),
     [
-        ("mission.event.wron.share", "no table of the name 'wron'", "Write 'worn'"),
+        ("mission.event.worm.share", "no table of the name 'worm'", "Write 'worn'"),
         ("mission.event.worn", "is a table, not a key in one", "Write the tables"),
         ("curve.survival.x", "goes on inside 'curve.survival', which is no table", "Write the tables"),
         (".curve", "something is missing beside a dot", "Write the tables"),

@@ -13,7 +13,8 @@ from os import cpu_count
 from threading import Event
 from typing import TypeVar
 
-from fatigue.errors import FatigueError, NumericalError
+from fatigue.errors import DataError, FatigueError, NumericalError, Problem
+from fatigue.files.mishaps import refusal
 from fatigue.side_by_side import RUN_THREADS
 from fatigue.stages import STAGES, stage
 from fatigue.study.study_file import Study
@@ -149,6 +150,8 @@ def _side_by_side(
             return do(item)
         except FatigueError as error:
             return Failed(error)
+        except Exception as error:  # one run must not cost the others
+            return Failed(_unforeseen(error))
 
     executor = ThreadPoolExecutor(min(threads, len(items)) or 1, thread_name_prefix=RUN_THREADS)
     try:
@@ -162,6 +165,17 @@ def _side_by_side(
         raise
     finally:
         executor.shutdown(cancel_futures=True)
+
+
+def _unforeseen(error: Exception) -> FatigueError:
+    """What the machine refused, or a fault of the program, as the refusal of one run."""
+    if isinstance(error, MemoryError):
+        remedy = "Use fewer --threads, or a machine with more memory"
+        return NumericalError(Problem("memory", "memory", "the program got no more of it", remedy))
+    if isinstance(error, OSError):
+        return DataError(refusal(error))
+    what = f"this should not have happened ({type(error).__name__}: {error})"
+    return NumericalError(Problem("unforeseen", "the program", what, "Run this variant with --only, and report it"))
 
 
 @contextmanager

@@ -121,7 +121,7 @@ def finished(run: PlannedRun, key: str) -> Done | None:
             return None
         read_provenance(run.folder / RESULT)
         numbers = tuple(_read(run, *row) for row in record["numbers"])
-        warnings = tuple(Problem(**one) for one in record["warnings"])
+        warnings = tuple(_problem(**one) for one in record["warnings"])
     except (OSError, ValueError, LookupError, TypeError, FatigueError):
         return None
     return Done(numbers, warnings, {}, reused=True)
@@ -129,6 +129,10 @@ def finished(run: PlannedRun, key: str) -> Done | None:
 
 def _read(run: PlannedRun, quantity: str, weld: str, value: float | str | None, unit: str, reason: str) -> Number:
     return Number(run.variant, run.seed, quantity, weld, from_json(value), unit, reason)
+
+
+def _problem(code: str, where: str, what: str, remedy: str, count: int) -> Problem:
+    return Problem(code, where, what, remedy, count)
 
 
 def _record(run: PlannedRun, key: str, done: Done) -> None:
