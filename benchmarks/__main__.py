@@ -9,6 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks import peers, pipeline, processes
+from benchmarks.finite_elements import finite_elements
 from benchmarks.shear import shear
 
 PARTS = {
@@ -22,6 +23,7 @@ PARTS = {
     "first-run": processes.first_run,
     "memory": processes.memory,
     "shear": shear,
+    "finite-elements": finite_elements,
 }
 
 

@@ -24,7 +24,7 @@ NAMES = ("x", "y", "z", "rx", "ry", "rz")
 UNEQUAL = 1e-6  # of the roots of the diagonal, between K and K': files are written with six digits or more
 GROUNDED = 1e-5  # of the terms that cancel in K R: ten times what six digits leave
 MOVES_FREELY = 1e-14  # stiffness of a motion over that of its rows one by one: rounding, some 100 units of it
-NOT_POSITIVE = "Export K without geometric stiffness, and M of the same run"
+NOT_POSITIVE = "Export K without geometric stiffness and in double precision, with 16 digits"
 ON_A_LINE = 1e-6  # sixth pivot of the rigid motions of the rows that may be held, over the first
 
 

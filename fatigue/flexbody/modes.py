@@ -6,13 +6,14 @@ sought until enough have settled, and once more in the space that they leave: no
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import eigh
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import DataError, NumericalError, Problem
 from fatigue.flexbody.factor import NOT_POSITIVE, Factor, FreeBody, factored
 from fatigue.flexbody.lanczos import most_flexible
 from fatigue.flexbody.structure import Basis, Structure
@@ -20,7 +21,9 @@ from fatigue.flexbody.structure import Basis, Structure
 Floats = NDArray[np.float64]
 Solve = Callable[[Floats], Floats]
 
+MOST = 1000  # modes of a large body: each takes a vector in memory and a solution with the factors
 SMALL = 240  # rows: all modes at once, by dense matrices
+DENSE = 3000  # rows: the same where more than a third of all modes are asked for
 SETTLED = 1e-10  # accuracy of a flexibility; that of a shape is its root over the gap to the next one
 CHECKED = 1e-3  # of one that is only held against a limit
 LEFT = 1e-12  # of the largest flexibility: what rounding leaves
@@ -34,6 +37,7 @@ def free_modes(body: FreeBody, *, count: int | None = None, upto_hz: float | Non
     Raises
     ------
     DataError : K is not positive on elastic motions
+    NumericalError : more modes than are sought
     """
     return _lowest(body.factor.solve, body.structure.M, body.rigid, count, upto_hz)
 
@@ -85,6 +89,10 @@ class _Found:
         self.M_shapes = np.hstack([self.M_shapes, M_shapes / mass])
         self.frequency = np.concatenate([self.frequency, frequency])
 
+    def most_flexible(self) -> float:
+        """Largest flexibility 1/w^2 that was found, 0 if none was."""
+        return 1.0 / (2.0 * np.pi * float(self.frequency.min(initial=np.inf))) ** 2
+
     def without(self, shapes: Floats) -> Floats:
         """Shapes orthogonal to all that was found."""
         return np.asarray(shapes - self.shapes @ (self.M_shapes.T @ shapes))
@@ -100,33 +108,47 @@ def _lowest(solve: Solve, M: sparse.csc_array, rigid: Floats, count: int | None,
         raise ValueError("one of count and upto_hz")
     n = M.shape[0]
     found = _Found(M, rigid, np.asarray(M @ rigid), np.zeros(0))
-    if n <= SMALL or (count is not None and count > n // 3):
+    if n <= SMALL or (n <= DENSE and count is not None and count > n // 3):
         found.add(*_all_modes(lambda loads: found.without(solve(found.balanced(loads))), M))
         return _basis(found, rigid.shape[1], count, upto_hz)
-    largest = 1.0 / (2.0 * np.pi * upto_hz) ** 2 if upto_hz else np.inf
+    if count is not None and count > MOST:
+        raise NumericalError(_too_many("are asked for", n))
 
     def enough(flexible: Floats) -> bool:
-        return len(flexible) >= count if count is not None else bool(np.any(np.abs(flexible) < largest))
+        if len(flexible) > MOST:
+            raise NumericalError(_too_many(f"lie below {upto_hz:g} Hz", n))
+        return len(flexible) >= count if count is not None else _beyond(flexible, upto_hz)
 
     def sought(enough: Callable[[Floats], bool], accuracy: float) -> tuple[Floats, Floats]:
         start = np.random.default_rng(len(found.frequency)).standard_normal(n)
-        return _positive(*most_flexible(solve, M, (found.shapes, found.M_shapes), start, enough, accuracy))
+        flexible, shapes = most_flexible(solve, M, (found.shapes, found.M_shapes), start, enough, accuracy)
+        return _positive(flexible, shapes, found.most_flexible())
 
     found.add(*sought(enough, SETTLED))
     while True:  # of modes with one frequency one start finds one, so that others say whether any is left
         limit = upto_hz if upto_hz is not None else _nth(found.frequency, count)
         _, estimate = sought(_any, CHECKED)
         if not estimate.size or estimate[0] > limit * (1.0 + CHECKED):
-            break
-        shapes, frequency = sought(_any, SETTLED)
-        if not frequency.size or frequency[0] > limit:
-            break
-        found.add(shapes, frequency)
-    return _basis(found, rigid.shape[1], count, upto_hz)
+            return _basis(found, rigid.shape[1], count, upto_hz)
+        shapes, frequency = sought(partial(_beyond, limit_hz=limit), SETTLED)
+        missed = frequency <= limit
+        if not missed.any():
+            return _basis(found, rigid.shape[1], count, upto_hz)
+        found.add(shapes[:, missed], frequency[missed])
+
+
+def _too_many(asked: str, n: int) -> Problem:
+    what = f"more than {MOST} modes {asked}, and no more are sought in a body of {n} degrees of freedom"
+    return Problem("too_many_modes", "modes", what, "Ask for fewer, or up to a lower frequency")
 
 
 def _any(flexible: Floats) -> bool:
     return len(flexible) > 0
+
+
+def _beyond(flexible: Floats, limit_hz: float | None) -> bool:
+    """Whether a motion above a frequency is among those that have settled."""
+    return limit_hz is not None and bool(np.any((2.0 * np.pi * limit_hz) ** 2 * np.abs(flexible) < 1.0))
 
 
 def _nth(frequency: Floats, count: int | None) -> float:
@@ -145,17 +167,19 @@ def _all_modes(flexibility: Solve, M: sparse.csc_array) -> tuple[Floats, Floats]
     moved = flexibility(root)
     flexible, W = eigh(root.T @ moved)
     kept = np.abs(flexible) > LEFT * np.abs(flexible).max(initial=0.0)
-    return _positive(flexible[kept], moved @ W[:, kept])
+    return _positive(flexible[kept], moved @ W[:, kept], 0.0)
 
 
-def _positive(flexible: Floats, shapes: Floats) -> tuple[Floats, Floats]:
-    """Shapes (n, k) and frequencies (k,) [Hz], ascending, of flexibilities 1/w^2; what is only rounding is left out.
+def _positive(flexible: Floats, shapes: Floats, largest: float) -> tuple[Floats, Floats]:
+    """Shapes (n, k) and frequencies (k,) [Hz], ascending, of flexibilities 1/w^2.
+
+    What is only rounding, beside the largest of them or the ``largest`` before, is left out.
 
     Raises
     ------
     DataError : a flexibility is negative
     """
-    kept = np.abs(flexible) > LEFT * np.abs(flexible).max(initial=0.0)
+    kept = np.abs(flexible) > LEFT * np.abs(flexible).max(initial=largest)
     flexible, shapes = flexible[kept], shapes[:, kept]
     if (flexible < 0.0).any():
         what = f"the stiffness of a motion is negative, w^2 = {1.0 / flexible.min():g} rad2/s2"

@@ -11,18 +11,13 @@ from fatigue.flexbody.mass import rigid_mass, rigid_motions
 from fatigue.flexbody.shell import structure
 from fatigue.flexbody.shell_mesh import ShellMesh
 from fatigue.flexbody.structure import Structure
+from fatigue.readers.foreign.nastran.matrices.deck import has_dmig
+from fatigue.readers.model.matrices import DECK_ENDINGS
 from fatigue.readers.model.read import BodyModel, read_model
 from fatigue.readers.model.shells import read_shell_mesh
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
 from fatigue.readers.neutral.tables import open_table
-from fatigue.reduce.plausible import (
-    element_problems,
-    loose_rows,
-    loose_shells,
-    material_problems,
-    other_thickness,
-    size_problems,
-)
+from fatigue.reduce.plausible import mass_problems, material_problems, other_thickness, size_problems
 from fatigue.reduce.welds import Welds, read_welds_of, table_in
 from fatigue.stages import stage
 
@@ -52,7 +47,7 @@ def read_given(folder: Path, properties: Path | None, welds: Path | None, units:
 
     Parameters
     ----------
-    folder : with ``nodes, elements, properties`` of shells, or ``K, M`` and ``dof``
+    folder : with ``nodes, elements, properties`` of shells, or ``K, M`` and ``dof``, or a NASTRAN file of DMIG
     properties : a table of properties in place of that of the folder; its thickness goes before that of elements
     welds : folder of ``welds, weld_nodes, weld_elements``, by default the same one
     units : of K and M
@@ -73,8 +68,7 @@ def read_given(folder: Path, properties: Path | None, welds: Path | None, units:
     assert given.mesh is not None
     nodes, elements, of_shells = given.files
     body, pid = given.body, given.mesh.pid
-    refuse(DataError, [*material_problems(body, pid, of_shells.name), *element_problems(body, elements.name)])
-    refuse(DataError, loose_shells(body, elements.name))
+    refuse(DataError, material_problems(body, pid, of_shells.name))
     warnings = [*given.warnings]
     if properties is None:
         warnings += other_thickness(body, pid, _thickness(of_shells), elements, of_shells)
@@ -90,8 +84,8 @@ def read_given(folder: Path, properties: Path | None, welds: Path | None, units:
 
 def _of_matrices(folder: Path, given: BodyModel, matrices: Structure, welds: Path | None) -> Model:
     """Model of K and M, which have no elements and so no weld forces."""
-    K, M = given.files[0].name, given.files[1].name
-    refuse(DataError, loose_rows(matrices, K))
+    K, M = given.named
+    refuse(DataError, mass_problems(matrices, M))
     units = "Give K and M in N, mm, t, or name their units with --units; places are in mm"
     refuse(DataError, size_problems(matrices.xyz, _mass(matrices), f"{M} and the places of nodes", units))
     has_welds = any(table_in(welds or folder, name) is not None for name in ("welds", "weld_nodes", "weld_elements"))
@@ -111,7 +105,8 @@ def _with_properties(folder: Path, properties: Path, *, strict: bool) -> BodyMod
     has_thickness = "thickness_mm" in open_table(properties).position
     bare = replace(mesh, thickness=np.full(len(mesh.element), np.nan)) if has_thickness else mesh
     body, found = read_shell_mesh(bare, elements, properties, strict=strict)
-    return BodyModel(body, mesh, (nodes, elements, properties), (*warnings, *found))
+    named = (elements.name, properties.name)
+    return BodyModel(body, mesh, (nodes, elements, properties), named, (*warnings, *found))
 
 
 def _thickness(properties: Path) -> dict[int, float]:
@@ -127,13 +122,13 @@ def _mass(matrices: Structure) -> float:
 
 
 def _no_folder(folder: Path) -> Iterator[Problem]:
-    """Refusal of a deck, which has to become tables or matrices first."""
-    if folder.is_file():
+    """Refusal of a file that holds no matrices, as a deck of shells, which have to become tables first."""
+    if folder.is_file() and not (folder.suffix.lower() in DECK_ENDINGS and has_dmig(folder)):
         kind = "a NASTRAN deck" if folder.suffix.lower() in DECKS else "a file"
         what = f"this is {kind}, and a body is read from a folder"
         remedy = (
-            "Give a folder with nodes, elements and properties of its shells, or export K and M of the free body "
-            "(DMIG, OP4) as K.mtx and M.mtx with dof.csv"
+            "Give a folder with nodes, elements and properties of its shells, or K and M of the free body: a NASTRAN "
+            "file of DMIG, or K.mtx and M.mtx (.npz, .op4) with dof.csv"
         )
         yield Problem("no_folder", str(folder), what, remedy)
 

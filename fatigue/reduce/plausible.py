@@ -1,17 +1,15 @@
-"""A body of shells that cannot be meant: materials and sizes of no body, flat or crossed elements, loose parts."""
+"""A body that cannot be meant: materials and sizes of no body, which tell of other units; two thicknesses."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
 from fatigue.errors import Problem
-from fatigue.flexbody.shell_mesh import NONE, ShellMesh
+from fatigue.flexbody.factor import row_name
+from fatigue.flexbody.shell_mesh import ShellMesh
 from fatigue.flexbody.structure import Structure
-from fatigue.shown import few
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -20,11 +18,11 @@ STIFFEST = 1.5e6  # MPa: diamond has 1.1e6
 HARD = 300.0  # MPa: a body whose stiffest part is softer carries no vehicle; metals in GPa stay below
 DENSEST = 2.3e-8  # t/mm3: osmium
 LIGHTEST = 1e-13  # t/mm3 of the box around a body: a tenth of air
+INDEFINITE = 1e-9  # of the largest mass: files are written with some digits
 THIN = 1e-2  # of its longest side: what a flat body counts as thick
 UNITS_OF_E = {"Pa": 1e6, "GPa": 1e-3}  # how many of them are 1 MPa
 UNITS_OF_RHO = {"kg/m3": 1e12, "g/cm3": 1e9, "kg/mm3": 1e3}  # 1 t/mm3
 METAL_E, METAL_RHO = (4e4, 2.2e5), (1.7e-9, 9e-9)  # MPa, t/mm3: magnesium to steel
-NO_AREA = 1e-8  # of the square of the longest edge
 
 
 def material_problems(mesh: ShellMesh, pid: Integers, properties: str) -> Iterator[Problem]:
@@ -69,64 +67,25 @@ def size_problems(xyz: Floats, mass_t: float, where: str, units: str) -> Iterato
         yield Problem("other_unit", where, what, units)
 
 
-def element_problems(mesh: ShellMesh, file: str) -> Iterator[Problem]:
-    """Refusals of elements with a corner twice or of no area, and of quads that turn in or cross themselves."""
-    element, corners = mesh.element, mesh.corners
-    in_order = np.sort(corners, axis=1)
-    twice = ((in_order[:, 1:] == in_order[:, :-1]) & (in_order[:, 1:] != NONE)).any(axis=1)
-    if twice.any():
-        what = f"a node is twice among its corners{_and_more(twice)}"
-        remedy = "Leave n4 empty where three corners are left, or take the element out"
-        yield Problem("collapsed", f"{file}: element {element[twice][0]}", what, remedy)
-    triangle = mesh.is_triangle
-    p = mesh.xyz[np.where(corners == NONE, corners[:, :1], corners)]
-    of_quad = np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
-    normal = np.where(triangle[:, None], np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), of_quad)
-    longest = np.linalg.norm(np.roll(p, -1, axis=1) - p, axis=2).max(axis=1)
-    area = np.linalg.norm(normal, axis=1) / 2
-    flat = (area <= NO_AREA * longest**2) & ~twice
-    if flat.any():
-        what = f"its area is {area[flat][0]:.3g} mm2{_and_more(flat)}"
-        remedy = "Number its corners around it, or take it out"
-        yield Problem("no_area", f"{file}: element {element[flat][0]}", what, remedy)
-    turn = np.cross(np.roll(p, -1, axis=1) - p, np.roll(p, 1, axis=1) - p)
-    inwards = (np.einsum("ecj,ej->ec", turn, normal) <= 0.0).any(axis=1) & ~(triangle | flat | twice)
-    if inwards.any():
-        what = f"its corners cross each other or turn inwards{_and_more(inwards)}"
-        remedy = "Number the corners around the element, and split one that turns inwards"
-        yield Problem("turned_in", f"{file}: element {element[inwards][0]}", what, remedy)
+def mass_problems(structure: Structure, file: str) -> Iterator[Problem]:
+    """Refusal of a mass matrix that gives some motion a negative energy: ``M_ij^2 > M_ii M_jj`` of two of its rows."""
+    M = structure.M.tocoo()
+    i, j = M.coords
+    diagonal = structure.M.diagonal()
+    own = np.sqrt(diagonal[i] * diagonal[j])
+    over = np.abs(M.data) - own
+    if over.size and np.any(over > INDEFINITE * diagonal.max()):
+        at = int(over.argmax())
+        a, b = sorted((int(i[at]), int(j[at])))
+        where = f"{file}: {row_name(structure, a)} with {row_name(structure, b)}"
+        what = f"{M.data[at]:.4g} between them is above {own[at]:.4g}, the root of their own: some motion has a "
+        what += "negative mass"
+        yield Problem("not_positive", where, what, "Export M again, and its rows in the order of dof")
 
 
 def _and_more(wrong: NDArray[np.bool_]) -> str:
     more = int(wrong.sum()) - 1
     return f" (and {more} more element{'s' * (more > 1)})" if more > 0 else ""
-
-
-def loose_shells(mesh: ShellMesh, file: str) -> Iterator[Problem]:
-    """Refusal of parts that no element joins to the rest of the body."""
-    pairs = np.concatenate([np.stack([mesh.corners[:, 0], mesh.corners[:, k]], axis=1) for k in (1, 2, 3)])
-    pairs = pairs[pairs[:, 1] != NONE]
-    joined = sparse.coo_array((np.ones(len(pairs)), pairs.T), shape=(len(mesh.node),) * 2)
-    yield from _apart(joined, mesh.node, file)
-
-
-def loose_rows(structure: Structure, file: str) -> Iterator[Problem]:
-    """Refusal of parts of a body that its stiffness does not join; the rows of one node belong together."""
-    node, at = np.unique(structure.node, return_inverse=True)
-    K = structure.K.tocoo()
-    joined = sparse.coo_array((np.ones(K.nnz), (at[K.coords[0]], at[K.coords[1]])), shape=(len(node),) * 2)
-    yield from _apart(joined, node, file)
-
-
-def _apart(joined: sparse.coo_array, node: Integers, file: str) -> Iterator[Problem]:
-    parts, part = connected_components(joined, directed=False)
-    if parts > 1:
-        size = np.bincount(part)
-        loose = node[part == size.argmin()]
-        what = f"the body is in {parts} parts that nothing joins, the smallest of {loose.size} "
-        what += f"node{'s' * (loose.size > 1)}: {few(loose.tolist())}"
-        remedy = "Join them by common nodes, or leave out what is no part of the body"
-        yield Problem("unconnected", file, what, remedy)
 
 
 def other_thickness(

@@ -9,6 +9,7 @@ from typing import get_args
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.files.hashes import sha256
 from fatigue.files.recorded import refuse_foreign
+from fatigue.flexbody.rounding import few_digits
 from fatigue.readers.neutral.body.interface_shapes import DIRECTIONS
 from fatigue.reduce.bases import Name, Recipe, Reduced, reduce_to
 from fatigue.reduce.case_text import CASE, case_text
@@ -111,7 +112,12 @@ def reduce(
         () if given.welds is None else given.welds.lines.weld,
         0 if given.welds is None else int(given.welds.lines.node.size),
         tuple(notes),
-        (*warnings, *_doubtful(recipe, reduced, points), *given.notes),
+        (
+            *warnings,
+            *few_digits(given.structure, float(reduced.basis.frequency[0]), f"K of {model.name}"),
+            *_doubtful(recipe, reduced, points),
+            *given.notes,
+        ),
     )
     stage("writing")
     record = {

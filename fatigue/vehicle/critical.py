@@ -82,9 +82,7 @@ def crossings(margin: Callable[[float], float], grid: Floats) -> list[tuple[floa
     """
     values = [margin(float(point)) for point in grid]
     places = [float(point) for point in grid]
-    between = [
-        extremum for k in range(1, len(grid) - 1) if (extremum := _passed(margin, places, values, k)) is not None
-    ]
+    between = [extremum for k in range(len(grid)) if (extremum := _passed(margin, places, values, k)) is not None]
     sampled = sorted(zip(places + [at for at, _ in between], values + [value for _, value in between], strict=True))
     found: list[tuple[float, Change]] = []
     for (a, at_a), (b, at_b) in pairwise(sampled):
@@ -98,13 +96,14 @@ def _passed(
     margin: Callable[[float], float], places: list[float], values: list[float], k: int
 ) -> tuple[float, float] | None:
     """Extremum of the margin about a point of the grid, if it lies beyond zero while the points around it do not."""
-    before, here, after = values[k - 1 : k + 2]
+    left, right = max(k - 1, 0), min(k + 1, len(values) - 1)
+    here, neighbours = values[k], [values[at] for at in (left, right) if at != k]
     sign = -1.0 if here < 0.0 else 1.0
-    if (before < 0.0) != (here < 0.0) or (after < 0.0) != (here < 0.0) or abs(here) > min(abs(before), abs(after)):
+    if any((value < 0.0) != (here < 0.0) or abs(value) < abs(here) for value in neighbours):
         return None
-    if abs(here) > NEAR * max(abs(before), abs(after)):
+    if abs(here) > NEAR * max(map(abs, neighbours)):
         return None
-    ends = (places[k - 1], places[k + 1])
+    ends = (places[left], places[right])
     searched = minimize_scalar(
         lambda at: sign * margin(at), bounds=ends, method="bounded", options={"xatol": SEARCHED * (ends[1] - ends[0])}
     )

@@ -25,6 +25,8 @@ __all__ = ["Ride", "ride"]
 
 Floats = NDArray[np.float64]
 
+MOST_STEPS = 10**7  # 24 inputs of each are held in memory: 2 GB
+
 
 def ride(vehicle: Vehicle, body: ElasticBody) -> Ride:
     """Let a vehicle with this car body ride over its track.
@@ -69,6 +71,9 @@ def _times(vehicle: Vehicle, speed_m_s: float) -> Floats:
     if not 0.0 <= run.dropped_s < duration - 2.0 * max(run.step_s, 0.0):
         what = f"{run.dropped_s} s of the start are dropped of a ride that lasts {duration:.3g} s"
         problems.append(Problem("run", "[run] dropped_s", what, "Drop less, or make [track] distance_m longer"))
+    elif duration > MOST_STEPS * run.step_s > 0.0:
+        what = f"a ride of {duration:.3g} s in steps of {run.step_s} s takes more than {MOST_STEPS:.0e} of them"
+        problems.append(Problem("run", "[run] step_s", what, "Give longer steps, or make [track] distance_m shorter"))
     refuse(CaseError, problems)
     return np.asarray(run.step_s * np.arange(int(duration / run.step_s * (1.0 + 1e-12))))
 

@@ -13,8 +13,8 @@ from scipy import signal, stats
 
 from fatigue.life.counting.rainflow import rainflow
 from fatigue.vehicle.run import Ride
-from fatigue.vibration.alarm import PERIODS, cannot_be_filtered, count_alarms
-from fatigue.vibration.standards.sperling import EXPONENT, Direction, comfort_weight
+from fatigue.vibration.alarm import PERIODS, count_alarms
+from fatigue.vibration.standards.sperling import Direction, wz_of_density
 
 Floats = NDArray[np.float64]
 
@@ -53,8 +53,8 @@ def run_numbers(of: Ride) -> dict[str, RunNumber]:
     step, bogie = of.step_s, _channel(of, "bog_y")
     in_band = _in_alarm_band(bogie, step)
     numbers = {
-        "f_hunt": _number(bogie, "Hz", lambda a: _hunting(a, step)),
-        "bogie_psd_7_8": _number(bogie, DENSITY, lambda a: _mean_density(a, step)),
+        "f_hunt": _number(_up_to(HUNTING_HZ[1], bogie, step), "Hz", lambda a: _hunting(a, step)),
+        "bogie_psd_7_8": _number(_up_to(PAPER_HZ[1], bogie, step), DENSITY, lambda a: _mean_density(a, step)),
         "bogie_y_rms": _number(bogie, ACCELERATION, _std),
         "bogie_y_rms_worn": _number(bogie, ACCELERATION, lambda a: _rms_worn(a, of)),
         "bogie_y_peak_band": _number(in_band, ACCELERATION, _largest),
@@ -70,7 +70,8 @@ def run_numbers(of: Ride) -> dict[str, RunNumber]:
         "roof_mid_y_rms": _number(roof, ACCELERATION, _std),
     }
     for name, direction in COMFORT:
-        numbers[f"Wz_{name}"] = _number(_channel(of, name), "", _comfort_of(direction, step))
+        felt = _up_to(COMFORT_HZ[1], _channel(of, name), step)
+        numbers[f"Wz_{name}"] = _number(felt, "", _comfort_of(direction, step))
     numbers["wheelset_y_peak"] = RunNumber(1000.0 * float(np.abs(of.wheelsets_m).max()), "mm")
     for name in of.recovered or ("mount_mx",):
         moment = of.recovered.get(name, f"the car body does not recover {name}")
@@ -93,16 +94,6 @@ def density(values: Floats, step_s: float) -> tuple[Floats, Floats]:
     """Frequencies [Hz] and one-sided density of a record (Welch: segments of 4.096 s, Hann, half overlap)."""
     hz, G = signal.welch(values, 1.0 / step_s, nperseg=min(round(SEGMENT_S / step_s), values.size))
     return hz, G
-
-
-def wz_of_density(hz: Floats, G: Floats, direction: Direction) -> float:
-    """Sperling's index in the filter form of a density (n,) over frequencies, ``(2e4 integral B^2 G df)^(1/6.67)``.
-
-    The integral goes from 0.5 to 40 Hz, by the trapezoidal rule.
-    """
-    band = (hz >= COMFORT_HZ[0]) & (hz <= COMFORT_HZ[1])
-    weighted = comfort_weight(hz[band], direction) ** 2 * G[band]
-    return float((2e4 * np.trapezoid(weighted, hz[band])) ** (1.0 / EXPONENT))
 
 
 class Peak(NamedTuple):
@@ -132,16 +123,27 @@ def _number(record: Floats | str, unit: str, of: Callable[[Floats], Found]) -> R
 
 
 def _channel(of: Ride, name: str) -> Floats | str:
-    return of.channels.get(name, f"the car body has no point for {name}")
+    """A channel of a ride that lasts long enough for a segment of a spectrum, or why there is none."""
+    duration = len(of.time_s) * of.step_s
+    if duration < SEGMENT_S:
+        return f"{duration:.3g} s of the ride are kept, and its spectra need {SEGMENT_S:g} s"
+    record = of.channels.get(name)
+    if record is None:
+        return f"the car body has no point for {name}"
+    return record if np.ptp(record) > 0.0 else f"{name} does not move"
+
+
+def _up_to(hz: float, record: Floats | str, step_s: float) -> Floats | str:
+    """A record that holds frequencies up to one [Hz], or why it does not."""
+    return f"steps of {step_s:g} s hold nothing up to {hz:g} Hz" if step_s * hz >= 0.5 else record
 
 
 def _low_passed(record: Floats | str, step_s: float) -> Floats | str:
     """A record below 40 Hz, without delay (Butterworth of order 4, forward and backward)."""
-    if isinstance(record, str):
-        return record
-    if step_s * LOW_PASS_HZ >= 0.5:
-        return f"steps of {step_s:g} s hold nothing up to {LOW_PASS_HZ:g} Hz"
-    return np.asarray(signal.sosfiltfilt(signal.butter(4, LOW_PASS_HZ, fs=1.0 / step_s, output="sos"), record))
+    held = _up_to(LOW_PASS_HZ, record, step_s)
+    if isinstance(held, str):
+        return held
+    return np.asarray(signal.sosfiltfilt(signal.butter(4, LOW_PASS_HZ, fs=1.0 / step_s, output="sos"), held))
 
 
 def _hunting(record: Floats, step_s: float) -> Found:
@@ -167,17 +169,12 @@ def _in_alarm_band(record: Floats | str, step_s: float) -> Floats | str:
     A ride is cut out of a longer one. Its ends are mirrored: turned over, as ``sosfiltfilt`` does by default, a sine
     that is cut swings to twice its amplitude there; faded, as in ``band_passed``, the first and last second are lost.
     """
-    if isinstance(record, str):
-        return record
-    reason = cannot_be_filtered(record.size, step_s, BOGIE_HZ)
-    if reason is None:
-        sos = signal.butter(4, BOGIE_HZ, "bandpass", fs=1.0 / step_s, output="sos")
-        beside = min(round(PERIODS / (BOGIE_HZ[0] * step_s)), record.size - 1)
-        return np.asarray(signal.sosfiltfilt(sos, record, padtype="even", padlen=beside))
-    return {
-        "above_nyquist": f"steps of {step_s:g} s hold nothing up to {BOGIE_HZ[1]:g} Hz",
-        "short": f"the ride is too short for a filter from {BOGIE_HZ[0]:g} Hz on",
-    }[reason]
+    held = _up_to(BOGIE_HZ[1], record, step_s)
+    if isinstance(held, str):
+        return held
+    sos = signal.butter(4, BOGIE_HZ, "bandpass", fs=1.0 / step_s, output="sos")
+    beside = min(round(PERIODS / (BOGIE_HZ[0] * step_s)), held.size - 1)
+    return np.asarray(signal.sosfiltfilt(sos, held, padtype="even", padlen=beside))
 
 
 def _rms_worn(record: Floats, of: Ride) -> Found:
@@ -187,7 +184,7 @@ def _rms_worn(record: Floats, of: Ride) -> Found:
 
 
 def _comfort_of(direction: Direction, step_s: float) -> Callable[[Floats], float]:
-    return lambda record: wz_of_density(*density(record, step_s), direction)
+    return lambda record: wz_of_density(*density(record, step_s), direction, COMFORT_HZ)
 
 
 def _std(record: Floats) -> float:

@@ -34,6 +34,7 @@ class Level(NamedTuple):
 LEVELS = {"low": Level(2.119e-7, 4.032e-7), "high": Level(6.125e-7, 1.080e-6)}
 
 GRID_M = 0.05  # of a realisation
+LONGEST_RIDE_M = 1e6  # whose realisation takes 2 GB of memory
 BEYOND_M = 200.0  # what a realisation is longer than the ride, at least
 BEFORE_M = 50.0  # where the middle of the vehicle begins, from the first point of the realisation
 RISE_M = 50.0  # over which the irregularities grow from nothing at the begin of a ride
@@ -126,10 +127,13 @@ def _known(track: Track) -> Track:
     if track.quality not in LEVELS:
         remedy = f"Choose one of {', '.join(LEVELS)}"
         problems.append(Problem("track", "[track] quality", f"{track.quality!r} is no known quality", remedy))
-    for key in ("longest_m", "distance_m"):
-        if not 0.0 < getattr(track, key) < np.inf:
+    for key, most, remedy in (
+        ("longest_m", np.inf, "Give a length above 0"),
+        ("distance_m", LONGEST_RIDE_M, f"Give a length above 0, {LONGEST_RIDE_M:g} m at most"),
+    ):
+        if not 0.0 < getattr(track, key) < np.nextafter(most, np.inf):
             what = f"{getattr(track, key)} m is no such length"
-            problems.append(Problem("track", f"[track] {key}", what, "Give a length above 0"))
+            problems.append(Problem("track", f"[track] {key}", what, remedy))
     if not 0.0 <= track.weakened_below_m < np.inf:
         what = f"{track.weakened_below_m} m is no wavelength"
         problems.append(Problem("track", "[track] weakened_below_m", what, "Give a length, 0 to weaken nothing"))

@@ -7,7 +7,7 @@ import pytest
 from scipy import sparse
 from scipy.linalg import eigh
 
-from fatigue.errors import DataError
+from fatigue.errors import DataError, NumericalError
 from fatigue.flexbody import modes
 from fatigue.flexbody.factor import free_body
 from fatigue.flexbody.modes import free_modes, held_modes, signed
@@ -106,6 +106,27 @@ def test_no_more_modes_than_there_are():
     assert len(free_modes(free_body(body), count=1000).frequency) == len(body.node) - 6
     three = sparse.diags_array(np.isin(body.node, [1, 3, 7]) * (body.direction < 3) * 1e-3)
     assert len(free_modes(free_body(dataclasses.replace(body, M=sparse.csc_array(three))), upto_hz=1e9).frequency) == 3
+
+
+def test_few_masses_on_a_large_body():
+    """Lanczos iteration ends where the masses do, however many modes are asked for."""
+    body = structure(plate(8, 6))
+    corners = sparse.diags_array(np.isin(body.node, [1, 7, 57]) * (body.direction < 3) * 1e-3)
+    light = free_body(dataclasses.replace(body, M=sparse.csc_array(corners)))
+    assert len(body.node) > modes.SMALL
+    for asked in ({"count": 50}, {"upto_hz": 1e9}):
+        assert len(free_modes(light, **asked).frequency) == 3
+
+
+def test_more_modes_than_are_sought(square, monkeypatch):
+    """A limit far too high is told before memory ends."""
+    body, _ = square
+    monkeypatch.setattr(modes, "MOST", 20)
+    with pytest.raises(NumericalError, match="more than 20 modes lie below 1e\\+06 Hz"):
+        free_modes(body, upto_hz=1e6)
+    monkeypatch.setattr(modes, "DENSE", 20)
+    with pytest.raises(NumericalError, match="more than 20 modes are asked for"):
+        free_modes(body, count=21)
 
 
 @pytest.mark.parametrize(("times", "found"), [(3.0, r"K: node \d+, r?[xyz]"), (30.0, r"w\^2 = -")])

@@ -67,7 +67,7 @@ def test_zeros_of_a_polynomial_are_found(roots):
 
 
 @pytest.mark.parametrize("width", [0.4, 0.1, 0.01])
-@pytest.mark.parametrize("middle", [0.3, 0.4999, 0.62])
+@pytest.mark.parametrize("middle", [0.013, 0.3, 0.4999, 0.62, 0.985])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_window_narrower_than_the_grid_is_found(width, middle, sign):
     """Two zeros within a step of the grid, wherever they lie in it."""
@@ -76,6 +76,14 @@ def test_a_window_narrower_than_the_grid_is_found(width, middle, sign):
     found = crossings(lambda x: sign * ((x - middle) ** 2 - half**2), np.linspace(0.0, 1.0, 21))
     assert [at for at, _ in found] == pytest.approx([middle - half, middle + half], abs=1e-6)
     assert [change for _, change in found] == (["gains", "loses"] if sign > 0 else ["loses", "gains"])
+
+
+@pytest.mark.parametrize("slopes", [(1.0, 1.0), (0.1, 20.0), (20.0, 0.1)])
+def test_a_window_between_two_roots_is_found(slopes):
+    """One root falls slowly, another grows fast, or the reverse: the margin has a kink, not a vertex."""
+    falls, grows = slopes
+    found = crossings(lambda x: max(falls * (0.48 - x), grows * (x - 0.49)), np.linspace(0.0, 1.0, 21))
+    assert [at for at, _ in found] == pytest.approx([0.48, 0.49], abs=1e-6)
 
 
 def test_no_crossing_where_the_margin_keeps_its_sign():

@@ -181,7 +181,12 @@ def test_what_cannot_be_had_has_a_reason():
 
     slow = run_numbers(of_record(np.sin(np.arange(4000.0)), step_s=0.05))
     assert slow["bogie_alarms"].reason == "steps of 0.05 s hold nothing up to 10 Hz"
-    assert slow["conv_y_rms"].reason == "steps of 0.05 s hold nothing up to 40 Hz"
-    assert run_numbers(of_record(np.sin(TIME[:2000])))["bogie_alarms"].reason.startswith("the ride is too short")
-    for numbers in (bare, slow):
+    for key, hz in (("conv_y_rms", 40), ("f_hunt", 12), ("Wz_floor_mid_z", 40)):
+        assert slow[key].reason == f"steps of 0.05 s hold nothing up to {hz} Hz"
+    still = run_numbers(of_record(np.zeros(40_000)))
+    assert still["bogie_alarms"].reason == "bog_y does not move"
+    short = run_numbers(of_record(np.sin(TIME[:2000])))
+    assert short["bogie_alarms"].reason == "2 s of the ride are kept, and its spectra need 4.096 s"
+    assert short["mount_mx_sum_n_r3"].value > 0.0
+    for numbers in (bare, slow, short):
         assert all(np.isnan(number.value) == bool(number.reason) for number in numbers.values())

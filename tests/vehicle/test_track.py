@@ -142,5 +142,5 @@ def test_what_is_no_track_is_refused_all_at_once():
     assert "[track] quality: 'good' is no known quality. Choose one of low, high." in text
     assert "[track] longest_m: 0.0 m is no such length" in text
     assert "[track] weakened_below_m: -1.0 m is no wavelength" in text
-    assert "[track] distance_m: nan m is no such length" in text
+    assert "[track] distance_m: nan m is no such length. Give a length above 0, 1e+06 m at most." in text
     assert set(LEVELS) == {"low", "high"}

@@ -11,9 +11,9 @@ from fatigue.flexbody.structure import Structure
 
 Floats = NDArray[np.float64]
 
-PIVOT = 0.1  # D is indefinite above the first fixed-interface mode: a pivot below this share of its column is left
 TOO_NEAR = 1e-6  # relative distance to a fixed-interface mode: shapes grow by its inverse and lose as many digits
-STEPS = 20  # of inverse iteration: only a mode that is as near as that has to be found
+STEPS = 6  # of inverse iteration: a mode as near as that stands out of all others after two or three
+INEXACT = 1e-12  # of |D_ss| |T_s|, what may be left of D_sm + D_ss T_s: ten thousand times rounding
 
 
 def kuhar(structure: Structure, masters: NDArray[np.bool_], at_hz: float) -> Floats:
@@ -38,28 +38,37 @@ def kuhar(structure: Structure, masters: NDArray[np.bool_], at_hz: float) -> Flo
     T[m] = np.eye(len(m))
     if not s.size:
         return T
-    D_ss, M_ss = sparse.csc_array(D[s][:, s]), sparse.csc_array(structure.M[s][:, s])
-    try:
-        factors = splu(D_ss, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT, options={"SymmetricMode": True})
-    except RuntimeError as error:  # exactly singular
-        raise _at_a_mode(at_hz) from error
-    if abs(_to_nearest(factors, M_ss)) < 2.0 * TOO_NEAR * p2:  # w^2 - p^2 is about 2 p (w - p)
-        raise _at_a_mode(at_hz)
-    T[s] = -factors.solve(D[s][:, m].toarray())
-    return T
+    D_ss, D_sm, M_ss = sparse.csc_array(D[s][:, s]), D[s][:, m].toarray(), sparse.csc_array(structure.M[s][:, s])
+    for pivot_threshold in (0.0, 1.0):  # pivots on the diagonal save fill; D is indefinite and may need others
+        try:
+            factors = splu(
+                D_ss,
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=pivot_threshold,
+                options={"SymmetricMode": pivot_threshold == 0.0},
+            )
+        except RuntimeError as error:  # exactly singular
+            raise _at_a_mode(at_hz) from error
+        if _to_nearest(factors, M_ss) < 2.0 * TOO_NEAR * p2:  # w^2 - p^2 is about 2 p (w - p)
+            raise _at_a_mode(at_hz)
+        T_s = -factors.solve(D_sm)
+        T_s -= factors.solve(D_sm + D_ss @ T_s)
+        if np.abs(D_sm + D_ss @ T_s).max() <= INEXACT * np.abs(D_ss.data).max() * np.abs(T_s).max():
+            T[s] = T_s
+            return T
+    raise _at_a_mode(at_hz)
 
 
 def _to_nearest(factors: SuperLU, M_ss: sparse.csc_array) -> float:
-    """Distance ``w_s^2 - p^2`` [1/s^2] of the fixed-interface mode nearest to p, by inverse iteration."""
+    """Distance ``|w_s^2 - p^2|`` [1/s^2] of the fixed-interface mode nearest to p, from above, by inverse iteration."""
     x, distance = np.random.default_rng(0).standard_normal(M_ss.shape[0]), np.inf
     for _ in range(STEPS):
-        moved = M_ss @ x
-        mass = float(x @ moved)
+        answer = factors.solve(M_ss @ x)
+        mass = float(answer @ (M_ss @ answer))
         if not mass > 0.0:  # slaves without mass
             break
-        answer = factors.solve(moved)
-        distance = mass / float(moved @ answer)
-        x = answer / np.linalg.norm(answer)
+        distance = float(np.sqrt(x @ (M_ss @ x) / mass))
+        x = answer / np.sqrt(mass)
     return distance
 
 

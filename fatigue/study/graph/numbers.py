@@ -6,6 +6,7 @@ largest ratio of its ends counts. A number that cannot be had is NaN with the re
 
 import math
 
+from fatigue.study.graph.converter import converter_numbers
 from fatigue.study.graph.stability import least_damped
 from fatigue.vehicle.assembly import SuspendedVehicle, suspended
 from fatigue.vehicle.critical import (
@@ -37,6 +38,7 @@ def graph_numbers(vehicle: Vehicle, body: ElasticBody) -> dict[str, Value]:
     ``hunting_speed_km_h``, ``hunting_speed_hz`` : lowest speed at which a bogie begins to hunt, and its frequency [Hz]
     ``least_damping``, ``least_damping_hz`` : of what runs, at speed and conicity of the vehicle
     ``worn_hunting_hz`` : frequency of the least damped root at the conicity of worn wheels at small amplitude [Hz]
+    ``converter_coupled_hz`` ... : lateral frequencies of the converter, see ``converter_numbers``
 
     Raises
     ------
@@ -56,6 +58,7 @@ def graph_numbers(vehicle: Vehicle, body: ElasticBody) -> dict[str, Value]:
             "least_damping_hz": (frequency, "Hz", ""),
             "worn_hunting_hz": (worn_hz, "Hz", ""),
         }
+        | converter_numbers(vehicle, body)
     )
 
 

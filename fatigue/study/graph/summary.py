@@ -4,6 +4,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from fatigue.shown import visible
+from fatigue.study.graph.converter import converter_line
 from fatigue.study.graph.line import Line
 from fatigue.study.graph.numbers import Value
 from fatigue.study.graph.vehicle_graph import VehicleGraph, critical_rows
@@ -43,19 +44,20 @@ class Graph:
 
     def as_text(self) -> str:
         """Text for people: a block for each vehicle."""
-        parts = [_block(of) for of in self.vehicles]
+        parts = [_block(of, self.numbers[of.name]) for of in self.vehicles]
         parts.append(NO_TRAIN)
         if self.written:
             parts.append(f"written: {', '.join(self.written)}")
         return "\n\n".join(parts)
 
 
-def _block(of: VehicleGraph) -> str:
-    """Stable ranges of one vehicle, line by line, with the frequency of the root that changes at either end."""
+def _block(of: VehicleGraph, numbers: dict[str, Value]) -> str:
+    """Stable ranges of one vehicle, line by line, with the root that changes at either end; its converter."""
     setting = of.vehicle.suspension.setting
     title = visible(of.name) if of.name == setting else f"{visible(of.name)} ({setting})"
     width = max(len(at_of(line)) for line in of.lines)
     lines = [f"  {at_of(line).ljust(width)}  {ranges_of(line, with_hz=True)}" for line in of.lines]
+    lines.append(f"  {converter_line(of.vehicle.converter.fe_hz, numbers)}")
     return "\n".join([f"{title} is stable for", *lines])
 
 
@@ -84,7 +86,8 @@ def ranges_of(line: Line, *, with_hz: bool = False) -> str:
         elif b == high and a > low:
             said.append(f"from {first} on")
         else:
-            said.append(f"{first.removesuffix(unit)} to {last}")
+            every = ", all that were looked at" if (a, b) == (low, high) else ""
+            said.append(f"{first.removesuffix(unit)} to {last}{every}")
     return f"{'conicities' if line.along == 'conicity' else 'speeds'} {' and '.join(said)}"
 
 

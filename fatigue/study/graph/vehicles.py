@@ -12,12 +12,13 @@ OPTION = "--setting"
 
 
 def named_vehicles(files: Sequence[Path], settings: Sequence[str] = ()) -> dict[str, Vehicle]:
-    """Vehicles by name: that of the file, and of its folder where files share one, and the setting that is asked for.
+    """Vehicles by name, each file once: name of the file, of its folder too where files share one, and the setting.
 
     Raises
     ------
     CaseError : the mistakes of all files
     """
+    files = list({file.resolve(): file for file in files}.values())
     problems: list[Problem] = []
     found: dict[str, Vehicle] = {}
     for file, name in zip(files, _names(files), strict=True):

@@ -17,6 +17,9 @@ LOOK: dict[Says, tuple[str, str, str]] = {
     "reverse": ("holds the reverse", MISSED, "x"),
     "same": ("both are equal", QUIET, "circle-open"),
 }
+ROW_PX = 40
+LETTERS = 56
+MARK_AT = 0.19  # of a row: in the middle of its shade
 LEAST_DECADES = 0.6  # to each side of 1
 MOST_DECADES = 6.0
 
@@ -35,19 +38,34 @@ def claims_figure(verdicts: Sequence[Verdict]) -> go.Figure | None:
     reach = min(max(reach + 0.15, LEAST_DECADES), MOST_DECADES)
     return figure(
         [_marks(says, points) for says in LOOK if any(point.says == says for point in points)],
-        height=120 + 30 * len(rows),
-        margin={"l": 24, "r": 16, "t": 40, "b": 50},
+        height=100 + ROW_PX * len(rows),
+        margin={"l": 40, "r": 16, "t": 40, "b": 50},
         xaxis=_ratio_axis(reach),
         yaxis=axis(
-            "",
+            "claim",
             tickvals=list(range(len(rows))),
-            ticktext=[f"{place} {in_figure(one.claim.text, 34)}" for place, one in rows],
+            ticktext=[str(place) for place, _ in rows],
             range=[len(rows) - 0.5, -0.5],
-            automargin=True,
             showgrid=False,
         ),
+        annotations=[_said(row, one.claim.text) for row, (_, one) in enumerate(rows)],
         shapes=[*(_shade(row, one, reach) for row, (_, one) in enumerate(rows)), upright(1.0, QUIET, dash="solid")],
     )
+
+
+def _said(row: int, text: str) -> Trace:
+    """The sentence above the marks of its row, so that it needs no room beside them."""
+    return {
+        "x": 0,
+        "xref": "paper",
+        "xanchor": "left",
+        "xshift": 4,
+        "y": row - 0.26,
+        "yanchor": "middle",
+        "showarrow": False,
+        "text": in_figure(text, LETTERS),
+        "font": {"size": 11, "color": QUIET},
+    }
 
 
 def _ratio_axis(reach: float) -> dict[str, object]:
@@ -104,8 +122,8 @@ def _shade(row: int, one: Verdict, reach: float) -> Trace:
         "type": "rect",
         "x0": float(low),
         "x1": float(high),
-        "y0": row - 0.36,
-        "y1": row + 0.36,
+        "y0": row - 0.02,
+        "y1": row + 0.4,
         "fillcolor": HOLDS,
         "line": {"width": 1, "color": GRID},
         "layer": "below",
@@ -120,7 +138,7 @@ def _marks(says: Says, points: Sequence[_Point]) -> Trace:
         "mode": "markers",
         "name": name,
         "x": [point.ratio for point in shown],
-        "y": [point.row for point in shown],
+        "y": [point.row + MARK_AT for point in shown],
         "marker": {"size": 9, "color": colour, "symbol": symbol, "line": {"width": 1.5, "color": colour}},
         "customdata": [[number(point.ratio), point.claim, point.seed] for point in shown],
         "hovertemplate": "claim %{customdata[1]}, seed %{customdata[2]}: %{customdata[0]}<extra></extra>",

@@ -14,6 +14,7 @@ from fatigue.study.claims.verdict import CONTRADICTED, REPRODUCED, Verdict
 from fatigue.study.page import words
 from fatigue.study.page.chosen import Group, groups
 from fatigue.study.page.claims_figure import claims_figure
+from fatigue.study.page.conicity import conicity_figure
 from fatigue.study.page.lives import lives_figure, lives_of
 from fatigue.study.page.maps import weld_maps
 from fatigue.study.page.spectra import spectra_figure, spectra_of
@@ -37,6 +38,7 @@ def study_page(of: Studied) -> str:
         "outcome": words.outcome(of.verdicts) if of.verdicts else "",
         "glance": _glance(of, figs),
         "claims": [_claim(number, one) for number, one in enumerate(of.verdicts, 1)],
+        "conicity": _conicity(of, figs),
         "spectra": _spectra(of, drawn, figs),
         "maps": _maps(of, figs),
         "lives": _lives(of, drawn, figs),
@@ -76,12 +78,22 @@ def _claim(number: int, one: Verdict) -> dict[str, Any]:
         "reason": one.reason,
         "statement": one.claim.statement(),
         "left": words.told(one.left, one.unit) if tried else "",
-        "right": words.told(one.right, one.unit) if tried else "",
-        "ratio": words.told(one.ratio, "") if tried and one.ratio.known else "",
+        "right": words.right_of(one) if tried else "",
+        "ratio": words.told(one.ratio, "") if one.ratio.known and one.claim.operator != "between" else "",
         "agreement": words.agreement(one) if tried else "",
         "geometric": one.is_logarithmic and len(one.of_seeds) > 1,
         "seeds": seed_table(number, one),
     }
+
+
+def _conicity(of: Studied, figs: Figures) -> Shown | None:
+    """Stable conicities of the vehicles whose analysis graph claims ask for."""
+    drawn = conicity_figure(of)
+    caption = (
+        "Equivalent conicities at which each vehicle is stable at the speed of its run, with the frequency of the root "
+        "that grows beyond either end. fatigue study graph draws all of it over speed and conicity."
+    )
+    return None if drawn is None else figs.add("conicity", drawn, caption, wide=True)
 
 
 def _spectra(of: Studied, drawn: list[Group], figs: Figures) -> list[Shown]:

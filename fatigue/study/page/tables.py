@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, text
 from fatigue.study.claims.verdict import Verdict
 from fatigue.study.page.studied import Studied
+from fatigue.study.page.words import spelled
 from fatigue.study.quantities import StudyRun
 from fatigue.study.variants.ratios import RatioRow
 from fatigue.study.variants.varied.names import shown
@@ -57,15 +58,20 @@ def seed_table(number: int, one: Verdict) -> PageTable | None:
     rows = tuple(
         (
             integer(of.seed),
-            num(of.left),
-            num(of.right),
-            num(of.ratio),
+            _value(of.left),
+            _value(of.right),
+            _value(of.ratio),
             Cell(SAYS[of.says]),
             *([text(of.reason)] if why else []),
         )
         for of in one.of_seeds
     )
     return PageTable(f"claim-{number}-seeds", headings, rows)
+
+
+def _value(value: float) -> Cell:
+    """Cell with a number, above 1e12, too."""
+    return Cell(spelled(value), num(value).value)
 
 
 def variant_table(of: Studied) -> PageTable:

@@ -1,9 +1,10 @@
 """Sentences of the page: what was varied and run, what came out of the claims, what the study is not."""
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from fatigue.report.wording import listed, number, short, whole
+from fatigue.report.wording import LONGEST, listed, number, short, whole
 from fatigue.study.claims.verdict import CONTRADICTED, REPRODUCED, UNDECIDED, Scatter, Verdict
 from fatigue.study.page.studied import Studied, Varied
 from fatigue.study.variants.varied.names import shown
@@ -25,10 +26,7 @@ def story(of: Studied) -> Iterator[str]:
     """What was varied, under how many seeds, where histories come from, what was done with them."""
     if of.varied:
         things = listed([_varied(one) for one in of.varied])
-        several = (
-            "in all combinations" if of.combine == "full" else "one at a time, beside variants stated by themselves"
-        )
-        yield f"This study varies {things}{f', {several}' if len(of.varied) > 1 else ''}."
+        yield f"This study varies {things}{_combined(of)}."
     else:
         yield "This study varies nothing: it has its base alone."
     variants, seeds = len(of.variants), len(of.seeds)
@@ -41,6 +39,14 @@ def story(of: Studied) -> Iterator[str]:
     yield f"The base is {base}. The histories are {of.source}; {lives}."
     if seeds == 1:
         yield "One seed has no scatter: what differs by little here may differ the other way under another seed."
+
+
+def _combined(of: Studied) -> str:
+    """How variants are made of what is varied."""
+    sizes = [len(one.values) for one in of.varied]
+    made = math.prod(sizes) if of.combine == "full" else 1 + sum(size - 1 for size in sizes)
+    how = "" if len(sizes) == 1 else ", in combination" if of.combine == "full" else ", one at a time"
+    return how if made == len(of.variants) else f"{how}, beside variants stated by themselves"
 
 
 def _varied(one: Varied) -> str:
@@ -64,14 +70,28 @@ def outcome(verdicts: Sequence[Verdict]) -> str:
     )
 
 
+def spelled(value: float) -> str:
+    """Number with four digits, above 1e12, too, where a life would be written as longer than that."""
+    return f"{value:.3e}".replace("e+", "e") if LONGEST < abs(value) < math.inf else number(value)
+
+
 def told(side: Scatter, unit: str) -> str:
     """One side of a claim: its mean, and least and greatest of several seeds."""
     unit = f" {unit}" if unit not in ("", "-") else ""
     if side.known == 0:
         return "no number"
     if side.known == 1 or side.low == side.high:
-        return f"{number(side.mean)}{unit}"
-    return f"{number(side.mean)}{unit} ({number(side.low)} to {number(side.high)})"
+        return f"{spelled(side.mean)}{unit}"
+    return f"{spelled(side.mean)}{unit} ({spelled(side.low)} to {spelled(side.high)})"
+
+
+def right_of(one: Verdict) -> str:
+    """The right side of a claim: of 'between' both ends, where they are numbers, else the nearer one."""
+    ends = [one.claim.factor * side for side in one.claim.right_sides if isinstance(side, float)]
+    unit = f" {one.unit}" if one.unit not in ("", "-") else ""
+    if one.claim.operator == "between" and len(ends) == 2:
+        return f"{ends[0]:g} to {ends[1]:g}{unit}"
+    return told(one.right, one.unit)
 
 
 def agreement(one: Verdict) -> str:

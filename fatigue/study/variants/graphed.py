@@ -1,4 +1,4 @@
-"""Numbers of the analysis graph that claims ask for: of the variants they name, the same under every seed."""
+"""Numbers of the analysis graph where claims ask for any: of the variants they name, the same under every seed."""
 
 from collections.abc import Iterator, Sequence
 
@@ -26,12 +26,17 @@ OF_GRAPH = {
     "least_damping": "-",
     "least_damping_hz": "Hz",
     "worn_hunting_hz": "Hz",
+    "converter_in_series_hz": "Hz",
+    "converter_coupled_hz": "Hz",
+    "converter_coupled_share": "-",
+    "converter_running_hz": "Hz",
+    "converter_running_damping": "-",
 }
 """Numbers of the analysis graph and their units."""
 
 
 def graphed(claims: Sequence[Claim], files: BaseFiles, plan: Plan, seeds: Sequence[int]) -> Iterator[Number]:
-    """Numbers of the graph that claims name, each of a variant under every seed; none of a study without a vehicle.
+    """Numbers of the graph of variants whose graph claims name, under every seed; none of a study without a vehicle.
 
     A vehicle that has no graph, as one whose body is damaged, has NaN with the reason.
     """
@@ -39,18 +44,14 @@ def graphed(claims: Sequence[Claim], files: BaseFiles, plan: Plan, seeds: Sequen
         return
     changes = {planned.variant.name: planned.changes for planned in plan.variants}
     variants = [planned.variant for planned in plan.variants]
-    wanted: dict[str, dict[str, None]] = {}
-    for term in (term for claim in claims for side in claim.expressions for term in side.terms):
-        variant = variant_of(term, variants)
-        if term.quantity in OF_GRAPH and variant is not None:
-            wanted.setdefault(variant.name, {})[term.quantity] = None
+    terms = (term for claim in claims for side in claim.expressions for term in side.terms)
+    asked = (variant_of(term, variants) for term in terms if term.quantity in OF_GRAPH)
+    wanted = dict.fromkeys(variant.name for variant in asked if variant is not None)
     bodies: dict[Car, ElasticBody] = {}
-    for name, quantities in wanted.items():
+    for name in wanted:
         vehicle = files.changed_vehicle(changes[name])
         assert vehicle is not None
-        found = _of_vehicle(vehicle, bodies)
-        for quantity in quantities:
-            value, unit, reason = found[quantity]
+        for quantity, (value, unit, reason) in _of_vehicle(vehicle, bodies).items():
             yield from (Number(name, seed, quantity, "", float(value), unit, reason) for seed in seeds)
 
 

@@ -63,9 +63,14 @@ class Coordinates:
         """Which coordinate moves a body like this."""
         return self._columns[f"{body}.{motion}"]
 
+    @cached_property
+    def _of_body(self) -> dict[str, NDArray[np.int64]]:
+        bodies = np.array([name.partition(".")[0] for name in self.names])
+        return {body: np.flatnonzero(bodies == body) for bodies_of in GROUPS.values() for body in bodies_of}
+
     def of(self, *bodies: str) -> NDArray[np.int64]:
-        """Which coordinates move these bodies."""
-        return np.array([k for k, name in enumerate(self.names) if name.partition(".")[0] in bodies], dtype=np.int64)
+        """Which coordinates move these bodies, body by body."""
+        return np.concatenate([self._of_body[body] for body in bodies])
 
     @cached_property
     def flex(self) -> slice:

@@ -21,6 +21,7 @@ from fatigue.vehicle.settled import settled
 Floats = NDArray[np.float64]
 Sections = tuple[tuple[float, float], ...]
 
+STATES = ("sound", "worn")
 SATURATED = 3.0  # creep force over friction force from which all of the contact slides
 
 
@@ -64,6 +65,9 @@ def contact_of(vehicle: Vehicle, speed_m_s: float) -> Contact:
         )
         if not sound
     ]
+    if given.state not in STATES:
+        what, remedy = f"{given.state!r} is no state of the contact", f"Choose one of {', '.join(STATES)}"
+        problems.append(Problem("contact", "[contact] state", what, remedy))
     refuse(CaseError, problems)
     of = Contact(
         conicity=given.conicity,

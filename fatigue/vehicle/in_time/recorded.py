@@ -61,7 +61,7 @@ def moved(of: LinearVehicle, contact: Contact, met: Met, start: Floats, step_s: 
     NumericalError : it leaves the track, or something in it grows beyond all numbers
     """
     n, steps = len(of.M), len(met.u)
-    q, y = np.empty((len(of.M[of.coordinates.flex]), steps)), np.empty((len(of.axle_x_m), steps))
+    q, y = np.empty((of.coordinates.modes, steps)), np.empty((len(of.axle_x_m), steps))
     velocity = np.empty((len(of.outputs), steps))
     outputs = np.stack(list(of.outputs.values()))
     at = 0

@@ -114,4 +114,4 @@ def _sliding(s_over_speed: complex, q: Complex, at: Coordinates) -> float:
     """``|y'/V - psi|^2`` over ``|y'/V|^2 + |psi|^2``, summed over wheelsets: 0 where they roll as they point."""
     along, heading = s_over_speed * q[at.wheelset_y], q[at.wheelset_yaw]
     both = np.sum(np.abs(along) ** 2 + np.abs(heading) ** 2)
-    return float(np.sum(np.abs(along - heading) ** 2) / both)
+    return float(np.sum(np.abs(along - heading) ** 2) / both) if both else 1.0

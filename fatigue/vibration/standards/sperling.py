@@ -64,9 +64,11 @@ def wz_of_density(frequency: Floats, density: Floats, direction: Direction, band
 
     The integral is that of the trapezoidal rule over the frequencies (n,) [Hz] in the band, its ends included.
 
-    >>> f = np.linspace(0.0, 50.0, 5001)
-    >>> round(wz_of_density(f, np.full(f.size, 1e-3), "z", (0.5, 40.0)), 3)
-    1.876
+    A sine of 0.5 m/s2 at 5.4 Hz, as a line of 0.01 Hz:
+
+    >>> f = np.arange(5001) / 100
+    >>> round(wz_of_density(f, np.where(f == 5.4, 0.5**2 / 2 / 0.01, 0.0), "z", (0.5, 40.0)), 3)
+    3.036
     """
     inside = (frequency >= band[0] * (1 - EXACTLY)) & (frequency <= band[1] * (1 + EXACTLY))
     f = frequency[inside]

@@ -55,8 +55,8 @@ def test_energy_is_the_sum_of_the_elements(rows, q, seed):
     K, C = stiffness(springs), damping(springs)
     assert q @ K @ q == pytest.approx(k @ e**2, abs=1e-6)
     assert q @ C @ q == pytest.approx(c @ e**2, abs=1e-6)
-    np.testing.assert_allclose(K, K.T)
-    np.testing.assert_allclose(C, C.T)
+    np.testing.assert_allclose(K, K.T, atol=1e-12)
+    np.testing.assert_allclose(C, C.T, atol=1e-12)
 
 
 def test_what_the_rail_pushes_with():

@@ -42,7 +42,9 @@ def test_whole_numbers_are_taken_as_numbers():
 
 def test_what_is_no_contact_is_refused_all_at_once():
     """Each mistake names its key, its value and what to give."""
-    keys = ContactKeys(worn_amplitude_mm=0.0, worn_ramp_m=-1.0, flange_N_m=float("nan"), saturation_mu=0.0)
+    keys = ContactKeys(
+        state="used", worn_amplitude_mm=0.0, worn_ramp_m=-1.0, flange_N_m=float("nan"), saturation_mu=0.0
+    )
     with pytest.raises(CaseError) as refused:
         contact_of(Vehicle(contact=keys), SPEED)
     assert str(refused.value).splitlines() == [
@@ -50,6 +52,7 @@ def test_what_is_no_contact_is_refused_all_at_once():
         "[contact] worn_ramp_m: -1.0 is out of range. Give a value of 0 or above.",
         "[contact] flange_N_m: nan is out of range. Give a value of 0 or above.",
         "[contact] saturation_mu: 0.0 is out of range. Give a value above 0, or leave it out.",
+        "[contact] state: 'used' is no state of the contact. Choose one of sound, worn.",
     ]
 
 

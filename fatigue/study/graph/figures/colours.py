@@ -12,6 +12,7 @@ from fatigue.vehicle.stability.loci import Locus
 UPTO_HZ = 14.0  # shown: hunting and what it meets
 MOVED = 0.02  # of damping, from its least to its greatest along the line
 DAMPED = 0.6  # least damping from which a root is of no interest to hunting
+COLOURS = (*SERIES[:-1], "#7a4fbf", "#8a3a1c", "#00574b", "#a8005f")
 OF_GROUP = {
     "car": "#0072b2",
     "flex": "#56b4e9",
@@ -39,7 +40,7 @@ def moved(line: Line, upto_hz: float = UPTO_HZ) -> list[Locus]:
 def palette(lines: Sequence[Line], upto_hz: float = UPTO_HZ) -> dict[str, str]:
     """Colour of every name that a moved locus of some lines has, the same in all figures."""
     names = dict.fromkeys(locus.name for line in lines for locus in moved(line, upto_hz))
-    return dict(zip(names, itertools.cycle(SERIES[:-1]), strict=False))
+    return dict(zip(names, itertools.cycle(COLOURS), strict=False))
 
 
 def _moves(locus: Locus) -> bool:
