@@ -25,7 +25,8 @@ SEGMENT_S = 4.096  # Hann, half overlapping
 UPTO_HZ = 40.0
 BELOW_TOP = 5.0  # decades that are shown
 MOST_PANELS = 4
-PANEL_HEIGHT = 250
+PANEL_HEIGHT = 230  # px
+GAP = 0.14  # between panels, of the height of one
 OWN_CHANNELS = ("bog_y", "conv_y")  # of the history of a vehicle that rides without a case
 CASE, HISTORY = "case.toml", "history.parquet"
 
@@ -69,7 +70,7 @@ def spectra_figure(group: Group, spectra: Spectra, seeds: Sequence[int]) -> go.F
         for number, (label, f, density) in lines:
             data.append(_line(label, number, f, density, name, in_legend=not any(t["name"] == label for t in data)))
         highest = max(float(np.log10(density.max())) for _, (_, _, density) in lines)
-        domain = [top - height + (0.08 if place < len(panels) - 1 else 0.0), top - 0.03]
+        domain = [top - height + GAP * height, top] if place < len(panels) - 1 else [top - height, top]
         title = "PSD" + (f" [({unit})²/Hz]" if unit != "-" else "")
         layout[f"yaxis{name}"] = log_axis(title, highest - BELOW_TOP, highest + 0.3, domain=domain)
         said = in_figure(channel) + (f", {in_figure(event)}" if event else "")
