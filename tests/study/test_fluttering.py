@@ -20,7 +20,7 @@ def found(tmp_path_factory):
 
 
 def test_verdicts_of_the_small_study(found):
-    """What the model does on a kilometre: four sentences come out, that about sound wheels does not, one has no data."""
+    """Four sentences come out on a kilometre of track, that about sound wheels does not, one has no data."""
     study, folder = found
     words = [one.verdict for one in study.verdicts]
     assert words == ["reproduced"] * 4 + ["contradicted", "not decidable"]

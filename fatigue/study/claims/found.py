@@ -1,5 +1,6 @@
 """The value of a claim's side under one seed, from the numbers of a study; where there is none, the reason."""
 
+import difflib
 import fnmatch
 import math
 from collections.abc import Iterable, Sequence
@@ -30,10 +31,7 @@ class Numbers:
         self._by_place: dict[tuple[str, int, str], list[Number]] = {}
         for number in numbers:
             self._by_place.setdefault((number.variant, number.seed, number.quantity), []).append(number)
-
-    def quantities(self) -> tuple[str, ...]:
-        """All quantities, in the order in which they come."""
-        return tuple(dict.fromkeys(quantity for _, _, quantity in self._by_place))
+        self._quantities = dict.fromkeys(quantity for _, _, quantity in self._by_place)
 
     def side(self, side: float | Expression, seed: int) -> Found:
         """Value of one side of a claim under one seed."""
@@ -59,9 +57,12 @@ class Numbers:
         if variant is None:
             return Found(math.nan, "", f"no variant has the settings of {term}")
         there = self._by_place.get((variant.name, seed, term.quantity), [])
+        if not there and term.quantity not in self._quantities:
+            near = difflib.get_close_matches(term.quantity, self._quantities, n=1)
+            nearest = f", the nearest is {near[0]}" if near else ""
+            return Found(math.nan, "", f"no run has a {term.quantity}{nearest}")
         if not there:
-            what = f"seed {seed} of {variant.name!r} has no {term.quantity}"
-            return Found(math.nan, "", what)
+            return Found(math.nan, "", f"seed {seed} of {variant.name!r} has no {term.quantity}")
         wanted = [one for one in there if _is_meant(one.weld, term.weld)]
         if not wanted and not term.weld:
             wanted = there  # no number of the whole run: the worst of all welds

@@ -49,6 +49,8 @@ def test_what_is_not_there_says_why():
     assert side("life_km:W3").reason == "no weld is named 'W3'; there are W2_hanger1, W2_hanger2"
     assert side("conv_y_rms", seed=9).reason == "seed 9 of 'base' has no conv_y_rms"
     assert math.isnan(side("conv_y_rms", seed=9).value)
+    assert side("conv_yy_rms").reason == "no run has a conv_yy_rms, the nearest is conv_y_rms"
+    assert side("weight").reason == "no run has a weight"
 
 
 def test_ratios():
