@@ -77,6 +77,15 @@ def test_forces_of_a_side():
     np.testing.assert_allclose(one[:, :, 0], known, atol=1e-12 * np.abs(known).max())
 
 
+def test_forces_of_unknown_elements_are_refused():
+    """And at unknown nodes, by their id."""
+    mesh = plate(2, 2)
+    u = np.zeros((6 * len(mesh.node), 1))
+    for elements, nodes, said in (([1, 9], [1], "element 9"), ([0], [1], "element 0"), ([1], [1, 44], "node 44")):
+        with pytest.raises(DataError, match=f"{said}: the mesh does not have it"):
+            side_forces(mesh, u, np.array(elements), np.array(nodes))
+
+
 @pytest.mark.parametrize("triangles", [False, True], ids=["quads", "triangles"])
 def test_cantilever(triangles):
     """A slender strip bends across its plane with the frequencies of a beam, 1.875^2 and 4.694^2, within 1 %.

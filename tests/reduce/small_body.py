@@ -62,7 +62,7 @@ def write_model(folder: Path) -> Path:
     vectors = {"normal_x": 0.0, "normal_y": 1.0, "normal_z": 0.0, "outward_x": 0.0, "outward_y": 0.0, "outward_z": 1.0}
     of_line = {
         "weld": "hanger",
-        "order": [1, 2, 3],
+        "order": np.arange(1, len(line) + 1),
         "node": line,
         **{f"{a}_mm": places[:, k] for k, a in enumerate("xyz")},
     }

@@ -200,6 +200,18 @@ def test_matrices_give_the_same_basis_without_weld_forces(tmp_path, body):
     assert "no case" in done.as_text()
 
 
+def test_matrices_in_si(tmp_path, body):
+    """K in N/m, N, N m and M in kg, kg m, kg m2 are the same body, where their units are named."""
+    given = matrices(tmp_path)
+    D = sparse.diags_array(np.sqrt(np.where(given.direction < 3, 1e3, 1e-3)))
+    for name, matrix in (("K", given.K), ("M", given.M)):
+        sparse.save_npz(tmp_path / f"{name}.npz", sparse.csc_array(D @ matrix @ D))
+    recipe = Recipe(cut_hz=400.0)
+    done = reduce(tmp_path, tmp_path / "shells" / "interface.csv", tmp_path / "out", recipe, units="m-kg-s")
+    assert done.rigid.mass_t == pytest.approx(body.rigid.mass_t, rel=1e-9)
+    assert done.reduced.static == pytest.approx(body.reduced.static, rel=1e-6)
+
+
 def coupled(M, i, j):
     """Mass matrix with more between two rows than they have themselves."""
     size = 10.0 * M[i, i]

@@ -87,7 +87,7 @@ def test_all_mistakes_are_told_at_once(tmp_path):
         speed_km_h = nan
         """,
     )
-    found = refusals(path, {"convertor.fe_hz": 3.0, "run.step_s": True}, "study.toml: vary[1]")
+    found = refusals(path, {"conv.fe_hz": 3.0, "run.step_s": True}, "study.toml: vary[1]")
     told = {where: f"{what}. {remedy}" for _, where, what, remedy in found}
     assert len(found) == len(told) == 14
     assert "speed_km_h" in told["v.toml: speed"]
@@ -101,7 +101,7 @@ def test_all_mistakes_are_told_at_once(tmp_path):
     assert {"v.toml: contact.worn_sections_m[1]", "v.toml: contact.worn_sections_m[2]"} <= set(told)
     assert "whole number" in told["v.toml: run.seed"]
     assert "out of range" in told["v.toml: run.speed_km_h"]
-    assert "converter.fe_hz" in told["study.toml: vary[1]: convertor.fe_hz"]
+    assert "converter.fe_hz" in told["study.toml: vary[1]: conv.fe_hz"]
     assert "should be a number" in told["study.toml: vary[1]: run.step_s"]
 
 

@@ -1,4 +1,4 @@
-"""What the command line says of a study, and its exit codes."""
+"""What the command line says of a study, and its exit code."""
 
 import json
 
@@ -7,31 +7,24 @@ from tests.test_cli import fatigue
 
 
 def test_a_study_on_the_command_line(copied):
-    """Text for people with what was there before; a claim with its verdict; a warning of each kind once."""
+    """Text with what was there before and with verdicts; each kind of warning once; a run that fails is an error."""
     claim = '[[claim]]\ntext = "It lives longer"\nleft = "life_km:A[fe=18]"\noperator = ">"\nright = "life_km:A"\n'
-    study = written(copied, claim)
+    study = written(copied, claim, **{"[9.0, 18.0]": "[9.0, 18.0, -1.0]", "seeds = [1, 2]": "seeds = [1]"})
+    stops = "if sys.argv[1] == '-1': sys.exit('no licence')\n"
+    (copied / "stops.py").write_text(f"import sys\n{stops}{(copied / 'simulate.py').read_text()}")
+    study.write_text(study.read_text().replace("simulate.py", "stops.py"))
     done = fatigue("study", "run", study, "-o", copied / "out", "--csv", "--threads", "1")
-    assert done.returncode == 0, done.stderr
-    assert "small study: 2 variants under 2 seeds: 0 done now, 4 there from before" in done.stdout
+    assert done.returncode == 3, done.stderr
+    assert "small study: 3 variants under 1 seed: 0 done now, 2 there from before, 1 failed" in done.stdout
     assert "reproduced: It lives longer" in done.stdout
-    assert "assessing (4 runs): done in" in done.stderr
+    assert "assessing (3 runs): done in" in done.stderr
     assert "reading and checking the case" not in done.stderr
+    (error,) = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
+    assert error.startswith(
+        "error: variant 'fe=-1', seed 1: the command ended with exit code 1; its stderr ends with: no "
+    )
     warnings = [line for line in done.stderr.splitlines() if line.startswith("WARNING")]
-    assert len(warnings) == len({line.partition(":")[2].partition(":")[0] for line in warnings}) or len(warnings) < 8
+    kinds = {one["code"] for one in json.loads((copied / "out" / "study.json").read_text())["warnings"]}
+    assert len(warnings) == len(kinds) > 0
     assert {path.suffix for path in (copied / "out").glob("claims.*")} == {".parquet", ".csv"}
-    page = (copied / "out" / "study.html").read_text(encoding="utf-8")
-    assert "It lives longer" in page
-
-
-def test_a_run_that_fails_on_the_command_line(copied):
-    """Tables and JSON are there all the same; the failure is a line of stderr, and the exit code is 3."""
-    script = copied / "simulate.py"
-    script.write_text(script.read_text().replace("draw =", 'sys.exit("no licence") if seed == 2 else 0\ndraw ='))
-    done = fatigue("study", "run", copied / "study.toml", "-o", copied / "out", "--json")
-    assert done.returncode == 3
-    found = json.loads(done.stdout)
-    assert [run["state"] for run in found["runs"]] == ["done", "failed", "done", "failed"]
-    errors = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
-    assert len(errors) == 2
-    assert all("no licence" in line for line in errors)
-    assert (copied / "out" / "numbers.parquet").is_file()
+    assert "It lives longer" in (copied / "out" / "study.html").read_text(encoding="utf-8")

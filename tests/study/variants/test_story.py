@@ -14,7 +14,7 @@ import fatigue.study.variants.runs.run as run_module
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError
-from fatigue.results import read_welds
+from fatigue.results import json_ready, read_welds
 from fatigue.results.dictionary.study import STUDY
 from fatigue.study.variants.story import listed_study, run_study
 from tests.study.variants.small_study import small_study, written
@@ -83,9 +83,13 @@ def test_tables_have_units_and_meanings(finished):
     assert runs[0]["folder"] == "runs/base/seed_1"
     assert {run["state"] for run in runs} == {"done"}
     assert "fe=18 / base" in found.as_text()
+    record = json.loads(json.dumps(json_ready(found.as_record()), allow_nan=False))
+    assert [run["state"] for run in record["runs"]] == ["done"] * 4
+    assert len(record["ratios"]) == len(found.ratios)
     assert json.loads((folder / "out" / "study.json").read_text())["program"] == "fatigue study run"
 
 
+@pytest.mark.usefixtures("with_page")
 def test_the_same_bytes_with_another_number_of_threads(finished, tmp_path):
     """In another folder, one run after the other."""
     folder, _ = finished
@@ -95,6 +99,7 @@ def test_the_same_bytes_with_another_number_of_threads(finished, tmp_path):
     assert not {name for name in one if one[name] != other[name]}
 
 
+@pytest.mark.usefixtures("with_page")
 def test_nothing_is_run_again(copied):
     """All of it is known by its hashes, although the folder has moved; the tables are the same bytes."""
     before, tables = times(copied / "out" / "runs"), contents(copied / "out")
@@ -102,6 +107,20 @@ def test_nothing_is_run_again(copied):
     assert found.reused == 4
     assert times(copied / "out" / "runs") == before
     assert contents(copied / "out") == tables
+
+
+def test_a_folder_that_moved_without_its_inputs(copied):
+    """Its cases would lead nowhere: runs are assessed again, and nothing is simulated."""
+    (copied / "deep").mkdir()
+    (copied / "out").rename(copied / "deep" / "out")
+    before = times(copied / "deep" / "out" / "runs")
+    found = run_study(copied / "study.toml", copied / "deep" / "out")
+    assert found.reused == 0
+    assert {name for name in before if name.endswith("simulation.json")} <= {
+        name for name, when in times(copied / "deep" / "out" / "runs").items() if before.get(name) == when
+    }
+    case = load_case(copied / "deep" / RUN / "case.toml")
+    assert case.resolve(case.body.modes).is_file()
 
 
 def test_only_what_a_change_concerns_is_run_again(copied):
