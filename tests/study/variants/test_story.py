@@ -109,6 +109,20 @@ def test_nothing_is_run_again(copied):
     assert contents(copied / "out") == tables
 
 
+def test_a_folder_that_moved_without_its_inputs(copied):
+    """Its cases would lead nowhere: runs are assessed again, and nothing is simulated."""
+    (copied / "deep").mkdir()
+    (copied / "out").rename(copied / "deep" / "out")
+    before = times(copied / "deep" / "out" / "runs")
+    found = run_study(copied / "study.toml", copied / "deep" / "out")
+    assert found.reused == 0
+    assert {name for name in before if name.endswith("simulation.json")} <= {
+        name for name, when in times(copied / "deep" / "out" / "runs").items() if before.get(name) == when
+    }
+    case = load_case(copied / "deep" / RUN / "case.toml")
+    assert case.resolve(case.body.modes).is_file()
+
+
 def test_only_what_a_change_concerns_is_run_again(copied):
     """A new value and a new seed are new runs; a rule of the case assesses all, and simulates nothing."""
     before = times(copied / "out" / "runs")

@@ -63,7 +63,7 @@ def known(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, *, diagnose
     numbers, histories = tuple(source_numbers(run, made)), _histories(made)
     if run.case is None:
         return Done(numbers, (), histories, reused=all(one.reused for one in made.values()))
-    before = finished(run, _key(run, made, hashes, diagnosed=diagnosed))
+    before = finished(run, _key(run, made, hashes, diagnosed=diagnosed), _case_text(run, made))
     return None if before is None else replace(before, numbers=(*numbers, *before.numbers), histories=histories)
 
 
@@ -77,15 +77,12 @@ def completed(run: PlannedRun, made: Mapping[str, Made], hashes: Hashes, threads
     before = known(run, made, hashes, diagnosed=diagnosed)
     if before is not None or run.case is None:
         return before or Done((), (), {})
-    given = {event: files for one in made.values() for event, files in one.files.items()}
-    added = {event: keys for one in made.values() for event, keys in one.added.items()}
     case_file = run.folder / CASE_FILE
     with refused_writing(run.folder):
         run.folder.mkdir(parents=True, exist_ok=True)
         (run.folder / RECORD).unlink(missing_ok=True)
-    text = run_case_text(run.case.tables, run.case.case, run.folder, given, added)
     with replacing(case_file) as unfinished:
-        unfinished.write_text(text, encoding="utf-8", newline="\n")
+        unfinished.write_text(_case_text(run, made), encoding="utf-8", newline="\n")
     done = _assessed(run, case_file, threads, diagnosed=diagnosed)
     _record(run, _key(run, made, hashes, diagnosed=diagnosed), done)
     return replace(done, numbers=(*source_numbers(run, made), *done.numbers), histories=_histories(made))
@@ -113,9 +110,19 @@ def _assessed(run: PlannedRun, case_file: Path, threads: int, *, diagnosed: bool
     return Done(tuple(numbers), tuple(warnings), {})
 
 
-def finished(run: PlannedRun, key: str) -> Done | None:
-    """What a finished run found; None where it is not finished, or its result is not as it was written."""
+def _case_text(run: PlannedRun, made: Mapping[str, Made]) -> str:
+    """Text of the case of a run; it names files by their way, so that a folder that moved alone has another one."""
+    assert run.case is not None
+    given = {event: files for one in made.values() for event, files in one.files.items()}
+    added = {event: keys for one in made.values() for event, keys in one.added.items()}
+    return run_case_text(run.case.tables, run.case.case, run.folder, given, added)
+
+
+def finished(run: PlannedRun, key: str, case_text: str) -> Done | None:
+    """What a finished run found; None where it is not finished, or its case or result is not as it would be now."""
     try:
+        if (run.folder / CASE_FILE).read_text(encoding="utf-8") != case_text:
+            return None
         record = json.loads((run.folder / RECORD).read_text(encoding="utf-8"))
         if record["key"] != key or record["result"] != sha256(run.folder / RESULT / PROVENANCE):
             return None
