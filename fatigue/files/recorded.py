@@ -1,13 +1,16 @@
 """A folder that a command fills: what its record lists as it is may be replaced, and nothing of somebody else."""
 
 import json
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.files.mishaps import refused_writing
+
+ELSEWHERE = "Give another folder with -o"
+AWAY = f"Move it away, or --force to overwrite it. {ELSEWHERE}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,23 +46,28 @@ def refuse_foreign(
     ------
     DataError : everything in the way; with ``force`` only folders and inputs are
     """
+    refuse(DataError, in_the_way(folder, filled, force=force, inputs=inputs, editable=editable))
+
+
+def in_the_way(
+    folder: Path, filled: Filled, *, force: bool, inputs: Collection[Path], editable: Collection[str] = ()
+) -> Iterator[Problem]:
+    """What ``refuse_foreign`` refuses, for a command that fills more than files of known names."""
     if folder.exists() and not folder.is_dir():
-        raise DataError(Problem("not_a_folder", str(folder), "is a file, not a folder", "Give another folder with -o"))
-    another, known = "Give another folder with -o", filled.outputs(folder)
-    problems = []
+        yield Problem("not_a_folder", str(folder), "is a file, not a folder", ELSEWHERE)
+        return
+    known = filled.outputs(folder)
     for path in (folder / name for name in (*filled.files, filled.record)):
         if not path.exists():
             continue
         if path.is_dir():
             what = f"is a folder where a file of the {filled.what} has its place"
-            problems.append(Problem("foreign_files", str(path), what, "Move it away"))
+            yield Problem("foreign_files", str(path), what, "Move it away")
         elif any(one.exists() and path.samefile(one) for one in inputs):
-            problems.append(Problem("input_in_the_way", str(path), "is an input of this case", another))
+            yield Problem("input_in_the_way", str(path), f"is an input of this {filled.what}", ELSEWHERE)
         elif not force and not _is_ours(path, known, filled, editable):
             what = f"is there already and was not written by {filled.program}, or was changed since"
-            remedy = f"Move it away, or --force to overwrite it. {another}"
-            problems.append(Problem("foreign_files", str(path), what, remedy))
-    refuse(DataError, problems)
+            yield Problem("foreign_files", str(path), what, AWAY)
 
 
 def _is_ours(path: Path, known: dict[str, str] | None, filled: Filled, editable: Collection[str]) -> bool:

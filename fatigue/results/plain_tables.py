@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
@@ -45,8 +46,7 @@ def write_csv(folder: Path, name: str, columns: Sequence[Column], rows: Sequence
     path, table = folder / f"{name}.csv", table_of(name, columns, rows)
     for i, field in enumerate(table.schema):
         if field.type == pa.string():
-            harmless = pa.compute.replace_substring_regex(table[i], _FORMULA, r"'\1")
-            table = table.set_column(i, field, harmless)
+            table = table.set_column(i, field, pc.replace_substring_regex(table[i], _FORMULA, r"'\1"))
     with refused_writing(path):
         pa_csv.write_csv(table, path, pa_csv.WriteOptions(quoting_style="needed"))
     return path

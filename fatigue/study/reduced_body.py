@@ -8,7 +8,7 @@ SI, and with ``u_mm = 1000 u_m`` the energy ``q'^2/2`` in N mm is ``1000 p'^2/2`
 """
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,15 +23,11 @@ from fatigue.readers.neutral.tables import open_table
 from fatigue.reduce.folder import FILLED, RECORD
 from fatigue.reduce.tables import MODES, OBSERVED_SHAPES, POINTS, SHAPES
 from fatigue.vehicle.elastic import ElasticBody, Point, default_damping
+from fatigue.vehicle.equations.suspension import require_points
 
 Floats = NDArray[np.float64]
 
 COORDINATE = np.sqrt(1000.0)  # of the folder per unit SI coordinate
-NEEDED = (
-    *(f"bolster_{end}_{side}" for end in ("front", "rear") for side in ("left", "right")),
-    *(f"{equipment}_{mount}" for equipment in ("converter", "transformer") for mount in (1, 2, 3, 4)),
-)
-"""Points where the suspension of the vehicle takes hold."""
 
 
 def reduced_body(folder: Path, floor_z_m: float) -> ElasticBody:
@@ -39,17 +35,16 @@ def reduced_body(folder: Path, floor_z_m: float) -> ElasticBody:
 
     Raises
     ------
-    DataError : no such folder, tables changed since, points missing where the suspension takes hold
+    DataError : no such folder, tables changed since, or points that ``require_points`` refuses
     """
     record = _record(folder)
     modes, _ = read_modes(folder / MODES, (), strict=False)
     place = _places(folder / POINTS)
     shapes = _shapes(folder, modes)
-    refuse(DataError, _missing(folder, shapes))
     floor = np.array([0.0, 0.0, floor_z_m])
     points = {name: Point(place[name] + floor, shape) for name, shape in shapes.items()}
     given = modes.damping_ratio
-    return ElasticBody(
+    body = ElasticBody(
         mass=1e3 * float(record["mass_t"]),
         cg=1e-3 * np.array(record["cg_mm"], dtype=np.float64) + floor,
         inertia=1e-3 * np.array(record["inertia_t_mm2"], dtype=np.float64),
@@ -57,6 +52,8 @@ def reduced_body(folder: Path, floor_z_m: float) -> ElasticBody:
         damping_ratio=np.where(np.isnan(given), default_damping(modes.frequency), given),
         points=points,
     )
+    require_points(body, str(folder))
+    return body
 
 
 def coordinates_of_folder(q_si: Floats) -> Floats:
@@ -98,15 +95,3 @@ def _shapes(folder: Path, modes: Modes) -> dict[str, Floats]:
             at = DIRECTIONS.index(direction)
             found.setdefault(point, np.full((6, len(modes.mode)), np.nan))[at] = unit[at] * value
     return found
-
-
-def _missing(folder: Path, shapes: Mapping[str, Floats]) -> Iterator[Problem]:
-    """Refusals of a body that the suspension cannot take hold of."""
-    absent = [name for name in NEEDED if name not in shapes]
-    if absent:
-        what = f"lacks the point{'s' * (len(absent) > 1)} {', '.join(absent)}, where the suspension takes hold"
-        yield Problem("points", str(folder), what, "Give the nodes these names in the table of `fatigue reduce`")
-    still = [name for name in NEEDED if name in shapes and np.isnan(shapes[name][:3]).any()]
-    if still:
-        what = f"does not say how its modes move {', '.join(still)} along x, y and z"
-        yield Problem("points", str(folder), what, "Give components 123 to these points")

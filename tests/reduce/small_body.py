@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from fatigue.vehicle.equations.suspension import NEEDED
 from tests.shell_fe import grid, joined
 
 LENGTH, WIDTH, HEIGHT, EDGE = 1200.0, 300.0, 300.0, 100.0  # mm
@@ -96,6 +97,18 @@ def interface():
     rows.append(("roof_mid", node_at(xyz, 600.0, 100.0, 300.0), "observed", "123456", ""))
     rows.append(("floor_front", rows[0][1], "observed", "3", ""))
     return pd.DataFrame(rows, columns=["name", "node", "side", "components", "pattern"])
+
+
+def vehicle_interface(model: Path) -> Path:
+    """Write ``all.csv`` of a model: its interface and every further point that a vehicle needs; returns its path."""
+    table, nodes = pd.read_csv(model / "interface.csv", dtype=str), iter(range(60, 90))
+    rows = [
+        {"name": name, "node": next(nodes), "side": "internal", "components": "123"}
+        for name in NEEDED
+        if name not in set(table["name"])
+    ]
+    pd.concat([table, pd.DataFrame(rows)]).to_csv(model / "all.csv", index=False)
+    return model / "all.csv"
 
 
 def history(folder: Path, seconds: float = 4.0) -> Path:

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from fatigue.reduce.interface import read_interface
-from fatigue.study.reduced_body import NEEDED
+from fatigue.vehicle.equations.suspension import NEEDED
 
 BODY = Path(__file__).parents[2] / "data" / "carbody"
 PLACES = {

@@ -10,8 +10,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.reduce.bases import Recipe
 from fatigue.reduce.story import reduce
-from fatigue.study.reduced_body import NEEDED, coordinates_of_folder, reduced_body
-from tests.reduce.small_body import FORCES, write_model
+from fatigue.study.reduced_body import coordinates_of_folder, reduced_body
+from tests.reduce.small_body import FORCES, vehicle_interface, write_model
 
 FLOOR = 1.15
 
@@ -20,17 +20,8 @@ FLOOR = 1.15
 def folder(tmp_path_factory):
     """The small body with all points that a vehicle needs, two of them with rotations."""
     model = write_model(tmp_path_factory.mktemp("model"))
-    interface = pd.read_csv(model / "interface.csv", dtype=str)
-    nodes = iter(range(60, 90))
-    rows = [
-        {"name": name, "node": next(nodes), "side": "internal", "components": "123"}
-        for name in NEEDED
-        if name not in set(interface["name"])
-    ]
-    interface = pd.concat([interface, pd.DataFrame(rows)])
-    interface.to_csv(model / "all.csv", index=False)
     out = tmp_path_factory.mktemp("reduced") / "body"
-    reduce(model, model / "all.csv", out, Recipe(cut_hz=300.0))
+    reduce(model, vehicle_interface(model), out, Recipe(cut_hz=300.0))
     return out
 
 

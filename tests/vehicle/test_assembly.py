@@ -174,7 +174,7 @@ def test_a_car_body_without_the_points_it_hangs_by():
     """All points that are missing or not known are named at once."""
     body = rigid_body()
     points = {name: point for name, point in body.points.items() if name not in ("converter_2", "bolster_rear_left")}
-    with pytest.raises(DataError, match="lacks bolster_rear_left, converter_2"):
+    with pytest.raises(DataError, match="lacks the points bolster_rear_left, converter_2"):
         assembled(Vehicle(), replace(body, points=points))
     elastic = elastic_body([9.0])
     elastic.points["transformer_3"].shape[1, 0] = np.nan

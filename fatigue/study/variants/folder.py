@@ -1,6 +1,5 @@
 """The folder of a study: tables, page and record, in place of those before and of nothing else, and ``runs``."""
 
-import json
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,18 +8,19 @@ from fatigue import __version__
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.hashes import sha256
 from fatigue.files.mishaps import refused_writing
+from fatigue.files.recorded import AWAY, ELSEWHERE, Filled, in_the_way, put_in_place
 from fatigue.files.whole import replacing, staged
 from fatigue.results import write_json
 from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.study import STUDY
+from fatigue.results.plain_tables import write_csv, write_table
 from fatigue.study.variants.runs.planned_runs import RUNS
-from fatigue.study.variants.tables import Tables, write_csv, write_table
+from fatigue.study.variants.tables import Tables
 
 RECORD, PAGE = "study.json", "study.html"
 BEGUN = ".fatigue-study"  # says whose runs are below ``runs``
 TABLE_FILES = tuple(f"{name}.{kind}" for name in (*STUDY, *CLAIMED) for kind in ("parquet", "csv"))
-FILES = (*TABLE_FILES, PAGE, RECORD)
-PROGRAM = "fatigue study run"
+FILLED = Filled("fatigue study run", "study", RECORD, (*TABLE_FILES, PAGE))
 
 
 def refuse_foreign(folder: Path, *, force: bool, inputs: Collection[Path]) -> None:
@@ -30,30 +30,13 @@ def refuse_foreign(folder: Path, *, force: bool, inputs: Collection[Path]) -> No
     ------
     DataError : everything in the way; with ``force`` only folders and inputs are
     """
-    if folder.exists() and not folder.is_dir():
-        raise DataError(Problem("not_a_folder", str(folder), "is a file, not a folder", "Give another folder with -o"))
-    another, known = "Give another folder with -o", _written(folder)
-    remedy = f"Move it away, or --force to overwrite it. {another}"
-    problems = []
-    for path in (folder / name for name in FILES):
-        if not path.exists():
-            continue
-        if path.is_dir():
-            what = "is a folder where a file of the study has its place"
-            problems.append(Problem("foreign_files", str(path), what, "Move it away"))
-        elif any(one.exists() and path.samefile(one) for one in inputs):
-            problems.append(Problem("input_in_the_way", str(path), "is an input of this study", another))
-        elif not force and (known is None if path.name == RECORD else (known or {}).get(path.name) != sha256(path)):
-            what = "is there already and was not written by fatigue study run, or was changed since"
-            problems.append(Problem("foreign_files", str(path), what, remedy))
+    problems = list(in_the_way(folder, FILLED, force=force, inputs=inputs))
     runs = folder / RUNS
     inside = [one for one in inputs if one.resolve().is_relative_to(runs.resolve())]
-    problems += [
-        Problem("input_in_the_way", str(one), "is an input below the runs of a study", another) for one in inside
-    ]
-    if not force and known is None and runs.exists() and not (folder / BEGUN).is_file():
-        what = "is there already and is not of a study"
-        problems.append(Problem("foreign_files", str(runs), what, remedy))
+    what = "is an input below the runs of a study"
+    problems += [Problem("input_in_the_way", str(one), what, ELSEWHERE) for one in inside]
+    if not force and FILLED.outputs(folder) is None and runs.exists() and not (folder / BEGUN).is_file():
+        problems.append(Problem("foreign_files", str(runs), "is there already and is not of a study", AWAY))
     refuse(DataError, problems)
 
 
@@ -65,7 +48,7 @@ def begin(folder: Path) -> None:
     DataError : the place cannot be written
     """
     with refused_writing(folder):
-        (folder / BEGUN).write_text(f"{PROGRAM}\n", encoding="utf-8", newline="\n")
+        (folder / BEGUN).write_text(f"{FILLED.program}\n", encoding="utf-8", newline="\n")
 
 
 def write_study(folder: Path, tables: Tables, page: str | None, record: Mapping[str, Any], *, csv: bool) -> list[str]:
@@ -86,13 +69,8 @@ def write_study(folder: Path, tables: Tables, page: str | None, record: Mapping[
             with replacing(stage / PAGE) as unfinished:
                 unfinished.write_text(page, encoding="utf-8", errors="backslashreplace", newline="\n")
         outputs = {path.name: sha256(path) for path in sorted(stage.iterdir())}
-        write_json(stage / RECORD, {"program": PROGRAM, "version": __version__, **record, "outputs": outputs})
-        with refused_writing(folder):
-            for name in FILES:
-                if name not in outputs:
-                    (folder / name).unlink(missing_ok=True)
-            for name in (*outputs, RECORD):
-                (stage / name).replace(folder / name)
+        write_json(stage / RECORD, {"program": FILLED.program, "version": __version__, **record, "outputs": outputs})
+        put_in_place(stage, folder, FILLED, outputs)
     return [*outputs, RECORD]
 
 
@@ -101,12 +79,3 @@ def left_over(folder: Path, runs: Sequence[Path]) -> list[str]:
     known = {path.parent.name for path in runs}
     there = (folder / RUNS).iterdir() if (folder / RUNS).is_dir() else ()
     return sorted(path.name for path in there if path.is_dir() and path.name not in known)
-
-
-def _written(folder: Path) -> dict[str, str] | None:
-    """SHA-256 of what the record of an earlier run lists, by name; None where there is no such record."""
-    try:
-        record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
-        return dict(record["outputs"]) if record["program"] == PROGRAM else None
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
-        return None

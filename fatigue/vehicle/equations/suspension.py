@@ -23,6 +23,7 @@ NEEDED = tuple(
     [f"bolster_{end}_{side}" for end in ENDS for side in SIDES]
     + [f"{equipment}_{mount}" for equipment in ("converter", "transformer") for mount in MOUNTS]
 )
+"""Points of the car body where the suspension takes hold."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,28 +60,29 @@ class Places:
         return self.at.carried(BOGIES[bogie], self.bogie_cg(bogie), place)
 
 
-def require_points(body: ElasticBody) -> None:
+def require_points(body: ElasticBody, where: str = "car body") -> None:
     """Refuse a car body that lacks a point where the suspension takes hold, or does not say how modes move it.
 
     Raises
     ------
-    DataError
+    DataError : names ``where`` the body is from
     """
     missing = [name for name in NEEDED if name not in body.points]
     unknown = [name for name in NEEDED if name not in missing and not np.isfinite(body.points[name].shape[:3]).all()]
     problems = []
     if missing:
-        what = f"lacks {', '.join(missing)}, where the suspension takes hold"
-        problems.append(Problem("points", "car body", what, "Name these points in the nodes given to `fatigue reduce`"))
+        what = f"lacks the point{'s' * (len(missing) > 1)} {', '.join(missing)}, where the suspension takes hold"
+        remedy = "Give the nodes these names in the table of `fatigue reduce`"
+        problems.append(Problem("points", where, what, remedy))
     if unknown:
         what = f"does not say how its modes move {', '.join(unknown)} along x, y and z"
-        problems.append(Problem("points", "car body", what, "Give the components 123 to these points"))
+        problems.append(Problem("points", where, what, "Give the components 123 to these points"))
     if not missing:
         for end in ENDS:
             left, right = (body.points[f"bolster_{end}_{side}"].place[1] for side in SIDES)
             if not left > right:
                 what = f"bolster_{end}_left at y = {left:g} m is not left of bolster_{end}_right at y = {right:g} m"
-                problems.append(Problem("points", "car body", what, "Name the points left and right, y to the left"))
+                problems.append(Problem("points", where, what, "Name the points left and right, y to the left"))
     refuse(DataError, problems)
 
 

@@ -12,10 +12,10 @@ from fatigue.errors import CaseError
 from fatigue.reduce.bases import Recipe
 from fatigue.reduce.story import reduce
 from fatigue.study.car_body import car_body
-from fatigue.study.reduced_body import NEEDED
 from fatigue.study.variants.source.builtin import channel_table
 from fatigue.study.variants.story import run_study
 from fatigue.study.vehicle_file import load_vehicle
+from fatigue.vehicle.equations.suspension import NEEDED
 from fatigue.vehicle.run import ride
 from fatigue.vehicle.run_numbers import run_numbers
 from tests.reduce.small_body import write_model
