@@ -26,10 +26,7 @@ from fatigue.decide.bench_points import (
 )
 from fatigue.errors import DataError, Problem, given_path, refuse
 from fatigue.life.bench import MOST_CYCLES, BlockCycles, Programme, block_cycles, cover, idle, least_squares, unreached
-from fatigue.results import BENCHED, read_provenance, refuse_another, refuse_foreign, refuse_mixed, relist, table_writer
-from fatigue.results.folder import result_log
-from fatigue.results.lock import locked, settle_folder
-from fatigue.results.publish import publish, staging_in
+from fatigue.results import BENCHED, adding, finished_result
 from fatigue.results.summary import assumptions
 from fatigue.shown import visible
 from fatigue.stages import stage
@@ -168,9 +165,7 @@ def bench(folder: Path | str, points: Path | str, blocks: Path | str, *, no_lock
     NumericalError : no programme was found
     """
     folder = given_path(folder, "folder")
-    settle_folder(folder, no_lock=no_lock)
-    record = read_provenance(folder)
-    refuse_mixed(folder, record, READ, READ)
+    record = finished_result(folder, READ, READ, no_lock=no_lock)
     stage("reading points and blocks")
     units = units_of_coordinates(record)
     asked = read_blocks(given_path(blocks, "blocks"), units)
@@ -195,7 +190,12 @@ def bench(folder: Path | str, points: Path | str, blocks: Path | str, *, no_lock
         assumptions=assumptions(record),
         warnings=(*warnings, *asked.warnings, *mean_stress_warnings(record)),
     )
-    _write(folder, record, found, no_lock=no_lock)
+    with adding(folder, record, BENCHED, no_lock=no_lock) as addition:
+        for name, rows in tables_of(found).items():
+            with addition.table(name) as table:
+                table.write(rows)
+        addition.publish()
+        log.info("bench programmes for %d points and %d blocks", len(chosen), len(asked.name))
     return found
 
 
@@ -231,21 +231,6 @@ def mean_stress_warnings(record: Mapping[str, Any]) -> Iterator[Problem]:
         yield Problem(
             "bench_mean_stress", "targets", what, "Run the blocks about zero: in high mean tension they do more damage"
         )
-
-
-def _write(folder: Path, record: Mapping[str, Any], found: Bench, *, no_lock: bool) -> None:
-    """Put the tables beside those of the result."""
-    with locked(folder, no_lock=no_lock), result_log(folder), staging_in(folder) as staging:
-        refuse_another(folder, record)
-        refuse_foreign(folder, BENCHED, record)
-        finished = staging / "tables"
-        finished.mkdir()
-        for name, rows in tables_of(found).items():
-            with table_writer(finished, name, record.get("result", "")) as table:
-                table.write(rows)
-        relist(folder, finished, sorted(finished.iterdir()))
-        publish(finished, folder)
-        log.info("bench programmes for %d points and %d blocks", len(found.points), len(found.blocks.name))
 
 
 def tables_of(found: Bench) -> dict[str, dict[str, Any]]:

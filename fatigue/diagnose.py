@@ -15,7 +15,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.life.mission import Plan
@@ -30,19 +29,12 @@ from fatigue.results import (
     ASSESSED,
     DIAGNOSED,
     FORMED,
-    read_provenance,
+    adding,
+    finished_result,
     read_rows,
-    refuse_another,
-    refuse_foreign,
-    refuse_mixed,
-    relist,
     row_count,
-    table_writer,
     upsampling_factors,
 )
-from fatigue.results.folder import result_log
-from fatigue.results.lock import locked, settle_folder
-from fatigue.results.publish import publish, staging_in
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
 from fatigue.why.across_events import attribute_loops
@@ -97,9 +89,7 @@ def diagnose(
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
-    settle_folder(folder, no_lock=no_lock)
-    record = read_provenance(folder)
-    refuse_mixed(folder, record, ASSESSED, read=("nodes", "damage"))
+    record = finished_result(folder, ASSESSED, ("nodes", "damage"), no_lock=no_lock)
     body = assessed_body(record, folder, case_file)
     plan, _ = mission_plan(body)
     factors = upsampling_factors(record)
@@ -108,23 +98,16 @@ def diagnose(
         log.warning("%s", problem)
     modes = replace(body.modes, damping_ratio=damping_of(body.modes, damping).ratio)
     bins = Bins(third_octaves() if edges_hz is None else np.asarray(edges_hz, dtype=np.float64), bin_km)
-    with (
-        locked(folder, no_lock=no_lock),
-        result_log(folder),
-        threadpool_limits(limits=1, user_api="blas"),
-        staging_in(folder) as staging,
-    ):
-        refuse_another(folder, record)
-        refuse_foreign(folder, DIAGNOSED | FORMED, record)
+    with adding(folder, record, DIAGNOSED | FORMED, no_lock=no_lock) as addition:
         numbers = numbers_of_point(plan, len(body.coordinates), bins)
         samples = sum(factor * one.samples for factor, one in zip(factors, plan.passes, strict=True))
         chosen = choose_points(folder, samples, share_of_limit, numbers)
         log.info("diagnosing %s", chosen.what)
         stage("preparing the records of the events (%d)", len(plan.passes))
-        groups = weld_groups(body, staging / "forces")
+        groups = weld_groups(body, addition.scratch / "forces")
         points, worst = gather_points(folder, groups, chosen), chosen.worst
         assessed = assessed_rows(folder, chosen.rows, plan)
-        loads = event_loads(groups, plan, staging / "histories", factors=factors)
+        loads = event_loads(groups, plan, addition.scratch / "histories", factors=factors)
 
         stage("sharing out the damage of %d points, event by event (%d)", len(points), len(plan.passes))
         events: list[EventAttribution] = []
@@ -144,14 +127,11 @@ def diagnose(
         progress("diagnosis", len(loads), len(loads))
 
         stage("writing tables")
-        finished = staging / "tables"
-        finished.mkdir()
         for name, blocks in rows_of_tables(evidence).items():
-            with table_writer(finished, name, record.get("result", "")) as table:
+            with addition.table(name) as table:
                 for rows in blocks:
                     table.write(rows)
-        relist(folder, finished, sorted(finished.iterdir()), {"diagnosis": formed.on_record()})
-        publish(finished, folder)
+        addition.publish({"diagnosis": formed.on_record()})
     return findings(evidence, chosen.what)
 
 

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.hashes import sha256
@@ -33,20 +32,7 @@ from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
-from fatigue.results import (
-    ASSESSED,
-    LOAD_SPECTRA,
-    read_provenance,
-    refuse_another,
-    refuse_foreign,
-    refuse_mixed,
-    relist,
-    table_writer,
-    upsampling_factors,
-)
-from fatigue.results.folder import result_log
-from fatigue.results.lock import locked, settle_folder
-from fatigue.results.publish import publish, staging_in
+from fatigue.results import ASSESSED, LOAD_SPECTRA, Addition, adding, finished_result, upsampling_factors
 from fatigue.side_by_side import in_order
 from fatigue.stages import stage
 from fatigue.why.points import Points, gather_points
@@ -100,9 +86,7 @@ def spectra(
     listed, of_edges, beside, named = _paths(points=points, edges=edges, compare=compare, case_file=case_file)
     given = None if exponents is None else np.asarray(exponents, dtype=np.float64)
     stage("reading the result and its case")
-    settle_folder(folder, no_lock=no_lock)
-    record = read_provenance(folder)
-    refuse_mixed(folder, record, ASSESSED, read=("nodes", "welds"))
+    record = finished_result(folder, ASSESSED, ("nodes", "welds"), no_lock=no_lock)
     check_edges(of_edges)
     chosen = worst_of_welds(folder) if listed is None else listed_points(folder, listed)
     measured = None if beside is None or compare_km is None else read_measured(folder, beside, float(compare_km))
@@ -110,18 +94,11 @@ def spectra(
         refuse_absent(measured, chosen.rows)
     body = assessed_body(record, folder, named)
     plan, _ = mission_plan(body, threads)
-    with (
-        locked(folder, no_lock=no_lock),
-        result_log(folder),
-        threadpool_limits(limits=1, user_api="blas"),
-        staging_in(folder) as staging,
-    ):
-        refuse_another(folder, record)
-        refuse_foreign(folder, LOAD_SPECTRA, record)
+    with adding(folder, record, LOAD_SPECTRA, no_lock=no_lock) as addition:
         stage("preparing the records of the events (%d)", len(plan.passes))
-        groups = weld_groups(body, staging / "forces")
+        groups = weld_groups(body, addition.scratch / "forces")
         found = gather_points(folder, groups, chosen)
-        loads = event_loads(groups, plan, staging / "histories", threads, upsampling_factors(record))
+        loads = event_loads(groups, plan, addition.scratch / "histories", threads, upsampling_factors(record))
 
         stage("counting the cycles of %d points", len(found))
         blocks = [slice(i, i + POINTS_AT_ONCE) for i in range(0, len(found), POINTS_AT_ONCE)]
@@ -133,16 +110,14 @@ def spectra(
             warnings += [*measured.warnings, *doubts(measured, found, chosen.rows, extent.range)]
         for problem in warnings:
             log.warning("%s", problem)
-        finished, result = staging / "tables", str(record.get("result", ""))
-        finished.mkdir()
         counting = _Counting(found, chosen.rows, loads, plan, sorted_into, given, measured)
-        at_points = _write_points(finished, result, counting, blocks, threads, progress)
+        at_points = _write_points(addition, counting, blocks, threads, progress)
 
         stage("counting the coordinates themselves")
         slope = float(body.curves[body.case.curve.name].rule.law.slopes[0])
         of_signals = np.array([slope]) if given is None else given
         signals: list[SignalLine] = []
-        with table_writer(finished, "signals", result) as table:
+        with addition.table("signals") as table:
             for of_signal in all_signal_spectra(body, loads, plan, classes, of_signals):
                 table.write(rows_of_signal(of_signal, float(of_signals[0])))
                 signals.append(signal_line(of_signal))
@@ -156,8 +131,7 @@ def spectra(
             "compare_km": compare_km,
             "warnings": [asdict(problem) for problem in warnings],
         }
-        relist(folder, finished, sorted(finished.iterdir()), {"load_spectra": said})
-        publish(finished, folder)
+        addition.publish({"load_spectra": said})
     return LoadSpectra(
         title=body.case.title,
         points=chosen.what,
@@ -196,8 +170,7 @@ class _Counting:
 
 
 def _write_points(
-    finished: Path,
-    result: str,
+    addition: Addition,
     counting: _Counting,
     blocks: Sequence[slice],
     threads: int | None,
@@ -207,11 +180,7 @@ def _write_points(
     at_once = threads or os.cpu_count() or 1
     lines: list[PointLine] = []
     with ExitStack() as stack:
-        tables = {
-            name: stack.enter_context(table_writer(finished, name, result))
-            for name in LOAD_SPECTRA
-            if name != "signals"
-        }
+        tables = {name: stack.enter_context(addition.table(name)) for name in LOAD_SPECTRA if name != "signals"}
         for first in range(0, len(blocks), at_once):
             progress("spectra", len(lines), len(counting.points))
             for rows, said in in_order(counting.of, blocks[first : first + at_once], threads):

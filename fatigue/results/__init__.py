@@ -2,11 +2,12 @@
 
 ``columns`` says what every column is; ``tables`` writes and reads whole tables, ``rows`` some of their rows,
 ``weld_table`` the welds. ``provenance`` is what a result rests on, ``outputs`` whether its files are as they were
-written, ``origin`` leads back to its case, ``belonging`` tells what is of one result and ``enlist`` lists what is added
-to it. ``folder`` guards what is in the folder, ``lock`` lets one run at a time write there,
+written, ``origin`` leads back to its case, ``belonging`` tells what is of one result and ``adding`` puts tables and
+documents beside it. ``folder`` guards what is in the folder, ``lock`` lets one run at a time write there,
 ``publish`` puts a finished result there; ``summary`` is what the command line prints of it.
 """
 
+from fatigue.results.adding import Addition, adding, enlist, finished_result, relist
 from fatigue.results.belonging import (
     CSV_TABLES,
     DOCUMENTS,
@@ -46,7 +47,6 @@ from fatigue.results.dictionary.resonance import FORMED
 from fatigue.results.dictionary.ride import RIDDEN
 from fatigue.results.dictionary.shift import SHIFTED
 from fatigue.results.dictionary.welds import WELDS
-from fatigue.results.enlist import enlist, relist
 from fatigue.results.json_records import json_ready, write_json
 from fatigue.results.origin import (
     case_of,
@@ -107,13 +107,16 @@ __all__ = [
     "TRACK",
     "WELDS",
     "WORKBOOK",
+    "Addition",
     "Column",
     "TableWriter",
+    "adding",
     "assessed",
     "case_of",
     "changed_inputs",
     "coded",
     "enlist",
+    "finished_result",
     "input_register",
     "is_assessed_case",
     "is_derived",

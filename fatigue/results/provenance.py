@@ -10,7 +10,7 @@ import platform
 from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args
 
 from fatigue import __version__
 from fatigue.errors import DataError, Problem, given_path
@@ -20,6 +20,9 @@ from fatigue.results.json_records import write_json
 PROVENANCE = "provenance.json"  # a folder without it holds no finished result
 CHECKSUMS = "provenance.json.sha256"  # of the record and of the outputs it lists
 JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.results.publish`
+
+AddedKey = Literal["diagnosis", "load_spectra", "ride", "shift_study"]  # of the record: what is said of added tables
+WRITTEN_LATER = ("outputs", *get_args(AddedKey))  # keys that change after the assessment, the result staying the same
 
 PUT_BACK = "Put the file back as it was, or run the assessment again with --force"
 
@@ -106,7 +109,7 @@ def hashes_on_record(record: Mapping[str, Any]) -> dict[str, str] | None:
 
 def is_same_result(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     """Whether two records are of one result, though more of it may have been written in between."""
-    later = dict.fromkeys(("outputs", "diagnosis", "load_spectra", "ride", "shift_study"))
+    later = dict.fromkeys(WRITTEN_LATER)
     return {**one, **later} == {**other, **later}
 
 

@@ -13,8 +13,6 @@ from numbers import Integral
 from pathlib import Path
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 from fatigue.case import Case
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.files.hashes import sha256
@@ -24,19 +22,7 @@ from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.solve.assessed_body import assessed_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
-from fatigue.results import (
-    ASSESSED,
-    RIDDEN,
-    read_provenance,
-    refuse_another,
-    refuse_foreign,
-    refuse_mixed,
-    relist,
-    upsampling_factors,
-)
-from fatigue.results.folder import result_log
-from fatigue.results.lock import locked, settle_folder
-from fatigue.results.publish import publish, staging_in
+from fatigue.results import ASSESSED, RIDDEN, adding, finished_result, upsampling_factors
 from fatigue.ride.alarm import alarm_rows
 from fatigue.ride.bands import band_problems
 from fatigue.ride.channel import ChannelRecord
@@ -87,9 +73,7 @@ def ride(
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
-    settle_folder(folder, no_lock=no_lock)
-    record = read_provenance(folder)
-    refuse_mixed(folder, record, ASSESSED, read=("nodes",))
+    record = finished_result(folder, ASSESSED, ("nodes",), no_lock=no_lock)
     body = assessed_body(record, folder, case_file)
     case = body.case
     if not any(event.channel for event in case.mission.event):
@@ -100,35 +84,24 @@ def ride(
     for problem in warnings:
         log.warning("%s", problem)
     plan, _ = mission_plan(body, threads)
-    with (
-        locked(folder, no_lock=no_lock),
-        result_log(folder),
-        threadpool_limits(limits=1, user_api="blas"),
-        staging_in(folder) as staging,
-    ):
-        refuse_another(folder, record)
-        refuse_foreign(folder, RIDDEN, record)
+    with adding(folder, record, RIDDEN, no_lock=no_lock) as addition:
         stage("tracking the hunting of the channels (%d)", len(channels))
         of_channel = [tracked(one, case.ride) for one in channels]
         tables = tables_of_channels(case, channels, of_channel, limits)
 
         stage("preparing the records of the events (%d)", len(plan.passes))
-        groups = weld_groups(body, staging / "forces")
+        groups = weld_groups(body, addition.scratch / "forces")
         chosen = worst_of_welds(folder)
         points = gather_points(folder, groups, chosen)
-        loads = event_loads(groups, plan, staging / "histories", threads, upsampling_factors(record))
+        loads = event_loads(groups, plan, addition.scratch / "histories", threads, upsampling_factors(record))
         stage("counting the cycles of %d points", len(points))
         tables["hot_damage"] = _hot_damage(points, loads, plan, of_channel, threads, progress)
         worst = _worst(tables["hot_damage"], points)
         tables["alarm"] = [told(row, worst[row.event, row.channel]) for row in tables["alarm"]]
 
         stage("writing tables")
-        finished = staging / "tables"
-        finished.mkdir()
-        write_tables(finished, tables, str(record.get("result", "")))
-        said = {"ride": _said(case, channels, chosen.what, warnings)}
-        relist(folder, finished, sorted(finished.iterdir()), said)
-        publish(finished, folder)
+        write_tables(addition.tables, tables, addition.result)
+        addition.publish({"ride": _said(case, channels, chosen.what, warnings)})
     return RideSummary(case.title, _events(channels), chosen.what, tables, worst, tuple(warnings))
 
 

@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.life.mission import Plan, life_km
@@ -27,18 +26,12 @@ from fatigue.results import (
     ASSESSED,
     DIAGNOSED,
     SHIFTED,
-    read_provenance,
+    adding,
+    finished_result,
     read_table,
-    refuse_another,
-    refuse_foreign,
     refuse_mixed,
-    relist,
-    table_writer,
     upsampling_factors,
 )
-from fatigue.results.folder import result_log
-from fatigue.results.lock import locked, settle_folder
-from fatigue.results.publish import publish, staging_in
 from fatigue.shift.moved import FEWEST_MEMORIES, QUASI_STATIC, Moved, Movement, moved_loads, nyquist_hz
 from fatigue.shift.recounted import event_damage, sequence_damage
 from fatigue.shift.settings import LargestShare, ShiftedMode, chosen_mode, largest_shares, settings
@@ -92,9 +85,7 @@ def shift(
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
-    settle_folder(folder, no_lock=no_lock)
-    record = read_provenance(folder)
-    refuse_mixed(folder, record, ASSESSED, read=("nodes",))
+    record = finished_result(folder, ASSESSED, ("nodes",), no_lock=no_lock)
     body = assessed_body(record, folder, case_file)
     plan, _ = mission_plan(body, threads)
     moved_in = _moved_in(plan, events)
@@ -106,19 +97,12 @@ def shift(
     moving = chosen_mode(body.modes, shares[0].mode if mode is None else mode, damping, modes_file)
     every = settings(moving, to_hz, to_damping)
     factors = upsampling_factors(record)
-    with (
-        locked(folder, no_lock=no_lock),
-        result_log(folder),
-        threadpool_limits(limits=1, user_api="blas"),
-        staging_in(folder) as staging,
-    ):
-        refuse_another(folder, record)
-        refuse_foreign(folder, SHIFTED, record)
+    with adding(folder, record, SHIFTED, no_lock=no_lock) as addition:
         chosen = _affordable(folder, plan, factors, moved_in, len(every))
         stage("preparing the records of the events (%d)", len(plan.passes))
-        groups = weld_groups(body, staging / "forces")
+        groups = weld_groups(body, addition.scratch / "forces")
         points = gather_points(folder, groups, chosen)
-        loads = event_loads(groups, plan, staging / "histories", threads, factors)
+        loads = event_loads(groups, plan, addition.scratch / "histories", threads, factors)
         static = _static_events(loads, moving, every, plan, moved_in)
 
         stage("counting %d points at %d settings", len(points), len(every))
@@ -136,10 +120,8 @@ def shift(
             log.warning("%s", problem)
 
         stage("writing tables")
-        finished, result = staging / "tables", str(record.get("result", ""))
-        finished.mkdir()
         life = life_km(damage, points.damage_limit)
-        with table_writer(finished, "shift", result) as table:
+        with addition.table("shift") as table:
             for setting, of_setting, lives in zip(every, damage, life, strict=True):
                 table.write(_rows(points, moving, setting, of_setting, lives, life[every.index(moving.setting)]))
         said = {
@@ -154,8 +136,7 @@ def shift(
             "points": chosen.what,
             "warnings": [asdict(problem) for problem in warnings],
         }
-        relist(folder, finished, sorted(finished.iterdir()), {"shift_study": said})
-        publish(finished, folder)
+        addition.publish({"shift_study": said})
     return ShiftStudy(
         title=body.case.title,
         method=SCREENING,
