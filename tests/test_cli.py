@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 import tomllib
-from pathlib import Path
 
 import click
 import jsonschema
@@ -17,26 +16,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.cli import cli
+from tests.command_line import ROOT, assess, fatigue, fatigue_alone
 from tests.small_case import sine_only, small_case
-
-ROOT = Path(__file__).parents[1]
-
-
-def fatigue(*arguments, cwd=None):
-    """Run the program in a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-m", "fatigue", *map(str, arguments)],
-        cwd=cwd or ROOT,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
-def assess(*arguments):
-    """Assess without the report, which has tests of its own."""
-    return fatigue("assess", *arguments, "--no-report")
 
 
 def _commands(group, before=""):
@@ -70,8 +51,8 @@ def test_every_command_is_in_the_readme(name):
 
 def test_version_and_help():
     """Both on stdout, exit 0; the exit codes are told."""
-    assert fatigue("--version").stdout.startswith("fatigue, version ")
-    assert "130 interrupted" in fatigue("--help").stdout
+    assert fatigue_alone("--version").stdout.startswith("fatigue, version ")
+    assert "130 interrupted" in fatigue_alone("--help").stdout
 
 
 @pytest.mark.parametrize(
@@ -86,7 +67,7 @@ def test_wrong_usage_is_2(arguments):
 
 def test_missing_case_file_is_3(tmp_path):
     """A case that is not there is bad data, not wrong usage."""
-    done = fatigue("check", tmp_path / "none.toml")
+    done = fatigue_alone("check", tmp_path / "none.toml")
     assert done.returncode == 3
     assert f"error: {tmp_path / 'none.toml'}: there is no such file." in done.stderr
     assert "Traceback" not in done.stderr
@@ -95,7 +76,7 @@ def test_missing_case_file_is_3(tmp_path):
 def test_missed_target_is_1_unless_told_otherwise(tmp_path):
     """The small case fails its target: 1, the verdict on stdout; --exit-zero: 0."""
     path = small_case().write(tmp_path / "case")
-    done = assess(path, "-o", tmp_path / "result")
+    done = fatigue_alone("assess", path, "-o", tmp_path / "result", "--no-report")
     assert done.returncode == 1
     assert "2 of 2 welds miss their target of 1e+06 km" in done.stdout
     assert "master-aluminium (mean-2sigma); thickness actual; no knee; mean stress none" in done.stdout

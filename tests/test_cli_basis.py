@@ -6,8 +6,8 @@ import pandas as pd
 import pytest
 
 from tests.chain_case import by_factors, by_matrix
+from tests.command_line import fatigue
 from tests.small_case import small_case
-from tests.test_cli import fatigue
 
 
 def test_basis_is_told_and_written(tmp_path):

@@ -6,9 +6,9 @@ import shutil
 import pytest
 
 from fatigue.results import write_provenance
+from tests.command_line import assess, fatigue
 from tests.report.reading import Page
 from tests.small_case import sine_only
-from tests.test_cli import assess, fatigue
 
 
 @pytest.fixture(scope="module")

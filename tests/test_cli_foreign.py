@@ -11,10 +11,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tests.command_line import assess, fatigue
 from tests.readers.convert.audit.test_audit import static_results
 from tests.readers.op2_writer import modal_op2
 from tests.readers.static_files import static_files
-from tests.test_cli import assess, fatigue
 
 NASTRAN = Path(__file__).parents[1] / "data" / "nastran"
 WING = "wingbox_stitched_together-000"

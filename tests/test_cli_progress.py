@@ -10,7 +10,7 @@ import pytest
 from fatigue.cli import progress
 from fatigue.cli.progress import narrated
 from fatigue.stages import stage
-from tests.test_cli import ROOT
+from tests.command_line import ROOT
 
 
 @pytest.fixture

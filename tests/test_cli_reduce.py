@@ -5,8 +5,8 @@ import json
 import pandas as pd
 import pytest
 
+from tests.command_line import fatigue
 from tests.reduce.small_body import write_model
-from tests.test_cli import fatigue
 
 
 def test_reduce_is_told_and_written(tmp_path):

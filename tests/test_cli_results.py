@@ -8,8 +8,8 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
+from tests.command_line import assess, fatigue
 from tests.small_case import small_case
-from tests.test_cli import assess, fatigue
 
 
 @pytest.fixture(scope="module")

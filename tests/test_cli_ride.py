@@ -9,8 +9,8 @@ import pytest
 from fatigue.results import RIDDEN
 from fatigue.results.summary import result_summary
 from fatigue.verify.recount import recount
+from tests.command_line import assess, fatigue
 from tests.ride.ride_case import CHANNEL, ride_case, with_channels
-from tests.test_cli import assess, fatigue
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.verify.recount import recount
+from tests.command_line import assess, fatigue
 from tests.shift.oscillating_case import oscillating
-from tests.test_cli import assess, fatigue
 
 SCREENING = "screening without feedback"
 

@@ -7,8 +7,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.results import LOAD_SPECTRA
+from tests.command_line import assess, fatigue
 from tests.small_case import small_case
-from tests.test_cli import assess, fatigue
 
 
 @pytest.fixture(scope="module")

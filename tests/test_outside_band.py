@@ -12,8 +12,8 @@ from fatigue.diagnose import diagnose
 from fatigue.report.page import write_report
 from fatigue.results.summary import result_summary
 from fatigue.verify.recount.folder import recount
+from tests.command_line import fatigue
 from tests.small_case import STEP, small_case
-from tests.test_cli import fatigue
 
 
 def shaken(low_hz, high_hz, share=1.0, **changes):

@@ -225,7 +225,8 @@ def unit_rigid_motions(structure: Structure) -> Floats:
 def _refuse_grounded(structure: Structure, rigid: Floats) -> None:
     """Refuse a K that resists rigid motions: the body is held, or rows and matrix do not belong together."""
     force, terms = np.abs(structure.K @ rigid), abs(structure.K) @ np.abs(rigid)
-    share = np.divide(force, terms, out=np.zeros_like(force), where=terms > 0.0)
+    most = terms.max(axis=1, keepdims=True)  # a motion may leave a row alone, but for the last digits of a place
+    share = np.divide(force, most, out=np.zeros_like(force), where=most > 0.0)
     row, motion = np.unravel_index(int(share.argmax()), share.shape)
     if share[row, motion] > GROUNDED:
         where = f"K: {row_name(structure, int(row))}"

@@ -28,12 +28,14 @@ Label = Annotated[str, Field(min_length=1)]
 
 
 def short_name(key: str) -> str:
-    """Last part of a key without its unit.
+    """Last part of a key without its unit; a state is named for what has it.
 
     >>> short_name("vehicle.converter.fe_hz"), short_name("vehicle.run.speed_km_h"), short_name("case.curve.survival")
     ('fe', 'speed', 'survival')
+    >>> short_name("vehicle.contact.state")
+    'contact'
     """
-    last = key.rsplit(".", 1)[-1]
+    last = key.removesuffix(".state").rsplit(".", 1)[-1]
     return UNIT.sub("", last) or last
 
 
@@ -92,7 +94,9 @@ class Vary(Table):
         default=None, description="instead of key and values: a list of tables from keys to values, set together"
     )
     name: Text | None = Field(
-        default=None, description="a short name; left out: the last part of the key without its unit"
+        default=None,
+        description="a short name; left out: the last part of the key without its unit, of a key that ends in '.state' "
+        "the part before it",
     )
     labels: Annotated[tuple[Label, ...], Field(strict=False)] | None = Field(
         default=None, description="a list with a name for each of the values"
@@ -157,10 +161,10 @@ class SourceRun(Table):
 class Source(Table):
     """Where histories come from: a ride of the vehicle, a command, files that are there, or those of the case."""
 
-    kind: Literal["builtin"] | None = Field(
+    builtin: Literal[True] | None = Field(
         default=None,
-        description="'builtin': a ride of the vehicle, the default with a vehicle; without a vehicle, a command and "
-        "files, histories are those of the case",
+        description="true: a ride of the vehicle, the default with a vehicle; without a vehicle, a command and files, "
+        "histories are those of the case",
     )
     command: Text | None = Field(
         default=None,
@@ -188,7 +192,7 @@ class Source(Table):
     )
 
     def _contradictions(self) -> Iterator[Problem]:
-        given = [key for key in ("kind", "command", "files") if getattr(self, key) is not None]
+        given = [key for key in ("builtin", "command", "files") if getattr(self, key) is not None]
         if len(given) > 1:
             yield clash(given[1], f"{' and '.join(given)} are all given", "Keep one of them: histories have one source")
         if self.inputs and self.command is None:
@@ -246,10 +250,8 @@ class Study(Table):
     def _contradictions(self) -> Iterator[Problem]:
         if self.base.vehicle is None and self.base.case is None:
             yield absent("base.vehicle", "neither vehicle nor case is given", "Give one of them, or both")
-        elif self.base.vehicle is None and self.source.kind == "builtin":
-            yield absent(
-                "base.vehicle", "source.kind = 'builtin' is a ride, and there is no vehicle", "Give the vehicle"
-            )
+        elif self.base.vehicle is None and self.source.builtin:
+            yield absent("base.vehicle", "source.builtin = true is a ride, and there is no vehicle", "Give the vehicle")
         elif not self.is_builtin and self.source.command is None and self.source.files is None and self.source.run:
             what = "events have runs of their own, and nothing says where these come from"
             yield absent("source.command", what, "Give command or files under [source], or a vehicle under [base]")

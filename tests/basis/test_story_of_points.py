@@ -10,9 +10,9 @@ from fatigue.basis.story import basis
 from fatigue.errors import DataError
 from fatigue.results.dictionary.basis import BASIS
 from tests.basis.loaded_beam import POINTS, flexibility_table, loaded_beam, shapes_table
+from tests.command_line import fatigue
 from tests.free_beam import free_beam
 from tests.small_case import small_case
-from tests.test_cli import fatigue
 
 BEAM = free_beam()
 DOF = list(POINTS.values())

@@ -10,11 +10,11 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.report.files.pdf import find_browser
+from tests.command_line import fatigue
 from tests.mystran import plates as joints
 from tests.mystran.chain import chain, waves_file
 from tests.mystran.decks import plain
 from tests.mystran.solver import needs_mystran
-from tests.test_cli import fatigue
 
 pytestmark = needs_mystran
 

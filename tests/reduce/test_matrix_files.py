@@ -60,3 +60,16 @@ def test_few_digits_are_told(tmp_path, body, interface):
     done = reduce(by_files(tmp_path / "six", body, 5), interface, tmp_path / "out", QUICK)
     assert [problem.code for problem in done.warnings] == ["few_digits", "no_weld_forces"]
     assert done.warnings[0].where == "K of six"
+
+
+def test_places_that_nothing_says_come_from_the_stiffness(tmp_path, body, interface):
+    """The same basis as with places, and a warning that says from which node they are measured."""
+    known = reduce(by_files(tmp_path / "files", body, 16), interface, tmp_path / "known", QUICK)
+    bare = by_files(tmp_path / "bare", body, 16)
+    (table,) = bare.glob("dof.*")
+    written(bare, {"dof": dof(body)[["row", "node", "component"]]})
+    assert "x_mm" not in table.read_text()
+    done = reduce(bare, interface, tmp_path / "out", QUICK)
+    (told,) = (problem for problem in done.warnings if problem.code == "places_from_stiffness")
+    assert "measured from node" in told.what
+    np.testing.assert_allclose(done.reduced.basis.frequency, known.reduced.basis.frequency, rtol=1e-6)

@@ -63,7 +63,7 @@ def test_all_mistakes_are_told_at_once(tmp_path):
         (2 * '[[vary]]\nkey = "own.a"\nvalues = [1]\n' + BASE, "'a' is already the name of vary[1]"),
         (BASE + '[source]\ncommand = "x"\nfiles = "y"\n', "command and files are all given"),
         (BASE + '[source]\ninputs = ["x"]\n', "inputs are those of a command"),
-        (BASE + '[source]\nkind = "builtin"\n', "there is no vehicle"),
+        (BASE + "[source]\nbuiltin = true\n", "there is no vehicle"),
         (BASE + '[[source.run]]\nevent = "e"\n', "nothing says where these come from"),
         ('[base]\nvehicle = "v"\n[source]\nfiles = "y"\n', "base.case"),
         (BASE + "x = \n", "not valid TOML"),

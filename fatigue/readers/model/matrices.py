@@ -8,10 +8,11 @@ from scipy import sparse
 
 from fatigue.errors import DataError, Problem
 from fatigue.files.naming import missing_file
+from fatigue.flexbody.places import places_by_stiffness
 from fatigue.flexbody.structure import Structure
 from fatigue.readers.foreign.nastran.matrices.deck import read_dmig
 from fatigue.readers.foreign.nastran.matrices.op4 import read_op4
-from fatigue.readers.neutral.body.mass_matrix import read_mass_rows
+from fatigue.readers.neutral.body.mass_matrix import MassRows, read_mass_rows
 from fatigue.readers.neutral.body.mesh import Mesh
 from fatigue.readers.neutral.body.symmetric_matrix import ENDINGS, read_symmetric_matrix, refuse_no_symmetric_matrix
 from fatigue.readers.units.systems import UnitSystem
@@ -38,8 +39,29 @@ def read_structure(
     if stiffness.shape != mass.shape:
         what = f"{mass.shape[0]} rows, and {K.name} has {stiffness.shape[0]}"
         raise DataError(Problem("bad_shape", M.name, what, "Export both from the same run"))
-    rows, warnings = read_mass_rows(dof, stiffness.shape[0], K.name, mesh, strict=strict)
-    return structure_in_mm(Structure(stiffness, mass, rows.node, rows.direction, rows.xyz), units), warnings
+    rows, warnings = read_mass_rows(dof, stiffness.shape[0], K.name, mesh, strict=strict, need_places=False)
+    xyz = rows.xyz
+    if np.isnan(xyz).all():
+        xyz, found = _places(stiffness, rows, dof, units)
+        warnings = [*warnings, found]
+    return structure_in_mm(Structure(stiffness, mass, rows.node, rows.direction, xyz), units), warnings
+
+
+def _places(K: sparse.csc_array, rows: MassRows, dof: Path, units: UnitSystem) -> tuple[NDArray[np.float64], Problem]:
+    """Places (n, 3) [mm] as K tells them, and the warning that says so.
+
+    Raises
+    ------
+    DataError : K does not tell them
+    """
+    stiff = np.flatnonzero(abs(K).sum(axis=0) > 0.0)
+    of_stiff = sparse.csc_array(K[stiff][:, stiff])
+    places, origin = places_by_stiffness(of_stiff, rows.node[stiff], rows.direction[stiff], dof.name)
+    xyz = np.zeros((len(rows.node), 3))
+    xyz[stiff] = places * units.length
+    what = f"nothing says where the nodes are: their places were found from K, measured from node {origin}"
+    remedy = "Give x_mm, y_mm, z_mm here, or a table nodes in the folder, where the origin matters, as to a vehicle"
+    return xyz, Problem("places_from_stiffness", f"{dof.name}: x_mm, y_mm, z_mm", what, remedy)
 
 
 def read_structure_of_deck(

@@ -41,7 +41,8 @@ def read_model(path: Path, *, units: str = "mm-t-s", strict: bool = False) -> Bo
 
     ``path`` is a folder of these, or the NASTRAN file. Tables are .parquet or .csv, matrices .mtx, .npz or .op4.
     ``dof`` says of each row of the matrices its ``row``, from 1, ``node`` and ``component``, 1 to 6, and has ``x_mm,
-    y_mm, z_mm`` unless ``nodes`` has them. ``units`` are those of K and M, and of the grids of a NASTRAN file.
+    y_mm, z_mm`` unless ``nodes`` has them; without either, places are found from K. ``units`` are those of K and M, and
+    of the grids of a NASTRAN file.
 
     Raises
     ------

@@ -91,7 +91,8 @@ def right_of(one: Verdict) -> str:
     unit = f" {one.unit}" if one.unit not in ("", "-") else ""
     if one.claim.operator == "between" and len(ends) == 2:
         return f"{ends[0]:g} to {ends[1]:g}{unit}"
-    return told(one.right, one.unit)
+    times = "" if one.claim.factor == 1.0 else f", which is {one.claim.factor:g} times what was found"
+    return told(one.right, one.unit) + times
 
 
 def agreement(one: Verdict) -> str:

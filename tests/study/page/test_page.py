@@ -42,6 +42,7 @@ def test_every_claim_stands_with_its_verdict_its_numbers_and_the_sentence_of_the
         "the self-excited vibration of traction converter intersects with the unstable hunting",
         "conv_y_rms[contact=worn] &gt; 3 x conv_y_rms",
         "2.369 m/s2 (2.346 to 2.392)",
+        "m/s2 (0.8568 to 0.8736), which is 3 times what was found",
         "2 of 2 seeds hold the sentence",
         "Seed by seed",
     ):

@@ -115,7 +115,7 @@ def test_values_that_are_wrong_together(folder):
         (BASE.replace('command = "x"\n', ""), "the car body is the built-in frame, which has no welds"),
         (BASE.replace('command = "x"\nevents = ["noise"]', ""), "has 3 events with a history, and nothing says which"),
         (
-            BASE.replace('command = "x"', 'kind = "builtin"') + '[[vary]]\nkey = "own.a"\nvalues = [1]\n',
+            BASE.replace('command = "x"', "builtin = true") + '[[vary]]\nkey = "own.a"\nvalues = [1]\n',
             "a source of your own only",
         ),
         (BASE + '[[claim]]\ntext = "t"\nleft = "x[fe=14]"\noperator = ">"\nright = 1\n', "does not vary 'fe'"),

@@ -2,8 +2,8 @@
 
 import json
 
+from tests.command_line import fatigue
 from tests.study.variants.small_study import written
-from tests.test_cli import fatigue
 
 
 def test_a_study_on_the_command_line(copied):

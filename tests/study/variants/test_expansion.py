@@ -70,7 +70,7 @@ def test_stated_variants_take_names_of_values():
         vary=[FE], variant=[{"name": "both", "set": {"vehicle.converter.fe_hz": 14, "vehicle.contact.state": "worn"}}]
     )
     assert [p.variant.name for p in found.variants] == ["base", "fe=12", "fe=14", "both"]
-    assert [p.variant.settings["state"] for p in found.variants] == ["sound"] * 3 + ["worn"]
+    assert [p.variant.settings["contact"] for p in found.variants] == ["sound"] * 3 + ["worn"]
     assert found.variants[3].variant.settings["fe"] == 14.0
     assert found.variants[3].changes == {"vehicle.converter.fe_hz": 14, "vehicle.contact.state": "worn"}
 

@@ -16,6 +16,7 @@ from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError
 from fatigue.results import json_ready, read_welds
 from fatigue.results.dictionary.study import STUDY
+from fatigue.study.variants.runs.outcomes import quiet_threads
 from fatigue.study.variants.story import listed_study, run_study
 from tests.study.variants.small_study import small_study, written
 
@@ -314,8 +315,30 @@ def test_the_list_of_runs(finished):
 
 
 def test_logs_of_runs_do_not_mix(finished):
-    """Each result has the log of its own assessment, and stderr had none of them."""
+    """Each result has the log of its own assessment."""
     folder, _ = finished
     for log in folder.rglob("fatigue.log"):
         assert log.read_text().count("the result is complete") == 1
-    assert not any(handler.filters for handler in logging.getLogger("fatigue").handlers)
+
+
+def test_the_log_is_quiet_only_meanwhile(caplog):
+    """What threads of single runs say is not told while a study runs; what the study says is, and both are later."""
+    log = logging.getLogger("fatigue")
+    log.addHandler(caplog.handler)
+    try:
+        with quiet_threads():
+            log.info("of the study")
+            said_by_another("of a run")
+        said_by_another("later")
+    finally:
+        log.removeHandler(caplog.handler)
+    texts = [record.getMessage() for record in caplog.records]
+    assert "of a run" not in texts
+    assert {"of the study", "later"} <= set(texts)
+
+
+def said_by_another(text):
+    """Log a line from a thread of its own."""
+    thread = threading.Thread(target=logging.getLogger("fatigue").warning, args=(text,))
+    thread.start()
+    thread.join()

@@ -50,13 +50,13 @@ def read_mass_matrix(path: Path) -> sparse.csc_array:
 
 
 def read_mass_rows(
-    path: Path, rows: int, matrix: str, mesh: Mesh | None, *, strict: bool
+    path: Path, rows: int, matrix: str, mesh: Mesh | None, *, strict: bool, need_places: bool = True
 ) -> tuple[MassRows, list[Problem]]:
     """Read ``row, node, direction`` and, where present, ``x_mm, y_mm, z_mm, held``: one row for each of the matrix.
 
     ``row`` counts from 1. The direction is x, y, z, rx, ry, rz; instead of it, ``component`` has its number, 1 to 6.
-    Places are given here, or by the ``mesh`` of the case. Rows that are ``held`` are the boundary that was fixed where
-    the modes were computed.
+    Places are given here, or by the ``mesh`` of the case; where nobody needs them they may be NaN. Rows that are
+    ``held`` are the boundary that was fixed where the modes were computed.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def read_mass_rows(
     table.report(beyond, "unknown_id", "row", what, "Count the rows of the matrix from 1")
     table.unique({"row": row})
     table.unique({"node": node, of_row: code}, {of_row: COMPONENTS if numbered else DIRECTIONS})
-    xyz = _places(table, node, mesh)
+    xyz = _places(table, node, mesh, need_places)
     table.refuse()
     if table.rows < rows:
         absent = np.setdiff1d(np.arange(1, rows + 1), row)
@@ -102,15 +102,16 @@ def _components(table: Table) -> NDArray[np.int64]:
     return np.where(unknown, 0, component - 1)
 
 
-def _places(table: Table, node: NDArray[np.int64], mesh: Mesh | None) -> NDArray[np.float64]:
-    """Place (n, 3) of every row [mm]: as the table has it, else that of the node in the mesh."""
+def _places(table: Table, node: NDArray[np.int64], mesh: Mesh | None, needed: bool) -> NDArray[np.float64]:
+    """Place (n, 3) of every row [mm]: as the table has it, else that of the node in the mesh, else NaN."""
     if any(name in table.position for name in XYZ):
         return np.column_stack([table.numbers(name) for name in XYZ]).astype(np.float64)
     if mesh is None:
-        what = "nothing says where the nodes are"
-        remedy = "Give x_mm, y_mm, z_mm here, or nodes in [body]"
-        table.problems.append(Problem("missing_column", f"{table.path.name}: x_mm, y_mm, z_mm", what, remedy))
-        return np.zeros((table.rows, 3))
+        if needed:
+            what = "nothing says where the nodes are"
+            remedy = "Give x_mm, y_mm, z_mm here, or nodes in [body]"
+            table.problems.append(Problem("missing_column", f"{table.path.name}: x_mm, y_mm, z_mm", what, remedy))
+        return np.full((table.rows, 3), np.nan)
     at = np.clip(np.searchsorted(mesh.node, node), 0, len(mesh.node) - 1)
     unknown = mesh.node[at] != node
     what = f"node {node[int(unknown.argmax())]} is not in the nodes of [body]"

@@ -9,10 +9,10 @@ import pytest
 from fatigue.errors import CaseError, DataError
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.options import ConvertOptions, Displacement
+from tests.command_line import fatigue
 from tests.readers.convert.displacement.modal_records import resonances
 from tests.readers.op2_writer import modal_op2
 from tests.readers.tee_model import bulk, tee
-from tests.test_cli import fatigue
 
 AXES = "xyz"
 NODE = 109  # all modes move it in z

@@ -17,9 +17,9 @@ from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.foreign.nastran.results.op2_records import read_records
 from fatigue.readers.foreign.nastran.results.op2_stresses import read_op2_stresses
 from fatigue.results.tables import read_table
+from tests.command_line import fatigue
 from tests.mystran.strip import T, stress_along
 from tests.readers.op2_writer import Op2Writer
-from tests.test_cli import fatigue
 
 STRIP = Path("tests/data/nastran/mystran").resolve()
 POINTS = pd.DataFrame(
