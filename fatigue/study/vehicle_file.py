@@ -24,7 +24,6 @@ WHAT = "a vehicle (vehicle.toml)"
 _PAIRS = "a list of pairs of numbers, [[begin, end], ...]"
 
 Tables = dict[str, dict[str, Any]]
-Keyed = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)

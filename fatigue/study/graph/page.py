@@ -37,7 +37,7 @@ def graph_page(found: Graph) -> str:
         "version": __version__,
         "key": _key(found),
         "compared": compared,
-        "vehicles": [_vehicle(of, found, figs, number) for number, of in enumerate(found.vehicles, 1)],
+        "vehicles": [_vehicle(of, figs, number) for number, of in enumerate(found.vehicles, 1)],
         "asks": asks_table(found),
         "parameters": _parameters(found),
         "config": embedded(CONFIG),
@@ -74,7 +74,7 @@ def _compared(found: Graph, figs: Figures) -> Shown:
     return figs.add("boundaries", boundaries_figure(found.vehicles), caption, wide=True, of_curve=False)
 
 
-def _vehicle(of: VehicleGraph, found: Graph, figs: Figures, number: int) -> dict[str, Any]:
+def _vehicle(of: VehicleGraph, figs: Figures, number: int) -> dict[str, Any]:
     under = figs.under(f"v{number}-")
     first, speed = of.over_conicity[0], of.over_speed[0]
     crossing = that_cross(first)

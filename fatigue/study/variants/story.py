@@ -76,7 +76,7 @@ def run_study(
     folder = given_path(folder, "folder")
     stage("trying every variant of the study")
     files, plan, claims = planned_study(study)
-    asked = _chosen(study, plan, given_names(only, "only"))
+    asked = _chosen(plan, given_names(only, "only"))
     inputs = [study.resolve(name) for name in _inputs(study)]
     refuse_foreign(folder, force=force, inputs=inputs)
     runs = planned_runs(study, files, plan, folder)
@@ -99,7 +99,7 @@ def listed_study(study: Study | Path | str, folder: Path | str, only: str | Sequ
     """
     study = study if isinstance(study, Study) else load_study(study)
     files, plan, _ = planned_study(study)
-    asked = _chosen(study, plan, given_names(only, "only"))
+    asked = _chosen(plan, given_names(only, "only"))
     runs = planned_runs(study, files, plan, given_path(folder, "folder"))
     refuse(DataError, _missing_files(runs))
     return dry_run(study, [run for run in runs if run.variant in asked])
@@ -188,7 +188,7 @@ def _inputs(study: Study) -> Iterator[str]:
     yield from filter(None, (study.base.vehicle, study.base.case, *study.source.inputs))
 
 
-def _chosen(study: Study, plan: Plan, only: Collection[str]) -> set[str]:
+def _chosen(plan: Plan, only: Collection[str]) -> set[str]:
     """Names of the variants that are to be run.
 
     Raises

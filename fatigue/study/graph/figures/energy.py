@@ -39,7 +39,7 @@ def energy_figure(line: Line, loci: Sequence[Locus]) -> go.Figure:
             data.append(_share(line, locus, group, colour, suffix, shown=row == 0))
         layout[f"yaxis{suffix}"] = axis("", range=[0.0, 1.0], domain=[max(0.0, top - height), top], tickformat=".0%")
         where = {"x": 0, "xref": "paper", "xanchor": "left", "y": top, "yref": "paper", "yanchor": "bottom"}
-        notes.append({**where, "text": f"<b>{locus.name}</b>{_crossing(line, locus)}", "showarrow": False})
+        notes.append({**where, "text": f"<b>{locus.name}</b>{_crossing(locus)}", "showarrow": False})
     title = "equivalent conicity [-]" if line.along == "conicity" else "speed [km/h]"
     x = axis(title, range=list(line.ends), anchor="y" if n == 1 else f"y{n}")
     if line.along == "conicity":
@@ -72,7 +72,7 @@ def energy_figure(line: Line, loci: Sequence[Locus]) -> go.Figure:
     )
 
 
-def _crossing(line: Line, locus: Locus) -> str:
+def _crossing(locus: Locus) -> str:
     """From which frequency to which a locus goes."""
     f = locus.frequency_hz[np.isfinite(locus.frequency_hz)]
     return f", {f[0]:.1f} to {f[-1]:.1f} Hz"

@@ -37,11 +37,6 @@ class Failed:
 
     error: FatigueError
 
-    @property
-    def is_numerical(self) -> bool:
-        """Whether inputs were valid and a computation lost its footing."""
-        return isinstance(self.error, NumericalError)
-
 
 @dataclass(frozen=True, slots=True)
 class NotRun:
