@@ -2,6 +2,8 @@
 
 import json
 
+from fatigue.cli.commands.study import failures_told
+from fatigue.errors import Problem
 from tests.study.variants.small_study import written
 from tests.test_cli import fatigue
 
@@ -28,3 +30,13 @@ def test_a_study_on_the_command_line(copied):
     assert len(warnings) == len(kinds) > 0
     assert {path.suffix for path in (copied / "out").glob("claims.*")} == {".parquet", ".csv"}
     assert "It lives longer" in (copied / "out" / "study.html").read_text(encoding="utf-8")
+
+
+def test_runs_that_fail_alike_are_one_line():
+    """Thirty runs without their program are one error with a count; another reason is a line of its own."""
+    same = [Problem("command_failed", f"variant 'base', seed {seed}", "no solver", "Install it") for seed in range(30)]
+    lines = list(failures_told([*same, Problem("command_failed", "variant 'fe=14', seed 1", "no licence", "Get one")]))
+    assert lines == [
+        "variant 'base', seed 0: no solver. Install it. (and 29 more runs for the same reason, see study.json)",
+        "variant 'fe=14', seed 1: no licence. Get one.",
+    ]
