@@ -231,7 +231,7 @@ def _refuse_grounded(structure: Structure, rigid: Floats) -> None:
     if share[row, motion] > GROUNDED:
         where = f"K: {row_name(structure, int(row))}"
         what = f"the body resists a rigid motion here ({share[row, motion]:.2g} of the terms of its row are left)"
-        remedy = "Give K of the free body, without supports, and what its rows are in the order of the matrix"
+        remedy = "Give K of the free body, without supports, its units, and what its rows are in their order"
         raise DataError(Problem("grounded", where, what, remedy))
 
 

@@ -94,7 +94,8 @@ class Reduction:
     def _lines(self) -> list[str]:
         basis, kept = self.reduced.basis, self.reduced.kept
         normal = basis.frequency[basis.normal]
-        modes = f"{normal.size} normal modes" + (f", {normal[0]:.4g} to {normal[-1]:.4g} Hz" if normal.size else "")
+        reach = f", {normal[0]:.4g} to {normal[-1]:.4g} Hz" if normal.size else f" up to {self.recipe.cut_hz:g} Hz"
+        modes = f"{normal.size} normal modes{reach}"
         others = int((~basis.normal).sum())
         modes += f", and {others} interface modes up to {basis.frequency[-1]:.4g} Hz" if others else ""
         x, y, z = self.rigid.cg_mm.tolist()
@@ -109,7 +110,8 @@ class Reduction:
             f"{len(loaded)} loaded points in {len(kept)} directions, {observed} observed; {least}",
         ]
         if self.welds:
-            lines.append(f"forces of {len(self.welds)} weld lines at {self.weld_nodes} nodes")
+            ending = "s" * (len(self.welds) != 1)
+            lines.append(f"forces of {len(self.welds)} weld line{ending} at {self.weld_nodes} nodes")
         return [*lines, *(f"note: {note}" for note in self.notes), _written(self)]
 
 

@@ -1,5 +1,6 @@
 """The commands of a study of a vehicle: its analysis graph, and runs of its variants."""
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -10,6 +11,7 @@ from fatigue.cli.main import cli
 from fatigue.cli.numbers import ABOVE_ZERO, numbers_of
 from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
+from fatigue.errors import Problem
 
 Numbers: TypeAlias = tuple[float, ...]
 
@@ -186,10 +188,20 @@ def run(
         print_json(found.as_record())
     else:
         say(found.as_text())
-    for problem in found.failures:
-        say(f"error: {problem}", err=True)
+    for line in failures_told(found.failures):
+        say(f"error: {line}", err=True)
     if found.exit_code:
         raise SystemExit(found.exit_code)
+
+
+def failures_told(failures: Sequence[Problem]) -> Iterator[str]:
+    """Failures of runs; those that say the same are one line with their count, for study.json has each."""
+    alike: dict[tuple[str, str], list[Problem]] = {}
+    for problem in failures:
+        alike.setdefault((problem.code, problem.what), []).append(problem)
+    for first, *others in alike.values():
+        more = f" (and {len(others)} more run{'s' * (len(others) > 1)} for the same reason, see study.json)"
+        yield f"{first}{more if others else ''}"
 
 
 def _range(text: str | None, option: str) -> Numbers:

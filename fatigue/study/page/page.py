@@ -17,6 +17,7 @@ from fatigue.study.page.claims_figure import claims_figure
 from fatigue.study.page.conicity import conicity_figure
 from fatigue.study.page.lives import lives_figure, lives_of
 from fatigue.study.page.maps import weld_maps
+from fatigue.study.page.means import means_table
 from fatigue.study.page.spectra import spectra_figure, spectra_of
 from fatigue.study.page.studied import Studied
 from fatigue.study.page.tables import MOST_ROWS, ratio_table, seed_table, undone_table, variant_table, whole_ratios
@@ -42,6 +43,7 @@ def study_page(of: Studied) -> str:
         "spectra": _spectra(of, drawn, figs),
         "maps": _maps(of, figs),
         "lives": _lives(of, drawn, figs),
+        "means": means_table(of),
         "variants": variant_table(of),
         "folded": FOLDED_FROM,
         "ratios": ratio_table(of.ratios),

@@ -96,6 +96,8 @@ def test_values_that_are_wrong_together(folder):
     [
         (BASE.replace('"x"', '"x {fe} {sed}"'), "no setting is called 'sed'. Write {seed}"),
         (BASE.replace('"x"', '"x {"'), "has a brace alone"),
+        (BASE.replace('"x"', '"x {seed} && y"'), "&& is for a shell, and the command is started without one. Write a"),
+        (BASE.replace('"x"', '"x {seed} > out.txt"'), "> is for a shell"),
         (BASE.replace('command = "x"', 'files = "{run}/x"'), "{run} is made for a command only"),
         (BASE.replace('["noise"]', '["nose"]'), "case.toml has no event 'nose'. Write 'noise'"),
         (

@@ -11,6 +11,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.neutral.tables import open_table
 
 KINDS = ("normal", "interface", "rigid")
+DAMPED_AS_RULED = 1000.0  # Hz: common multibody codes damp what lies above critically
 MOST_DAMPING = 0.3  # [-] of a normal mode: car bodies have 0.005 to 0.05, with viscous layers 0.1
 MOST_HZ = 1e6  # a wave through a plate of 5 mm; residual modes stay below
 LOWEST_HZ = 1e-3  # below it a frequency is the round-off of a rigid mode
@@ -84,6 +85,7 @@ def read_modes(path: Path, ignore_modes: Collection[int], *, strict: bool) -> tu
 def _warnings(modes: Modes, file: str) -> list[Problem]:
     """Warnings about damping in per cent, and about frequencies that no body of a vehicle has; each kind once."""
     of_body = np.array(modes.kind) == "normal"  # interface modes may be damped as one likes
+    of_body &= modes.frequency < DAMPED_AS_RULED
     damping = np.where(of_body, np.nan_to_num(modes.damping_ratio), 0.0)
     return [
         *_above("unusual_damping", f"{file}: column damping_ratio", modes, damping, MOST_DAMPING),

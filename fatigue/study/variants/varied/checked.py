@@ -1,6 +1,7 @@
 """Every value of a study tried before anything runs: whether vehicle and case can have it, alone and with others."""
 
 import difflib
+import shlex
 import string
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -16,6 +17,7 @@ from fatigue.study.variants.varied.expansion import Aspect, Plan, Planned
 from fatigue.study.variants.varied.names import shown
 
 SEED = "vehicle.run.seed"
+OF_A_SHELL = frozenset(("&&", "||", "|", ";", "&", "<", ">", ">>", "2>", "2>&1"))
 PREFIXES = "vehicle.<table>.<key>, case.<table>.<key>, case, or own.<name>"
 
 
@@ -39,6 +41,8 @@ def placeholder_problems(study: Study, plan: Plan) -> Iterator[Problem]:
         except ValueError as error:
             yield Problem("bad_placeholder", where, f"{text!r} has a brace alone ({error})", "Write {{ for a brace")
             continue
+        if key == "command":
+            yield from _shell_problems(text, where)
         known = known_placeholders(study, plan.aspects)
         for name in dict.fromkeys(name for name in names if name not in known):
             near = difflib.get_close_matches(name, known, n=1)
@@ -48,6 +52,18 @@ def placeholder_problems(study: Study, plan: Plan) -> Iterator[Problem]:
             yield Problem(
                 "unknown_placeholder", where, "{run} is made for a command only", "Name a folder that is there"
             )
+
+
+def _shell_problems(command: str, where: str) -> Iterator[Problem]:
+    """Refusal of what only a shell understands: a program would get it as a word, and what follows would not be run."""
+    try:
+        words = shlex.split(command, posix=False)  # keeps quotation marks: a word in them is meant
+    except ValueError:
+        return  # the source refuses it
+    found = next((word for word in words if word in OF_A_SHELL), None)
+    if found is not None:
+        what = f"{found} is for a shell, and the command is started without one"
+        yield Problem("bad_command", where, what, 'Write a script, or sh -c "..."')
 
 
 def known_placeholders(study: Study, aspects: Iterable[Aspect]) -> list[str]:

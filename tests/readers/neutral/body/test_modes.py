@@ -97,3 +97,12 @@ def test_damping_in_per_cent_and_frequencies_of_nothing(tmp_path, suffix, column
     _, warnings = read_modes(write(tmp_path / f"m{suffix}", MODES | {column: values}), (), strict=True)
     assert [warning.code for warning in warnings] == ([code] if code else [])
     assert not code or said in warnings[0].what
+
+
+def test_damping_that_multibody_codes_set_above_a_kilohertz_is_no_doubt(tmp_path):
+    """Normal modes above 1000 Hz are damped critically by rule; below, the same ratio is told."""
+    damped = {"damping_ratio": [0.02, 1.0, 1.0]}
+    high = MODES | {"frequency_hz": [8.0, 1200.0, 5000.0]} | damped
+    assert not read_modes(write(tmp_path / "high.csv", high), (), strict=True)[1]
+    low = MODES | {"frequency_hz": [8.0, 900.0, 5000.0]} | damped
+    assert [w.code for w in read_modes(write(tmp_path / "low.csv", low), (), strict=True)[1]] == ["unusual_damping"]
