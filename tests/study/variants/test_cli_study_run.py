@@ -37,6 +37,6 @@ def test_runs_that_fail_alike_are_one_line():
     same = [Problem("command_failed", f"variant 'base', seed {seed}", "no solver", "Install it") for seed in range(30)]
     lines = list(failures_told([*same, Problem("command_failed", "variant 'fe=14', seed 1", "no licence", "Get one")]))
     assert lines == [
-        "variant 'base', seed 0: no solver. Install it. (and 29 more runs for the same reason, see study.json)",
+        "variant 'base', seed 0: no solver. Install it. (and 29 more for the same reason, see study.json)",
         "variant 'fe=14', seed 1: no licence. Get one.",
     ]
