@@ -200,7 +200,7 @@ def failures_told(failures: Sequence[Problem]) -> Iterator[str]:
     for problem in failures:
         alike.setdefault((problem.code, problem.what), []).append(problem)
     for first, *others in alike.values():
-        more = f" (and {len(others)} more run{'s' * (len(others) > 1)} for the same reason, see study.json)"
+        more = f" (and {len(others)} more for the same reason, see study.json)"
         yield f"{first}{more if others else ''}"
 
 
