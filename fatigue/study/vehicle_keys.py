@@ -38,6 +38,8 @@ ANY = Range()
 POSITIVE = Range(0.0, low_open=True)
 NOT_NEGATIVE = Range(0.0)
 RATIO = Range(0.0, 1.0, low_open=True, high_open=True)
+HEAVY = Range(50.0, 1e5)  # kg: what is below is a mass in t
+INERT = Range(5.0, 1e7)  # kg m2: likewise
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +59,10 @@ class Key:
 
 def _equipment(mass: str) -> dict[str, Key]:
     return {
-        "mass_kg": Key("mass", mass, POSITIVE),
-        "ixx_kg_m2": Key("moment of inertia about the x axis through its centre of mass", "O", POSITIVE),
-        "iyy_kg_m2": Key("the same about y", "O", POSITIVE),
-        "izz_kg_m2": Key("the same about z", "O", POSITIVE),
+        "mass_kg": Key("mass", mass, HEAVY),
+        "ixx_kg_m2": Key("moment of inertia about the x axis through its centre of mass", "O", INERT),
+        "iyy_kg_m2": Key("the same about y", "O", INERT),
+        "izz_kg_m2": Key("the same about z", "O", INERT),
         "x_m": Key("place of its centre of mass along the vehicle", "O"),
         "fe_hz": Key("lateral frequency of its mounts with the car body held still", "S", POSITIVE),
         "y_m": Key("place of its centre of mass across", "O"),
@@ -82,17 +84,17 @@ KEYS: Mapping[str, Mapping[str, Key]] = {
     "converter": _equipment("S"),
     "transformer": _equipment("S") | {"fe_hz": Key("lateral frequency of its mounts, likewise", "O", POSITIVE)},
     "bogie": {
-        "mass_kg": Key("mass of one frame", "P", POSITIVE),
-        "ixx_kg_m2": Key("moment of inertia of the frame about the x axis through its centre of mass", "P", POSITIVE),
-        "iyy_kg_m2": Key("the same about y", "P", POSITIVE),
-        "izz_kg_m2": Key("the same about z", "P", POSITIVE),
+        "mass_kg": Key("mass of one frame", "P", HEAVY),
+        "ixx_kg_m2": Key("moment of inertia of the frame about the x axis through its centre of mass", "P", INERT),
+        "iyy_kg_m2": Key("the same about y", "P", INERT),
+        "izz_kg_m2": Key("the same about z", "P", INERT),
         "z_m": Key("height of its centre of mass above the rail", "O", POSITIVE),
         "spacing_m": Key("distance of the bogie centres", "P", POSITIVE),
         "wheelbase_m": Key("distance 2 a of the wheelsets of a bogie; left out: that of the setting", "P", POSITIVE),
     },
     "wheelset": {
-        "mass_kg": Key("mass", "P", POSITIVE),
-        "izz_kg_m2": Key("moment of inertia about z", "P", POSITIVE),
+        "mass_kg": Key("mass", "P", HEAVY),
+        "izz_kg_m2": Key("moment of inertia about z", "P", INERT),
         "z_m": Key("height of its centre above the rail", "P", POSITIVE),
         "radius_m": Key("rolling radius r0", "P", POSITIVE),
         "half_gauge_m": Key("half the lateral distance b of the rolling circles", "P", POSITIVE),

@@ -8,7 +8,7 @@ from tests.command_line import fatigue
 from tests.study.variants.small_study import written
 
 
-def test_a_study_on_the_command_line(copied):
+def test_a_study_on_the_command_line(copied, with_page):
     """Text with what was there before and with verdicts; each kind of warning once; a run that fails is an error."""
     claim = '[[claim]]\ntext = "It lives longer"\nleft = "life_km:A[fe=18]"\noperator = ">"\nright = "life_km:A"\n'
     study = written(copied, claim, **{"[9.0, 18.0]": "[9.0, 18.0, -1.0]", "seeds = [1, 2]": "seeds = [1]"})
