@@ -217,7 +217,7 @@ def test_ctrl_c_is_130_and_the_next_run_goes_on(tmp_path):
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509 (no threads here)
     )
     while process.poll() is None and not list(result.rglob("*.npz")):
-        time.sleep(0.0005)
+        time.sleep(0.005)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130

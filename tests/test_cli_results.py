@@ -16,7 +16,7 @@ from tests.small_case import small_case
 def result(tmp_path_factory):
     """A result of its own, to be diagnosed and reported."""
     folder = tmp_path_factory.mktemp("cli")
-    assess(small_case().write(folder / "case"), "-o", folder / "result")
+    assess(small_case(8.0).write(folder / "case"), "-o", folder / "result")
     return folder / "result"
 
 

@@ -18,7 +18,7 @@ from tests.small_case import STEP, small_case
 
 def shaken(low_hz, high_hz, share=1.0, **changes):
     """The small case, whose band ends at 18 Hz, with a share of the variance of two events between two frequencies."""
-    case = small_case(20.0)
+    case = small_case(8.0)
     rng = np.random.default_rng(1)
     for name in ("sine", "noise"):
         table = case.histories[name]
