@@ -16,7 +16,7 @@ def test_reduce_is_told_and_written(tmp_path):
     done = fatigue(*given, "-o", out)
     assert done.returncode == 0, done.stderr
     assert "residual basis: " in done.stdout
-    assert "forces of 1 weld lines at 3 nodes" in done.stdout
+    assert "forces of 1 weld line at 3 nodes" in done.stdout
     assert "is a rule and no property of the body" in done.stdout
     assert "normal modes up to 300 Hz and 15 residual attachment modes: done in" in done.stderr
     assert "WARNING" not in done.stderr

@@ -113,7 +113,7 @@ def without_node(body, node):
         (lambda b: at(b, M=entry(b.M, 3, 9, 1e9)), "not_symmetric", "M: node 1, rx with node 2, rx"),
         (lambda b: at(b, K=entry(b.K, 6, 6, np.nan)), "bad_value", "K: node 2, x: nan is not finite"),
         (lambda b: at(b, K=b.K + sparse.diags_array(np.where(b.node == 5, 1e3, 0.0))), "grounded", "K: node 5"),
-        (lambda b: at(b, node=b.node[::-1], xyz=b.xyz[::-1]), "grounded", "in the order of the matrix"),
+        (lambda b: at(b, node=b.node[::-1], xyz=b.xyz[::-1]), "grounded", "in their order"),
         (lambda b: at(b, M=b.M * 0.0), "no_mass", "M: the mass of the body against a rigid motion x is 0"),
         (lambda b: at(b, K=without_node(b, 7)), "grounded", "resists a rigid motion"),
     ],
