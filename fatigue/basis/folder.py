@@ -4,21 +4,15 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from fatigue import __version__
-from fatigue.basis.finding import Finding
 from fatigue.basis.page import PAGE, basis_page
 from fatigue.basis.summary import Basis
-from fatigue.basis.tables import write_csv, write_table
 from fatigue.files.hashes import sha256
-from fatigue.files.mishaps import refused_writing
-from fatigue.files.recorded import Filled, put_in_place
-from fatigue.files.whole import staged
-from fatigue.results import write_json
+from fatigue.files.recorded import Filled
 from fatigue.results.dictionary.basis import BASIS
+from fatigue.results.plain_tables import fill, table_files
 
 RECORD = "basis.json"
-TABLE_FILES = tuple(f"{name}.{kind}" for name in BASIS for kind in ("parquet", "csv"))
-FILLED = Filled("fatigue basis", "basis", RECORD, (*TABLE_FILES, PAGE))
+FILLED = Filled("fatigue basis", "basis", RECORD, (*table_files(tuple(BASIS)), PAGE))
 FILES = (*FILLED.files, RECORD)
 
 
@@ -31,28 +25,11 @@ def write_basis(folder: Path, found: Basis, inputs: Sequence[Path], *, csv: bool
     ------
     DataError : the disk is full or the place cannot be written
     """
-    with staged(folder, ".basis-") as stage:
-        for finding in _with_rows(found.findings):
-            write_table(stage, finding.table, finding.rows)
-            if csv:
-                write_csv(stage, finding.table, finding.rows)
-        page = stage / PAGE
-        with refused_writing(page):
-            page.write_text(basis_page(found), encoding="utf-8", errors="backslashreplace", newline="\n")
-        outputs = {path.name: sha256(path) for path in sorted(stage.iterdir())}
-        record = {
-            "program": FILLED.program,
-            "version": __version__,
-            "title": found.title,
-            "inputs": {path.name: sha256(path) for path in inputs},
-            "outputs": outputs,
-            "said": {f.table: {"said": list(f.said), "notes": list(f.notes)} for f in found.findings},
-            "warnings": [asdict(problem) for problem in found.warnings],
-        }
-        write_json(stage / RECORD, record)
-        put_in_place(stage, folder, FILLED, outputs)
-    return [*outputs, RECORD]
-
-
-def _with_rows(findings: Sequence[Finding]) -> list[Finding]:
-    return [finding for finding in findings if finding.rows]
+    said = {
+        "title": found.title,
+        "inputs": {path.name: sha256(path) for path in inputs},
+        "said": {f.table: {"said": list(f.said), "notes": list(f.notes)} for f in found.findings},
+        "warnings": [asdict(problem) for problem in found.warnings],
+    }
+    tables = {f.table: (BASIS[f.table], f.rows) for f in found.findings if f.rows}
+    return fill(folder, FILLED, tables, {PAGE: basis_page(found)}, said, csv=csv)

@@ -4,14 +4,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from markupsafe import Markup
-from plotly.offline import get_plotlyjs
-
-from fatigue import __version__
-from fatigue.report.environment import environment
-from fatigue.report.figures import CONFIG, TEMPLATE
+from fatigue.report.page_text import page_text
 from fatigue.report.sections.cells import Cell, Heading, PageTable, num, text
-from fatigue.report.sections.embed import Figures, Shown, embedded
+from fatigue.report.sections.embed import Figures, Shown
 from fatigue.study.graph.asks import asks_table
 from fatigue.study.graph.figures.along import along_figure
 from fatigue.study.graph.figures.colours import WORDS, palette
@@ -34,17 +29,13 @@ def graph_page(found: Graph) -> str:
     compared = _compared(found, figs) if several else None
     context = {
         "title": ", ".join(of.name for of in found.vehicles),
-        "version": __version__,
         "key": _key(found),
         "compared": compared,
         "vehicles": [_vehicle(of, figs, number) for number, of in enumerate(found.vehicles, 1)],
         "asks": asks_table(found),
         "parameters": _parameters(found),
-        "config": embedded(CONFIG),
-        "template": embedded(TEMPLATE.to_plotly_json()),
-        "plotly": Markup(get_plotlyjs()),
     }
-    return environment("fatigue.study").get_template("graph.html").render(context)
+    return page_text("fatigue.study", "graph.html", context, figs)
 
 
 def _key(found: Graph) -> list[dict[str, str]]:

@@ -2,13 +2,8 @@
 
 from typing import Any
 
-from markupsafe import Markup
-from plotly.offline import get_plotlyjs
-
-from fatigue import __version__
-from fatigue.report.environment import environment
-from fatigue.report.figures import CONFIG, TEMPLATE
-from fatigue.report.sections.embed import Figures, Shown, embedded
+from fatigue.report.page_text import page_text
+from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.wording import short
 from fatigue.study.claims.verdict import CONTRADICTED, REPRODUCED, Verdict
 from fatigue.study.page import words
@@ -33,7 +28,6 @@ def study_page(of: Studied) -> str:
     drawn = groups(of)
     context = {
         "title": of.title,
-        "version": __version__,
         "caution": words.caution(of),
         "story": list(words.story(of)),
         "outcome": words.outcome(of.verdicts) if of.verdicts else "",
@@ -50,11 +44,8 @@ def study_page(of: Studied) -> str:
         "left_out": max(0, whole_ratios(of.ratios) - MOST_ROWS),
         "undone": undone_table(of.runs),
         "warnings": of.warnings,
-        "config": embedded(CONFIG),
-        "template": embedded(TEMPLATE.to_plotly_json()),
     }
-    context["plotly"] = Markup(get_plotlyjs()) if figs.shown else ""
-    return environment("fatigue.study.page").get_template("study.html").render(context)
+    return page_text("fatigue.study.page", "study.html", context, figs)
 
 
 def _glance(of: Studied, figs: Figures) -> Shown | None:

@@ -4,23 +4,18 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from fatigue import __version__
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.files.hashes import sha256
 from fatigue.files.mishaps import refused_writing
-from fatigue.files.recorded import AWAY, ELSEWHERE, Filled, in_the_way, put_in_place
-from fatigue.files.whole import replacing, staged
-from fatigue.results import write_json
+from fatigue.files.recorded import AWAY, ELSEWHERE, Filled, in_the_way
 from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.study import STUDY
-from fatigue.results.plain_tables import write_csv, write_table
+from fatigue.results.plain_tables import fill, table_files
 from fatigue.study.variants.runs.planned_runs import RUNS
 from fatigue.study.variants.tables import Tables
 
 RECORD, PAGE = "study.json", "study.html"
 BEGUN = ".fatigue-study"  # says whose runs are below ``runs``
-TABLE_FILES = tuple(f"{name}.{kind}" for name in (*STUDY, *CLAIMED) for kind in ("parquet", "csv"))
-FILLED = Filled("fatigue study run", "study", RECORD, (*TABLE_FILES, PAGE))
+FILLED = Filled("fatigue study run", "study", RECORD, (*table_files((*STUDY, *CLAIMED)), PAGE))
 
 
 def refuse_foreign(folder: Path, *, force: bool, inputs: Collection[Path]) -> None:
@@ -60,18 +55,8 @@ def write_study(folder: Path, tables: Tables, page: str | None, record: Mapping[
     ------
     DataError : the disk is full or the place cannot be written
     """
-    with staged(folder, ".study-") as stage:
-        for name, (columns, rows) in tables.items():
-            write_table(stage, name, columns, rows)
-            if csv:
-                write_csv(stage, name, columns, rows)
-        if page is not None:
-            with replacing(stage / PAGE) as unfinished:
-                unfinished.write_text(page, encoding="utf-8", errors="backslashreplace", newline="\n")
-        outputs = {path.name: sha256(path) for path in sorted(stage.iterdir())}
-        write_json(stage / RECORD, {"program": FILLED.program, "version": __version__, **record, "outputs": outputs})
-        put_in_place(stage, folder, FILLED, outputs)
-    return [*outputs, RECORD]
+    pages = {} if page is None else {PAGE: page}
+    return fill(folder, FILLED, tables, pages, record, csv=csv)
 
 
 def left_over(folder: Path, runs: Sequence[Path]) -> list[str]:
