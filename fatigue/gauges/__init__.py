@@ -1,0 +1,1 @@
+"""Virtual strain gauges on the body, and measured strain beside what they read."""
