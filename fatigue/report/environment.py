@@ -13,7 +13,7 @@ LONGEST_NAME = 120  # letters of a name in a sentence or a heading
 
 def environment(*rooms: str) -> jinja2.Environment:
     """Environment of the templates of the report, and of those in the rooms (``fatigue.basis``) before them."""
-    loader = jinja2.ChoiceLoader([jinja2.PackageLoader(room) for room in (*rooms, "fatigue.report")])
+    loader = jinja2.ChoiceLoader([jinja2.PackageLoader(room) for room in dict.fromkeys((*rooms, "fatigue.report"))])
     made = jinja2.Environment(
         loader=loader,
         autoescape=True,

@@ -7,16 +7,14 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from markupsafe import Markup
-from plotly.offline import get_plotlyjs
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.mishaps import refused_writing
 from fatigue.report import figures
 from fatigue.report.checks import read_checks
-from fatigue.report.environment import environment
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.inputs import FoundInputs, find_inputs
+from fatigue.report.page_text import page_text
 from fatigue.report.result import ShownResult, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
@@ -26,7 +24,7 @@ from fatigue.report.sections.beside.shear import shear
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
 from fatigue.report.sections.details import Detail, weld_details
-from fatigue.report.sections.embed import Figures, embedded
+from fatigue.report.sections.embed import Figures
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
 from fatigue.report.sections.ride.read import read_ride
@@ -104,6 +102,7 @@ def report_page(
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
     context = {
         "title": record["title"],
+        "version": record["software"]["fatigue"],
         "record": record,
         "result": record.get("result", ""),
         "missing": missing,
@@ -149,11 +148,8 @@ def report_page(
         "verification": tables.verification_table(verification),
         "inputs": tables.input_table(record["inputs"]),
         "audit": tables.audit_table(record.get("conversion")),
-        "config": embedded(figures.CONFIG),
-        "template": embedded(figures.TEMPLATE.to_plotly_json()),
-        "plotly": Markup(get_plotlyjs()),
     }
-    return environment().get_template("report.html").render(context)
+    return page_text("fatigue.report", "report.html", context, figs)
 
 
 def _details(
