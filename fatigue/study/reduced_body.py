@@ -70,8 +70,10 @@ def _record(folder: Path) -> Mapping[str, Any]:
         raise DataError(Problem("no_reduced_body", str(folder), what, remedy))
     read = [name for name in (MODES, POINTS, SHAPES, OBSERVED_SHAPES) if name in outputs]
     what, remedy = "was changed since fatigue reduce wrote it", "Reduce the body again"
-    changed = [name for name in read if not (folder / name).is_file() or sha256(folder / name) != outputs[name]]
-    refuse(DataError, (Problem("changed", str(folder / name), what, remedy) for name in changed))
+    gone = [name for name in read if not (folder / name).is_file()]
+    changed = [name for name in read if name not in gone and sha256(folder / name) != outputs[name]]
+    refuse(DataError, [Problem("missing_file", str(folder / name), "is not there any more", remedy) for name in gone])
+    refuse(DataError, [Problem("changed", str(folder / name), what, remedy) for name in changed])
     record: Mapping[str, Any] = json.loads((folder / RECORD).read_text(encoding="utf-8"))
     return record
 

@@ -40,6 +40,10 @@ NOT_NEGATIVE = Range(0.0)
 RATIO = Range(0.0, 1.0, low_open=True, high_open=True)
 HEAVY = Range(50.0, 1e5)  # kg: what is below is a mass in t
 INERT = Range(5.0, 1e7)  # kg m2: likewise
+LONG = Range(0.0, 100.0, low_open=True)  # m: what is above is a length in mm
+PLACE = Range(-100.0, 100.0)  # m: likewise
+HERTZ = Range(0.01, 1000.0)  # what is outside is a period, or in another unit
+CREEP = Range(1e5, 1e10)  # N: what is below is a coefficient in kN or MN
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,12 +67,12 @@ def _equipment(mass: str) -> dict[str, Key]:
         "ixx_kg_m2": Key("moment of inertia about the x axis through its centre of mass", "O", INERT),
         "iyy_kg_m2": Key("the same about y", "O", INERT),
         "izz_kg_m2": Key("the same about z", "O", INERT),
-        "x_m": Key("place of its centre of mass along the vehicle", "O"),
-        "fe_hz": Key("lateral frequency of its mounts with the car body held still", "S", POSITIVE),
-        "y_m": Key("place of its centre of mass across", "O"),
-        "z_m": Key("its height above the rail; the mounts take hold at this height", "O", POSITIVE),
-        "fx_hz": Key("longitudinal frequency of its mounts, likewise", "O", POSITIVE),
-        "fz_hz": Key("vertical frequency of its mounts, likewise", "O", POSITIVE),
+        "x_m": Key("place of its centre of mass along the vehicle", "O", PLACE),
+        "fe_hz": Key("lateral frequency of its mounts with the car body held still", "S", HERTZ),
+        "y_m": Key("place of its centre of mass across", "O", PLACE),
+        "z_m": Key("its height above the rail; the mounts take hold at this height", "O", LONG),
+        "fx_hz": Key("longitudinal frequency of its mounts, likewise", "O", HERTZ),
+        "fz_hz": Key("vertical frequency of its mounts, likewise", "O", HERTZ),
         "damping_ratio": Key("damping ratio of its mounts", "O", RATIO),
     }
 
@@ -79,25 +83,25 @@ KEYS: Mapping[str, Mapping[str, Key]] = {
         "basis": Key("modal basis of the frame body", "S", choices=("weak", "strong", "residual", "full")),
         "keep_hz": Key("modes of the frame body above are left out; 'all' keeps them", "O", POSITIVE, none="all"),
         "cut_hz": Key("modes of the frame body before its reduction are taken up to here", "O", POSITIVE),
-        "floor_z_m": Key("height of the origin of the body's own frame above the rail", "O", POSITIVE),
+        "floor_z_m": Key("height of the origin of the body's own frame above the rail", "O", LONG),
     },
     "converter": _equipment("S"),
-    "transformer": _equipment("S") | {"fe_hz": Key("lateral frequency of its mounts, likewise", "O", POSITIVE)},
+    "transformer": _equipment("S") | {"fe_hz": Key("lateral frequency of its mounts, likewise", "O", HERTZ)},
     "bogie": {
         "mass_kg": Key("mass of one frame", "P", HEAVY),
         "ixx_kg_m2": Key("moment of inertia of the frame about the x axis through its centre of mass", "P", INERT),
         "iyy_kg_m2": Key("the same about y", "P", INERT),
         "izz_kg_m2": Key("the same about z", "P", INERT),
-        "z_m": Key("height of its centre of mass above the rail", "O", POSITIVE),
-        "spacing_m": Key("distance of the bogie centres", "P", POSITIVE),
-        "wheelbase_m": Key("distance 2 a of the wheelsets of a bogie; left out: that of the setting", "P", POSITIVE),
+        "z_m": Key("height of its centre of mass above the rail", "O", LONG),
+        "spacing_m": Key("distance of the bogie centres", "P", LONG),
+        "wheelbase_m": Key("distance 2 a of the wheelsets of a bogie; left out: that of the setting", "P", LONG),
     },
     "wheelset": {
         "mass_kg": Key("mass", "P", HEAVY),
         "izz_kg_m2": Key("moment of inertia about z", "P", INERT),
-        "z_m": Key("height of its centre above the rail", "P", POSITIVE),
-        "radius_m": Key("rolling radius r0", "P", POSITIVE),
-        "half_gauge_m": Key("half the lateral distance b of the rolling circles", "P", POSITIVE),
+        "z_m": Key("height of its centre above the rail", "P", LONG),
+        "radius_m": Key("rolling radius r0", "P", LONG),
+        "half_gauge_m": Key("half the lateral distance b of the rolling circles", "P", LONG),
     },
     "suspension": {
         "setting": Key("values for what is left out below", "S", choices=tuple(SETTINGS)),
@@ -107,20 +111,20 @@ KEYS: Mapping[str, Mapping[str, Key]] = {
         "primary_y_Ns_m": Key("lateral damping of an axle box", "O", NOT_NEGATIVE),
         "primary_z_N_m": Key("vertical stiffness of an axle box", "P", POSITIVE),
         "primary_z_Ns_m": Key("vertical damping of an axle box", "O", NOT_NEGATIVE),
-        "primary_half_distance_m": Key("half the lateral distance of the axle boxes", "O", POSITIVE),
+        "primary_half_distance_m": Key("half the lateral distance of the axle boxes", "O", LONG),
         "secondary_x_N_m": Key("longitudinal stiffness between car body and bogie, per side", "O", NOT_NEGATIVE),
         "secondary_x_Ns_m": Key("longitudinal damping, per side", "O", NOT_NEGATIVE),
         "secondary_y_N_m": Key("lateral stiffness, per side", "O", NOT_NEGATIVE),
         "secondary_y_Ns_m": Key("lateral damping, per side", "P", NOT_NEGATIVE),
         "secondary_z_N_m": Key("vertical stiffness, per side", "O", POSITIVE),
         "secondary_z_Ns_m": Key("vertical damping, per side", "O", NOT_NEGATIVE),
-        "secondary_half_distance_m": Key("half the lateral distance of these springs at the bogie", "P", POSITIVE),
-        "secondary_height_m": Key("their height at the bogie above the rail", "O", POSITIVE),
+        "secondary_half_distance_m": Key("half the lateral distance of these springs at the bogie", "P", LONG),
+        "secondary_height_m": Key("their height at the bogie above the rail", "O", LONG),
         "anti_roll_Nm_rad": Key("stiffness of the anti-roll bar of a bogie", "O", NOT_NEGATIVE),
         "yaw_damper_N_m": Key("series stiffness of a yaw damper; left out: that of the setting", "T", POSITIVE),
         "yaw_damper_Ns_m": Key("damping of a yaw damper; left out: that of the setting", "T", POSITIVE),
-        "yaw_damper_half_distance_m": Key("half the lateral distance of the yaw dampers", "P", POSITIVE),
-        "yaw_damper_height_m": Key("their height above the rail", "O", POSITIVE),
+        "yaw_damper_half_distance_m": Key("half the lateral distance of the yaw dampers", "P", LONG),
+        "yaw_damper_height_m": Key("their height above the rail", "O", LONG),
     },
     "contact": {
         "state": Key("'sound', or 'worn' in the worn sections of a run", "S", choices=("sound", "worn")),
@@ -133,8 +137,8 @@ KEYS: Mapping[str, Mapping[str, Key]] = {
         "worn_amplitude_mm": Key("amplitude s0 from which it falls towards lambda", "O", POSITIVE),
         "worn_sections_m": Key("where the contact is worn: a list of pairs [begin, end]", "O", NOT_NEGATIVE),
         "worn_ramp_m": Key("length of the ramp inside either end of a section", "O", POSITIVE),
-        "f11_N": Key("longitudinal creep coefficient of a wheel", "K", POSITIVE),
-        "f22_N": Key("lateral creep coefficient of a wheel", "K", POSITIVE),
+        "f11_N": Key("longitudinal creep coefficient of a wheel", "K", CREEP),
+        "f22_N": Key("lateral creep coefficient of a wheel", "K", CREEP),
         "f23_Nm": Key("lateral and spin creep coefficient of a wheel", "K", NOT_NEGATIVE),
         "load_N": Key("load W of a wheel", "K", NOT_NEGATIVE),
         "contact_angle_rate": Key("contact angle parameter epsilon", "O", NOT_NEGATIVE),

@@ -84,3 +84,6 @@ def test_folders_of_others(folder, tmp_path):
     (copy / "modes.csv").write_text(modes.replace("normal", "interface"))
     with pytest.raises(DataError, match=r"modes.csv: was changed since fatigue reduce wrote it"):
         reduced_body(copy, FLOOR)
+    (copy / "modes.csv").unlink()
+    with pytest.raises(DataError, match=r"modes.csv: is not there any more"):
+        reduced_body(copy, FLOOR)

@@ -106,6 +106,23 @@ def test_all_mistakes_are_told_at_once(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("key", "in_another_unit"),
+    [
+        ("wheelset.radius_m", 460.0),  # mm
+        ("converter.x_m", -3000.0),  # mm
+        ("bogie.spacing_m", 17500.0),  # mm
+        ("converter.fz_hz", 9000.0),  # mHz
+        ("contact.f11_N", 10.0),  # MN
+        ("converter.mass_kg", 6.6),  # t
+    ],
+)
+def test_values_in_another_unit_are_out_of_range(key, in_another_unit):
+    """A length in mm, a frequency in mHz or a coefficient in MN makes no vehicle."""
+    with pytest.raises(CaseError, match=rf"{key}: {in_another_unit:g}.* is out of range"):
+        load_vehicle(None, {key: in_another_unit})
+
+
+@pytest.mark.parametrize(
     ("changed", "where"),
     [
         ({"run.dropped_s": 60.0}, "run.dropped_s"),
