@@ -42,6 +42,8 @@ BASIS_FILES = (
     "flexibility",
 )
 """Files that only `fatigue basis` reads: an assessment neither reads nor hashes them."""
+GAUGE_FILES = ("gauge_forces", "properties")
+"""Files that only `fatigue gauges` reads."""
 MASS_FILES = ("mass_matrix", "mass_rows", "mode_shapes")
 MeanOfQ = Literal["keep", "remove"]
 LARGEST_UPSAMPLE = 64  # peaks come at half the sampling rate at most: 128 samples per peak, of the damage 1e-4 k lost
@@ -110,6 +112,16 @@ class Body(Table):
     flexibility: Text | None = Field(
         default=None, description="the file of a static solution at loaded points (point, direction, value_mm_per_N)"
     )
+    gauge_forces: Text | None = Field(
+        default=None,
+        description="the file of the element forces under strain gauges, as element_forces, which stands for it where "
+        "it is left out",
+    )
+    properties: Text | None = Field(
+        default=None,
+        description="the file of the materials of the elements by their property (pid, E_MPa, nu, thickness_mm, "
+        "bending_thickness_mm), for strain gauges",
+    )
     weld_register: Text | None = Field(
         default=None,
         alias="register",  # which is a method of every class that has abstract ones
@@ -151,7 +163,7 @@ class Body(Table):
 
     def _of_masses(self) -> Iterator[Problem]:
         """Refusals of keys about the mass of the body that do not fit together."""
-        yield from path_problems({key: getattr(self, key) for key in BASIS_FILES})
+        yield from path_problems({key: getattr(self, key) for key in (*BASIS_FILES, *GAUGE_FILES)})
         given = [key for key in MASS_FILES if getattr(self, key) is not None]
         if self.participation and given:
             what = f"participation and {given[0]} are both given: either says what the modes carry"

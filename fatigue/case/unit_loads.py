@@ -25,6 +25,9 @@ class UnitLoad(Table):
     element_forces: Text | None = Field(
         default=None, description="the file of element nodal forces [N, N mm] per unit, with a column unit_load"
     )
+    gauge_forces: Text | None = Field(
+        default=None, description="the file of its element forces under strain gauges, where those are nodal forces"
+    )
     role: Literal["other", "gravity"] = Field(
         default="other", description="what the load is: 'gravity', which the mean of q may hold already, or 'other'"
     )
@@ -41,7 +44,8 @@ class UnitLoad(Table):
         return self.nodal_forces or self.element_forces or ""
 
     def _contradictions(self) -> Iterator[Problem]:
-        yield from path_problems({"nodal_forces": self.nodal_forces, "element_forces": self.element_forces})
+        files = ("nodal_forces", "element_forces", "gauge_forces")
+        yield from path_problems({key: getattr(self, key) for key in files})
         if self.nodal_forces and self.element_forces:
             yield clash("nodal_forces", "nodal_forces and element_forces are both given", "Keep one of them")
         if not self.nodal_forces and not self.element_forces:

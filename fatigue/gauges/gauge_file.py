@@ -158,8 +158,9 @@ def _refuse_materials(table: Table, given: Given) -> None:
 
 def _ids(table: Table, name: str) -> list[int | None]:
     """Whole numbers of a column, None of an empty cell."""
-    empty = -(2**62)
-    return [None if value == empty else value for value in table.integers(name, default=empty).tolist()]
+    there = ~np.isnan(table.numbers(name, default=np.nan))
+    values = table.integers(name, default=0)
+    return [value if filled else None for value, filled in zip(values.tolist(), there.tolist(), strict=True)]
 
 
 def _number(given: Given, name: str, i: int) -> float | None:

@@ -40,7 +40,7 @@ class Reading:
     @property
     def time(self) -> Floats:
         """File time of each sample, (t,) [s]."""
-        return self.start + self.step * np.arange(self.strain.shape[1])
+        return np.asarray(self.start + self.step * np.arange(self.strain.shape[1], dtype=np.float64))
 
 
 def simulated(body: Body, rows: GaugeRows, event: Event, scratch: Path | None = None) -> Reading:
