@@ -90,7 +90,9 @@ def band_of(asked: Asked, rates_hz: Sequence[float], top_mode_hz: float | None) 
         what = f"there is no common band: it would go from {low:g} to {high:g} Hz, at {slowest:g} Hz of samples"
         raise DataError(Problem("no_common_band", "--band", what, "Give a lower end below the upper one"))
     if high > 0.5 * slowest * (1.0 + 1e-9):
-        what = f"{high:g} Hz is above half the lower sampling rate, {0.5 * slowest:g} Hz: there is no common band up to it"
+        what = (
+            f"{high:g} Hz is above half the lower sampling rate, {0.5 * slowest:g} Hz: there is no common band up to it"
+        )
         raise DataError(Problem("no_common_band", "--band", what, "Give a lower upper end, or record faster"))
     return low, high
 

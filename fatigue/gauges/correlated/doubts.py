@@ -65,5 +65,7 @@ def _apart(comparisons: Sequence[Comparison], high_hz: float) -> Iterator[Proble
         if lags[last] - lags[first] > SYNCHRONOUS / high_hz:
             what = f"'{last}' is {1e3 * (lags[last] - lags[first]):.3g} ms later than '{first}', more than "
             what += f"{1e3 * SYNCHRONOUS / high_hz:.3g} ms"
-            remedy = "Amplifiers and their anti-aliasing filters differ: correct the delays before channels are combined"
+            remedy = (
+                "Amplifiers and their anti-aliasing filters differ: correct the delays before channels are combined"
+            )
             yield Problem("not_synchronous", f"sync_group '{group}'", what, remedy)

@@ -23,7 +23,12 @@ from fatigue.gauges.correlated.folder import FILLED, write_correlation
 from fatigue.gauges.correlated.prepared import Treatment
 from fatigue.gauges.correlated.summary import Correlation
 from fatigue.gauges.gauge_file import Gauge, read_gauges
-from fatigue.gauges.measured.calibration_file import calibration_warnings, calibrations_of, read_calibrations
+from fatigue.gauges.measured.calibration_file import (
+    Calibration,
+    calibration_warnings,
+    calibrations_of,
+    read_calibrations,
+)
 from fatigue.gauges.measured.channel_file import ODOMETER, SPEED, Channel, read_channels
 from fatigue.gauges.measured.record_files import Record, distances, open_records
 from fatigue.gauges.rows import gauge_rows
@@ -87,11 +92,11 @@ def correlate(
     every, warnings = read_gauges(gauge_file, strict=strict)
     listed = read_channels(channel_file, [gauge.name for gauge in every], strict=strict)
     warnings = [*warnings, *listed.warnings]
-    known, file = {}, ""
+    known: dict[str, list[Calibration]] = {}
     if calibration_file is not None:
         known, more = read_calibrations(calibration_file, strict=strict)
-        file, warnings = calibration_file.name, [*warnings, *more]
-    calibrations = calibrations_of(listed.strain, known, file, asked.recorded_at)
+        warnings = [*warnings, *more]
+    calibrations = calibrations_of(listed.strain, known, calibration_file, asked.recorded_at)
 
     stage("reading the body and simulating its gauges")
     body = read_body(case, strict=strict)
@@ -102,6 +107,7 @@ def correlate(
     distance_channels = [listed.reserved[name] for name in (ODOMETER, SPEED) if name in listed.reserved]
     needed = [*listed.strain, *(distance_channels if asked.km is None else [])]
     opened, more = open_records(record_files, needed, rate_hz)
+    warnings = [*warnings, *more]
     run = distances(opened, listed.reserved, asked.km)
     low, high = band_of(asked, [rate_hz, *(record.rate_hz for record in opened)], top_mode_hz(body))
     k, k_source = exponent_of(asked, body)
@@ -121,7 +127,7 @@ def correlate(
     for channel in listed.strain:
         strain = np.sum([weight * reading.strain[row[name]] for name, weight in channel.terms], axis=0)
         found.append(comparison(channel, calibrations[channel.name], opened, run, strain, how))
-    warnings = [*calibration_warnings(calibrations), *doubts(found, used, high), *run.warnings, *warnings, *more]
+    warnings = [*calibration_warnings(calibrations), *doubts(found, used, high), *run.warnings, *warnings]
     result = Correlation(
         title=case.title,
         event=event,
@@ -168,4 +174,5 @@ def _common_samples(asked: Asked, reading: Reading, records: Sequence[Record]) -
     if asked.max_lag_s is None:
         return None
     (record,) = records
-    return min(reading.strain.shape[1], -(-record.samples * record.ratio.numerator // record.ratio.denominator))
+    at_rate = -(-record.samples * record.ratio.numerator // record.ratio.denominator)
+    return min(int(reading.strain.shape[1]), at_rate)

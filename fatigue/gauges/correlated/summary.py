@@ -64,12 +64,10 @@ class Correlation:
     def basis(self) -> tuple[str, ...]:
         """Sentences on what is compared and how."""
         low, high = self.band_hz
-        return (
-            f"Event '{self.event}': {self.km_simulated:.4g} km of simulation, both sides from {low:g} to below "
-            f"{high:g} Hz at {self.rate_hz:g} Hz; measured distance from {self.distance}.",
-            f"Pseudo-damage: sum of n range^k per km with k = {self.k:.5g} ({self.k_source}); ratios hold for this k.",
-            MEAN_NOTE,
-        )
+        sides = f"Event '{self.event}': {self.km_simulated:.4g} km of simulation, both sides from {low:g} to below "
+        sides += f"{high:g} Hz at {self.rate_hz:g} Hz; measured distance from {self.distance}."
+        damage = f"Pseudo-damage: sum of n range^k per km with k = {self.k:.5g} ({self.k_source})."
+        return sides, f"{damage} Damage ratios hold for this k.", MEAN_NOTE
 
     def line_in_words(self) -> str:
         """The case line as a sentence."""
@@ -120,7 +118,7 @@ class Correlation:
 
 def _table(found: Correlation) -> list[str]:
     """One line for each channel, in columns."""
-    names = ["gauge", "channel", "verdict", "range", "damage", "rms", "kept", "flags"]
+    names = ["gauge", "channel", "verdict", "range ratio", "damage ratio", "rms ratio", "kept", "flags"]
     names += ["lag [s]", "correlation"] if found.is_aligned else []
     rows = [names]
     for one in found.comparisons:

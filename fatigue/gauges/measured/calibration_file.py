@@ -86,7 +86,10 @@ def read_calibrations(path: Path, *, strict: bool = False) -> tuple[dict[str, li
 
 
 def calibrations_of(
-    channels: Sequence[Channel], known: Mapping[str, Sequence[Calibration]], file: str, recorded_at: datetime | None
+    channels: Sequence[Channel],
+    known: Mapping[str, Sequence[Calibration]],
+    path: Path | None,
+    recorded_at: datetime | None,
 ) -> dict[str, Calibration]:
     """The calibration of every channel when its records were made.
 
@@ -107,7 +110,8 @@ def calibrations_of(
     for name in known:
         if name not in names:
             what = f"there is no channel of strain {name!r}"
-            problems.append(Problem("unknown_channel", file, what, "Correct the name, or remove its rows"))
+            where = "calibration" if path is None else path.name
+            problems.append(Problem("unknown_channel", where, what, "Correct the name, or remove its rows"))
     refuse(DataError, problems)
     return found
 

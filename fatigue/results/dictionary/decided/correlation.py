@@ -1,6 +1,7 @@
 """Columns of measured strain beside the simulated one, written into a folder of their own."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from fatigue.results.dictionary.column import Column
 
@@ -22,7 +23,7 @@ def correlation_columns(edges_hz: Sequence[float]) -> tuple[Column, ...]:
     """Columns of the table ``correlation``, with those of the bands between some edges [Hz]."""
     bands = tuple(
         Column(band_ratio(low, high), "float", "-", f"measured over simulated rms from {low:g} to below {high:g} Hz")
-        for low, high in zip(edges_hz[:-1], edges_hz[1:], strict=True)
+        for low, high in pairwise(edges_hz)
     )
     return (
         _GAUGE,
