@@ -130,6 +130,10 @@ class Table:
             )
         return values
 
+    def samples(self, name: str) -> NDArray[np.float64]:
+        """Samples (r,) of a measured channel as they are: an empty cell is NaN, and an infinity is no mistake."""
+        return self._floats(name).astype(np.float64)
+
     def integers(self, name: str, *, default: int | None = None) -> NDArray[np.int64]:
         """Whole numbers (r,), exact to the last digit; an empty cell or an absent column takes the default.
 

@@ -1,0 +1,1 @@
+"""Measured strain beside the simulated one: numbers, verdicts and their page."""

@@ -1,0 +1,139 @@
+"""Figures of one gauge: histories around the largest cycles, spectra, exceedance, samples around spikes."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import plotly.graph_objects as go
+from numpy.typing import NDArray
+
+from fatigue.gauges.correlated.compared import Comparison
+from fatigue.gauges.correlated.flag_rows import SpikeShown
+from fatigue.report.figures.style import MISSED, QUIET, SERIES, Trace, axis, figure, log_axis, single
+from fatigue.shown import shortened, visible
+
+Floats = NDArray[np.float64]
+
+COLOUR = {"measured": SERIES[1], "simulated": SERIES[0]}
+DASH = {"measured": "solid", "simulated": "dash"}
+MOST_DECADES = 6.0  # of density and exceedance
+
+
+def histories(one: Comparison) -> go.Figure | None:
+    """Strain of both sides around the largest cycles; None without any."""
+    excerpts = one.drawn.excerpts
+    if not excerpts:
+        return None
+    data = [_line(e.side, e.time, e.strain, "%{x:.4g} s: %{y:.4g} ue") for e in excerpts]
+    title = "time from the middle of the largest cycle [s]" if one.alignment is None else "time of the simulation [s]"
+    return figure(data, height=300, xaxis=axis(title), yaxis=axis("strain in the band [ue]"))
+
+
+def densities(one: Comparison) -> go.Figure:
+    """Power spectral density of both sides."""
+    drawn = one.drawn
+    both = (("measured", drawn.measured_density), ("simulated", drawn.simulated_density))
+    data = [_line(side, drawn.frequency[1:], _above(y[1:]), "%{x:.4g} Hz: %{y:.4g} ue²/Hz") for side, y in both]
+    low, high = _decades([y for _, y in both])
+    return figure(
+        data,
+        height=320,
+        xaxis=axis("frequency [Hz]"),
+        yaxis=log_axis("power spectral density [ue²/Hz]", low, high),
+    )
+
+
+def exceedances(one: Comparison) -> go.Figure:
+    """Ranges over how often they are reached in a km, both sides."""
+    drawn = one.drawn
+    both = (("measured", drawn.measured_reached), ("simulated", drawn.simulated_reached))
+    data = [_line(side, _above(n), drawn.level, "%{y:.4g} ue: %{x:.4g} per km") for side, n in both]
+    low, high = _decades([n for _, n in both])
+    top = 1.05 * float(drawn.level[-1])
+    return figure(
+        data,
+        height=320,
+        xaxis=log_axis("cycles per km that reach the range [1/km]", low, high),
+        yaxis=axis("strain range [ue]", range=[0.0, top]),
+    )
+
+
+def spike_samples(spikes: Sequence[SpikeShown]) -> go.Figure | None:
+    """Raw samples around the largest spikes, one panel each; None without any."""
+    if not spikes:
+        return None
+    columns = min(4, len(spikes))
+    rows = -(-len(spikes) // columns)
+    data: list[Trace] = []
+    layout: dict[str, Trace] = {}
+    notes = []
+    for i, spike in enumerate(spikes):
+        name = "" if i == 0 else str(i + 1)
+        row, column = divmod(i, columns)
+        across, down = _share(column, columns, 0.06), _share(rows - 1 - row, rows, 0.14)
+        middle = float(spike.time[spike.marked].mean())
+        layout[f"xaxis{name}"] = axis("", domain=across, anchor=f"y{name}", nticks=3)
+        layout[f"yaxis{name}"] = axis("raw [ue]" if column == 0 else "", domain=down, anchor=f"x{name}", nticks=4)
+        data += [
+            _samples(name, spike.time, spike.strain, QUIET, "lines+markers"),
+            _samples(name, spike.time[spike.marked], spike.strain[spike.marked], MISSED, "markers"),
+        ]
+        notes.append(
+            {
+                "text": f"{middle:.3f} s, {shortened(visible(spike.record), 24)}",
+                "xref": f"x{name} domain",
+                "yref": f"y{name} domain",
+                "x": 0.0,
+                "y": 1.02,
+                "xanchor": "left",
+                "yanchor": "bottom",
+                "showarrow": False,
+                "font": {"size": 11},
+            }
+        )
+    return figure(data, height=60 + 170 * rows, showlegend=False, annotations=notes, **layout)
+
+
+def _line(side: str, x: Floats, y: Floats, hover: str) -> Trace:
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "name": side,
+        "x": single(x),
+        "y": single(y),
+        "line": {"color": COLOUR[side], "dash": DASH[side], "width": 1.5},
+        "hovertemplate": hover,
+    }
+
+
+def _samples(panel: str, x: Floats, y: Floats, colour: str, mode: str) -> Trace:
+    return {
+        "type": "scatter",
+        "mode": mode,
+        "x": x.tolist(),
+        "y": single(y),
+        "xaxis": f"x{panel}",
+        "yaxis": f"y{panel}",
+        "line": {"color": colour, "width": 1},
+        "marker": {"color": colour, "size": 6 if mode == "markers" else 3},
+        "hovertemplate": "%{x:.6g} s: %{y:.5g} ue<extra></extra>",
+    }
+
+
+def _share(place: int, of: int, gap: float) -> list[float]:
+    """Domain of one of several panels side by side."""
+    width = (1.0 - gap * (of - 1)) / of
+    return [place * (width + gap), place * (width + gap) + width]
+
+
+def _above(values: Floats) -> Floats:
+    """Values that a logarithmic axis can show."""
+    return np.where(values > 0.0, values, np.nan)
+
+
+def _decades(values: Sequence[Floats]) -> tuple[float, float]:
+    """Whole decades that hold some values above 0, no more than a figure can show."""
+    logs = np.log10(np.concatenate([one[one > 0.0] for one in values] or [np.ones(1)]))
+    if not logs.size:
+        return 0.0, 1.0
+    high = float(np.ceil(logs.max() + 0.02))
+    return max(float(np.floor(logs.min())), high - MOST_DECADES), high

@@ -1,0 +1,1 @@
+"""Measured channels: samples flagged, cut, calibrated, band-limited, brought to another rate and aligned."""
