@@ -1,8 +1,8 @@
 """Life at every strength of a curve with knees or a cut-off, from the histogram of one point.
 
-A curve of another strength has its knees at the same numbers of cycles: it is the same curve on ranges over one factor.
-So the damage at each strength is that of the histogram under a load factor. Each class stands for its range ``(sum n x^k
-/ sum n)^(1/k)``, exact on the first slope; the ratio of two such sums is taken to the damage that was counted.
+A curve of another strength has its knees at the same numbers of cycles: it is the same curve on ranges over one
+factor. So the damage at each strength is that of the histogram under a load factor. Each class stands for its range
+``(sum n x^k / sum n)^(1/k)``, exact on the first slope; the ratio of two such sums is taken to the life that was found.
 """
 
 import numpy as np

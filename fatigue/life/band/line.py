@@ -36,7 +36,7 @@ def tributary_lengths(arc_length: Floats) -> Floats:
     if len(arc_length) < 2:
         return np.zeros(len(arc_length))
     half = 0.5 * np.abs(np.diff(arc_length))
-    return np.append(half, 0.0) + np.append(0.0, half)
+    return np.asarray(np.append(half, 0.0) + np.append(0.0, half))
 
 
 def strength_survival(strength: Floats, lengths: Floats, dependence: float, common: float = 0.0) -> float:
@@ -50,9 +50,7 @@ def strength_survival(strength: Floats, lengths: Floats, dependence: float, comm
         return float(ndtr(-strength.max(initial=-np.inf, where=lengths > 0.0) / spread))
     if spread == 0.0:
         return float(np.exp(lengths @ log_ndtr(-strength)))
-    finer = int(
-        np.clip(np.ceil(spread * STEP / own), 1, _FINEST)
-    )  # no step wider than what a single length scatters by
+    finer = int(np.clip(np.ceil(spread * STEP / own), 1, _FINEST))  # no step wider than a single length scatters
     z, weight = (STRENGTHS, WEIGHTS) if finer == 1 else normal_grid(STEP / finer)
     conditional = lengths @ log_ndtr(-(strength[:, None] - spread * z) / own)
     return float(weight @ np.exp(conditional))

@@ -1,8 +1,9 @@
 """Scatter of the damage from one record to the next, from the pieces of a single one.
 
-A record of an event is cut into ``PIECES`` pieces of equal length. Neighbours are alike, a slow swing of the track or of
-the vehicle lasts for several of them, so that blocks of ``BLOCK`` pieces are what is drawn: circular moving blocks, each
-beginning at another piece. What a bootstrap of 6 such blocks would scatter by has a closed form: no random numbers.
+A record of an event is cut into ``PIECES`` pieces of equal length. Neighbours are alike, a slow swing of the track or
+of the vehicle lasts for several of them, so that blocks of ``BLOCK`` pieces are what is drawn: circular moving blocks,
+each beginning at another piece. What a bootstrap of 6 such blocks would scatter by has a closed form: no random
+numbers.
 """
 
 from dataclasses import dataclass
@@ -28,7 +29,7 @@ class LoadScatter:
 
     @property
     def log_half_width(self) -> Floats:
-        """t se: half of the width of the 90 % band of ln(damage), t of Student for these degrees of freedom."""
+        """Half of the width of the 90 % band of ln(damage): t se, t of Student for these degrees of freedom."""
         return np.asarray(stdtrit(self.dof, 0.5 * (1.0 + CONFIDENCE)) * self.se)
 
     @property
@@ -57,7 +58,7 @@ def record_error(pieces: Floats) -> Floats:
 
     That of 6 blocks, whose variance about their own mean is 5 / 6 of what it is about the true one: ``x sqrt(6 / 5)``.
     """
-    return block_error(pieces) * np.sqrt(BLOCKS / (BLOCKS - 1.0))
+    return np.asarray(block_error(pieces) * np.sqrt(BLOCKS / (BLOCKS - 1.0)))
 
 
 def mission_scatter(share: Floats, se: Floats) -> LoadScatter:

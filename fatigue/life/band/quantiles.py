@@ -18,7 +18,7 @@ def normal_grid(step: float) -> tuple[Floats, Floats]:
     half = round(FAR / step)
     z = np.arange(-half, half + 1) * step
     weight = np.exp(-0.5 * z**2)
-    return z, weight / weight.sum()
+    return np.asarray(z, np.float64), np.asarray(weight / weight.sum())
 
 
 STRENGTHS, WEIGHTS = normal_grid(STEP)
@@ -26,7 +26,7 @@ STRENGTHS, WEIGHTS = normal_grid(STEP)
 
 def combined_sigma(*parts: Floats | float) -> Floats:
     """Standard deviation of the ln of a life from those of its independent parts: the root of the sum of squares."""
-    return np.sqrt(np.sum([np.square(part) for part in np.broadcast_arrays(*parts)], axis=0))
+    return np.asarray(np.sqrt(np.sum([np.square(part) for part in np.broadcast_arrays(*parts)], axis=0)))
 
 
 def lognormal_life(median_km: Floats | float, sigma_ln: Floats | float, survival: float) -> Floats:

@@ -1,7 +1,7 @@
 """Scatter of the strength: how far specimens lie from the mean curve, and where the headline curve is among them.
 
-A strength z, in standard deviations of ln N, is a curve: 0 the mean curve, -2 mean-2sigma. Knees stay at their number of
-cycles, so that every z is the same curve on ranges times one factor.
+A strength z, in standard deviations of ln N, is a curve: 0 the mean curve, -2 mean-2sigma. Knees stay at their number
+of cycles, so that every z is the same curve on ranges times one factor.
 """
 
 from dataclasses import dataclass

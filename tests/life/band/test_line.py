@@ -17,11 +17,13 @@ UNEVEN = {0.0: 0.5156864441850151, 0.5: 0.6584407086791207, 1.0: 0.8248451389155
 
 
 def survival_of(log_median, lengths, rho, other=0.0):
+    """Survival of."""
     return lambda x: straight_line_survival(x, log_median, SIGMA, lengths, rho, other)
 
 
 @pytest.mark.parametrize("rho", MEDIAN_OF_TEN)
 def test_lines_are_those_of_the_specification(rho):
+    """Lines are those of the specification."""
     ten = survival_of(np.full(10, np.log(1e7)), np.ones(10), rho)
     assert median_life(ten, np.log(1e6), np.log(1e8)) / 1e7 == pytest.approx(MEDIAN_OF_TEN[rho], abs=1e-9)
     uneven = survival_of(np.log([1e7, 1.5e7, 4e7]), np.array([2.0, 3.5, 10.0]), rho)
@@ -29,6 +31,7 @@ def test_lines_are_those_of_the_specification(rho):
 
 
 def test_all_one_strength_is_the_worst_point_and_nearly_so_is_nearly_that():
+    """All one strength is the worst point and nearly so is nearly that."""
     uneven = np.log([1e7, 1.5e7, 4e7])
     exact = straight_line_survival(np.log(5e6), uneven, SIGMA, np.ones(3), 1.0)
     assert straight_line_survival(np.log(5e6), uneven, SIGMA, np.ones(3), 1.0 - 1e-5) == pytest.approx(exact, abs=3e-3)
@@ -37,6 +40,7 @@ def test_all_one_strength_is_the_worst_point_and_nearly_so_is_nearly_that():
 
 @pytest.mark.parametrize("rho", [0.0, 0.3, 0.99, 1.0])
 def test_a_finer_mesh_changes_nothing_where_lives_are_equal(rho):
+    """A finer mesh changes nothing where lives are equal."""
     for nodes in (11, 101):
         lengths = tributary_lengths(np.linspace(0.0, 1000.0, nodes)) / 100.0
         assert lengths.sum() == pytest.approx(10.0)
@@ -47,6 +51,7 @@ def test_a_finer_mesh_changes_nothing_where_lives_are_equal(rho):
 
 
 def test_a_finer_mesh_changes_less_than_a_thousandth_where_lives_differ():
+    """A finer mesh changes less than a thousandth where lives differ."""
     found = []
     for nodes in (41, 401):
         at = np.linspace(0.0, 1000.0, nodes)
@@ -58,12 +63,14 @@ def test_a_finer_mesh_changes_less_than_a_thousandth_where_lives_differ():
 @pytest.mark.parametrize("rho", [0.0, 0.5, 0.95])
 @pytest.mark.parametrize("other", [0.0, 0.4])
 def test_the_outer_integral_is_the_one_with_the_variances_together(rho, other):
+    """The outer integral is the one with the variances together."""
     log_median, lengths = np.log([1e7, 1.5e7, 4e7]), np.array([2.0, 3.5, 10.0])
     general = line_survival(np.log(5e6), lambda x: (x - log_median) / SIGMA, lengths, rho, other)
     assert general == pytest.approx(survival_of(log_median, lengths, rho, other)(np.log(5e6)), abs=1e-6)
 
 
 def test_a_line_is_what_draws_of_its_weakest_length_give():
+    """A line is what draws of its weakest length give."""
     rng, rho, other, draws = np.random.default_rng(5), 0.5, 0.3, 200_000
     log_median = np.log([1e7, 1.5e7, 4e7])
     lengths = np.array([2, 3, 10])
@@ -75,6 +82,7 @@ def test_a_line_is_what_draws_of_its_weakest_length_give():
 
 
 def test_a_length_of_nothing_is_no_link():
+    """A length of nothing is no link."""
     strength = np.array([-1.0, 5.0])
     for rho in (0.0, 0.5, 1.0):
         both = strength_survival(strength, np.array([1.0, 0.0]), rho)

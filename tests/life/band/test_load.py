@@ -20,16 +20,19 @@ BY_BLOCK = {  # B5_band.relative_standard_error_by_block
 
 @pytest.mark.parametrize("block", BY_BLOCK)
 def test_the_error_by_blocks_is_that_of_the_specification(block):
+    """The error by blocks is that of the specification."""
     assert block_error(ORACLE, block) == pytest.approx(BY_BLOCK[block], rel=1e-12)
 
 
 def test_the_band_of_six_blocks_is_that_of_the_specification():
+    """The band of six blocks is that of the specification."""
     scatter = LoadScatter(block_error(ORACLE, 2) * np.sqrt(6 / 5), np.array(5.0))
     assert student.ppf(0.95, 5) == pytest.approx(2.0150483733330233, rel=1e-12)
     assert np.exp(scatter.log_half_width) == pytest.approx(1.6961316206276529, rel=1e-9)  # log_t_band_90_block_2
 
 
 def test_the_closed_form_is_what_a_bootstrap_of_circular_blocks_scatters_by():
+    """The closed form is what a bootstrap of circular blocks scatters by."""
     rng = np.random.default_rng(1)
     pieces = rng.lognormal(0.0, 0.8, PIECES)
     first = rng.integers(0, PIECES, (20_000, BLOCKS, 1))
@@ -45,16 +48,19 @@ def test_the_closed_form_is_what_a_bootstrap_of_circular_blocks_scatters_by():
     turn=st.integers(0, PIECES),
 )
 def test_scale_and_beginning_do_not_matter(pieces, scale, turn):
+    """Scale and beginning do not matter."""
     pieces = np.array(pieces)
     assert record_error(np.roll(scale * pieces, turn)) == pytest.approx(record_error(pieces), rel=1e-9, abs=1e-12)
 
 
 def test_nothing_scatters_where_pieces_are_equal_or_nothing_damages():
+    """Nothing scatters where pieces are equal or nothing damages."""
     assert record_error(np.ones(PIECES)) == 0.0
     assert record_error(np.zeros((2, PIECES))).tolist() == [0.0, 0.0]
 
 
 def test_of_several_events_the_variances_and_the_degrees_of_freedom_add_up():
+    """Of several events the variances and the degrees of freedom add up."""
     share, se = np.array([[0.7], [0.3]]), np.array([[0.2], [0.4]])
     found = mission_scatter(share, se)
     parts = np.array([0.14, 0.12]) ** 2
@@ -66,6 +72,7 @@ def test_of_several_events_the_variances_and_the_degrees_of_freedom_add_up():
 
 
 def test_equal_events_have_the_degrees_of_freedom_of_all_and_one_event_its_own():
+    """Equal events have the degrees of freedom of all and one event its own."""
     assert mission_scatter(np.full((4, 1), 0.25), np.full((4, 1), 0.3)).dof == pytest.approx(20.0)
     assert mission_scatter(np.ones((1, 1)), np.full((1, 1), 0.3)).dof == pytest.approx(5.0)
     assert mission_scatter(np.ones((1, 1)), np.zeros((1, 1))).dof == pytest.approx(5.0)
