@@ -93,7 +93,7 @@ def add_moments(s: Floats, moments: Floats) -> None:
 
 
 def mean_and_kurtosis_of(moments: Floats, samples: int) -> tuple[Floats, Floats]:
-    """Mean and kurtosis by the moments (..., 5) of so many samples; NaN without any, and the kurtosis of constant ones."""
+    """Mean and kurtosis by the moments (..., 5) of so many samples; NaN without any, kurtosis also of constant ones."""
     _, mean, second, _, fourth = np.moveaxis(moments, -1, 0)
     flat = second * second == 0.0
     kurtosis = np.where(flat, math.nan, fourth * samples / np.where(flat, 1.0, second * second))
