@@ -1,9 +1,9 @@
 """A case: what is assessed, with which curve, over which mission.
 
 ``tables`` are the tables of ``case.toml`` as frozen models, ``curves`` and ``checks`` those of S-N curves and of what
-is checked beside the normal stress at the toe, ``unit_loads`` those of loads beside the modes, ``order`` that of the order of
-events, ``life_band`` that of the scatter of lives. ``load`` reads and checks a case file, ``problems`` says what is wrong with it in the words of the
-file, ``plausibility`` what is allowed and hardly meant.
+is checked beside the normal stress at the toe, ``unit_loads`` those of loads beside the modes, ``order`` that of the
+order of events, ``life_band`` that of the scatter of lives. ``load`` reads and checks a case file, ``problems`` says
+what is wrong with it in the words of the file, ``plausibility`` what is allowed and hardly meant.
 """
 
 from fatigue.case.checks import (

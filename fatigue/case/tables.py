@@ -14,8 +14,8 @@ from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
 from fatigue.case.life_band import LifeBand
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
-from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.order.sequences import Sequence
+from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.table import NotNegative, Positive, Table, Text
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import Problem

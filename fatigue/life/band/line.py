@@ -24,6 +24,7 @@ Floats = NDArray[np.float64]
 Strength = Callable[[float], Floats]  # ln of a life [km] -> (i,) the strength z at which each node just reaches it
 
 _OUTER = 10  # of the other normal integral every tenth strength: 73 of them, in steps of 0.25
+_LONGEST = 600.0  # ln of a life [km]: one that more than half of all lines outlive has no end
 _FINEST = 40  # parts of a step: what is left of a single length does not matter any more
 
 
@@ -76,15 +77,22 @@ def straight_line_survival(
 
 
 def median_life(survival: Callable[[float], float], low: float, high: float) -> float:
-    """Life that half of all lines reach [km], ``survival`` as a function of the ln of the life, between two of them."""
+    """Life that half of all lines reach [km]; ``survival`` is a function of the ln of the life, sought from two on.
+
+    +inf where more than half of them outlive everything.
+    """
 
     def above(log_life: float) -> float:
         return float(ndtri(np.clip(survival(log_life), 1e-300, 1.0 - 1e-16)))
 
+    if not np.isfinite(low + high):
+        return float(np.inf)
     step = 1.0
     while above(low) < 0.0:
         low, step = low - step, 2.0 * step
     step = 1.0
     while above(high) > 0.0:
+        if high > _LONGEST:
+            return float(np.inf)
         high, step = high + step, 2.0 * step
     return float(np.exp(brentq(above, low, high, xtol=1e-10)))
