@@ -157,7 +157,7 @@ def _with_neighbours(modal: Floats, q: Samples, *, recurs: bool) -> Iterator[Flo
     waiting: list[Floats] = []
     for chunk in stress_chunks(modal, q):
         waiting.append(chunk)
-        if sum(one.shape[1] for one in waiting) > PIECE:
+        if len(waiting) > 1 and sum(one.shape[1] for one in waiting) > PIECE:
             *ready, held = waiting
             yield np.concatenate([before, *ready, held[:, :1]], axis=1)
             before, waiting = ready[-1][:, -1:], [held]

@@ -15,7 +15,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from threadpoolctl import threadpool_limits
 
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, DataError, Problem, given_names, given_path, refuse
 from fatigue.pipeline.run.inputs import Stamp, stamps_of
 from fatigue.point.cycles import cycle_frame
 from fatigue.point.drawn import FIGURES, FigureName, draw_lives, draw_point, draw_weld
@@ -113,7 +113,7 @@ class Result:
         columns = ["code", "where", "what", "remedy", "count"]
         return pd.DataFrame(self.record["warnings"], columns=columns)
 
-    def table(self, name: str, columns: Sequence[str] | None = None, *, weld: str | None = None) -> pd.DataFrame:
+    def table(self, name: str, columns: str | Sequence[str] | None = None, *, weld: str | None = None) -> pd.DataFrame:
         """One of the ``tables``, or some columns of it; of one weld, where it has welds.
 
         Raises
@@ -130,7 +130,7 @@ class Result:
         rows = rows_of_welds(self.folder, name, [weld])[weld]
         if not rows.size:
             refuse_unknown_weld(self.folder, weld)
-        wanted = None if columns is None else list(dict.fromkeys(columns))
+        wanted = None if columns is None else list(given_names(columns, "columns"))
         found = read_rows(self.folder, name, rows, wanted).to_pandas()
         return found if wanted is None else found[wanted]
 
