@@ -85,3 +85,16 @@ def ranges_of(history: pd.DataFrame) -> pd.DataFrame:
     prefix = "counted" if "counted_top_MPa" in history else "structural"
     by_event = history.groupby("event")
     return pd.DataFrame({face: by_event[f"{prefix}_{face}_MPa"].agg(np.ptp) for face in ("top", "bottom")})
+
+
+CASES = {
+    "plain": lambda folder: plain().write(folder),
+    "upsampled": lambda folder: plain(upsample=4).write(folder, "parquet"),
+    "half": lambda folder: plain(residue="half", upsample=2).write(folder),
+    "vertex": lambda folder: plain(reversals="vertex").write(folder),
+    "vertex, half, upsampled": lambda folder: plain(reversals="vertex", residue="half", upsample=2).write(folder),
+    "unit loads": loaded,
+    "unit loads at vertices": lambda folder: loaded(folder, reversals="vertex", upsample=2),
+    "corner": cornered,
+    "loop": in_a_loop,
+}

@@ -15,34 +15,8 @@ from fatigue.point.history import COMPONENTS, event_histories, history_frame, re
 from fatigue.point.reopened import reopened
 from fatigue.results import read_provenance
 from tests import naive
-from tests.point.cases import cornered, in_a_loop, largest_ranges, loaded, plain, ranges_of, result_of
+from tests.point.cases import CASES, largest_ranges, plain, ranges_of, result_of
 from tests.small_case import BENDING, MEMBRANE, STEP, THICKNESS
-
-CASES = {
-    "plain": lambda folder: plain().write(folder),
-    "upsampled": lambda folder: plain(upsample=4).write(folder, "parquet"),
-    "half": lambda folder: plain(residue="half", upsample=2).write(folder),
-    "vertex": lambda folder: plain(reversals="vertex").write(folder),
-    "vertex, half, upsampled": lambda folder: plain(reversals="vertex", residue="half", upsample=2).write(folder),
-    "unit loads": loaded,
-    "unit loads at vertices": lambda folder: loaded(folder, reversals="vertex", upsample=2),
-    "corner": cornered,
-    "loop": in_a_loop,
-}
-
-
-@pytest.fixture(scope="module")
-def results(tmp_path_factory):
-    """Result folders by the names of their cases, assessed when first asked for."""
-    made: dict[str, Path] = {}
-
-    def of(name: str) -> Path:
-        if name not in made:
-            folder = tmp_path_factory.mktemp("history")
-            made[name] = result_of(CASES[name](folder / "case"), folder / "result")
-        return made[name]
-
-    return of
 
 
 def history_of(folder: Path, weld: str = "A", event: str | None = None, instants="counted", **place) -> pd.DataFrame:
