@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.errors import CaseError, Problem
 from fatigue.life.counting.vertex import move, shifts
 from fatigue.life.records.history import stress_chunks
 from fatigue.life.records.spool import Samples
@@ -119,6 +120,18 @@ def event_histories(
         load = counted_load(inputs, number) if instants == "counted" else sampled_load(inputs, number)
         yield EventHistory(station, components, load, is_static, 1 if instants == "counted" else load.upsample)
         forget(load)
+
+
+def refuse_unknown_instants(instants: str) -> None:
+    """Refuse what are no instants of a history.
+
+    Raises
+    ------
+    CaseError : something else than ``counted`` and ``file``
+    """
+    if instants not in get_args(Instants):
+        what = f"{instants!r} are no instants of a history"
+        raise CaseError(Problem("argument", "instants", what, "Say 'counted' or 'file'"))
 
 
 def piece_columns(history: EventHistory, piece: Piece, *, at_vertices: bool) -> dict[str, Floats]:
