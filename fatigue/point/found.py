@@ -100,6 +100,18 @@ def find_station(
     return _station(found)
 
 
+def refuse_unknown_weld(folder: Path, weld: str) -> None:
+    """Refuse a weld that the result does not have, or has not assessed.
+
+    Raises
+    ------
+    DataError : in the words of ``find_station``
+    """
+    welds = read_table(folder, "welds", ["weld", "status"]).to_pandas()
+    if str(weld) not in set(welds.loc[welds["status"] == "assessed", "weld"]):
+        raise DataError(_unknown_weld(folder, str(weld)))
+
+
 def _worst(folder: Path, points: pd.DataFrame, *, of_weld: bool) -> pd.DataFrame:
     """Both faces at the worst point of a weld, or of some of its points: a toe that was counted, if there is any."""
     if of_weld:
@@ -143,15 +155,19 @@ def _unknown_weld(folder: Path, weld: str) -> Problem:
 
 
 def meant(name: str, known: Sequence[str]) -> str:
-    """Remedy for a name that is not known: the one that was probably meant, else the first ones that there are.
+    """Remedy for a name that is not known: those that hold it, the most alike, else the first ones that there are.
 
     >>> meant("W1-roof", ["W1_roof", "W2_roof"])
     "Name 'W1_roof'"
     """
+    wanted = name.casefold()
+    holding = [one for one in known if wanted in one.casefold()]
+    if len(holding) > 1:
+        return f"Name one of {few([_quoted(one) for one in holding], MOST_NAMED)}"
     folded = {one.casefold(): one for one in reversed(known)}
-    near = difflib.get_close_matches(name.casefold(), folded, n=1)
+    near = holding or [folded[one] for one in difflib.get_close_matches(wanted, folded, n=1)]
     if near:
-        return f"Name {_quoted(folded[near[0]])}"
+        return f"Name {_quoted(near[0])}"
     return f"Name one of {few([_quoted(one) for one in known], MOST_NAMED)}"
 
 

@@ -1,10 +1,7 @@
 """Stress over time at a station of a weld line: what was counted, with its constants and factors, event after event."""
 
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
-from shutil import rmtree
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -13,10 +10,10 @@ from numpy.typing import NDArray
 
 from fatigue.life.counting.vertex import move, shifts
 from fatigue.life.records.history import stress_chunks
-from fatigue.life.records.spool import Samples, Spool
+from fatigue.life.records.spool import Samples
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.point.found import Station
-from fatigue.point.reopened import Reopened, counted_load, event_numbers, sampled_load, solved_station
+from fatigue.point.reopened import Reopened, counted_load, event_numbers, forget, sampled_load, solved_station
 from fatigue.results import Column
 from fatigue.results.dictionary.decided.history import AT_VERTICES, HISTORY
 
@@ -54,12 +51,14 @@ class EventHistory:
     station : where
     components : (5, c) stress per unit of each coordinate [MPa]
     load : the event
+    is_static : whether it is a static load case, whose values follow each other and have no times
     every : of how many samples of ``load`` one is taken
     """
 
     station: Station
     components: Floats
     load: EventLoad
+    is_static: bool
     every: int = 1
 
     @property
@@ -103,7 +102,7 @@ class EventHistory:
 
 
 def event_histories(
-    inputs: Reopened, station: Station, event: str | None = None, *, at: Instants = "counted"
+    inputs: Reopened, station: Station, event: str | None = None, *, instants: Instants = "counted"
 ) -> Iterator[EventHistory]:
     """Histories of a station, event after event or of one; each is good until the next is asked for.
 
@@ -116,20 +115,10 @@ def event_histories(
     treated = model.stations.treated
     components = np.stack([getattr(treated, name)[index] for name in COMPONENTS])
     for number in numbers:
-        if at == "counted":
-            load = counted_load(inputs, number)
-            yield EventHistory(station, components, load)
-        else:
-            load = sampled_load(inputs, number)
-            yield EventHistory(station, components, load, load.upsample)
-        if isinstance(load.counted.q, Spool):
-            forget(load.counted.q.path.parent)
-
-
-def forget(folder: Path) -> None:
-    """Remove a folder of scratch files."""
-    with suppress(OSError):
-        rmtree(folder)
+        is_static = inputs.body.case.mission.event[number].history is None
+        load = counted_load(inputs, number) if instants == "counted" else sampled_load(inputs, number)
+        yield EventHistory(station, components, load, is_static, 1 if instants == "counted" else load.upsample)
+        forget(load)
 
 
 def piece_columns(history: EventHistory, piece: Piece, *, at_vertices: bool) -> dict[str, Floats]:
@@ -153,9 +142,9 @@ def columns_of(*, at_vertices: bool) -> tuple[Column, ...]:
     return (*HISTORY, *AT_VERTICES) if at_vertices else HISTORY
 
 
-def reads_vertices(inputs: Reopened, at: Instants) -> bool:
+def reads_vertices(inputs: Reopened, instants: Instants) -> bool:
     """Whether the case has reversals read at their vertices, and the history is of the instants that were counted."""
-    return at == "counted" and inputs.body.case.counting.reversals == "vertex"
+    return instants == "counted" and inputs.body.case.counting.reversals == "vertex"
 
 
 def _with_neighbours(modal: Floats, q: Samples, *, recurs: bool) -> Iterator[Floats]:

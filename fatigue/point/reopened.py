@@ -3,11 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 import numpy as np
 
 from fatigue.errors import DataError, Problem
+from fatigue.life.records.spool import Spool
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import HELD_BYTES, event_load
 from fatigue.pipeline.mission.loops import LOOP_NAME
@@ -111,3 +113,9 @@ def _load(inputs: Reopened, number: int, factor: int) -> EventLoad:
     bytes_held = len(inputs.body.coordinates) * samples * factor * (8 if factor > 1 else 4)
     scratch = inputs.scratch / f"event-{number:04d}" if bytes_held > HELD_BYTES else None
     return event_load(inputs.body, event, factor, scratch=scratch)
+
+
+def forget(load: EventLoad) -> None:
+    """Remove what a long record has on disk."""
+    if isinstance(load.counted.q, Spool):
+        rmtree(load.counted.q.path.parent, ignore_errors=True)

@@ -1,18 +1,15 @@
 """The figures of one point: its cycles, its records, and what a diagnosis knows of its damage."""
 
-from typing import cast
-
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.life.curves import Survival, damage_law
 from fatigue.report import figures, wording
 from fatigue.report.of_record import Record, coordinates_of, events_of, mode_names, target_of, weights_of
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.why import Why, band_shares, mode_shares
-from fatigue.report.variants import Assumptions, how_often
+from fatigue.report.variants import Assumptions, how_often, laws_of
 
 SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED = 6, 8, 4
 
@@ -26,18 +23,9 @@ def cycle_figures(record: Record, name: str, cycles: pd.DataFrame, used: Assumpt
         return []
     passes_per_km = weights_of(record)
     per_km = how_often(cycles, passes_per_km)
-    laws = {
-        level: damage_law(
-            used.curve,
-            cast(Survival, level) if used.curve.has_scatter else None,
-            used.extension,
-            used.knee_cycles,
-        )
-        for level in used.curve.reference_range
-    }
     unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
     target_km = target_of(record)
-    spectrum = figures.sn_with_spectrum(cycles, per_km * target_km, laws, used.survival, unit)
+    spectrum = figures.sn_with_spectrum(cycles, per_km * target_km, laws_of(used), used.survival, unit)
     of_target = f"{name}: S-N curve and the cycles of {wording.km(target_km)}"
     return [
         figs.add(
