@@ -12,10 +12,11 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import Block
 from fatigue.pipeline.count.group import weld_names
 from fatigue.pipeline.count.result import GroupResult, arrays_of
+from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import modal_stress
-from fatigue.pipeline.tables.cycle_rows import KeptPoint
+from fatigue.pipeline.tables.cycle_rows import kept_point
 from fatigue.pipeline.tables.cycles import cycle_writer
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, shear_columns
 from fatigue.results import table_writer
@@ -52,19 +53,7 @@ def rows_of_station(
 
 def write_cycles(folder: Path, model: Model, station: int, face: int, loads: Sequence[EventLoad], plan: Plan) -> None:
     """Write every cycle of a point as a table ``cycles`` into a folder, some at a time."""
-    stations = model.stations
-    weld = int(stations.weld[station])
-    point = KeptPoint(
-        weld=stations.welds[weld].name,
-        part=int(stations.part[station]),
-        node=int(stations.node[station]),
-        order=int(stations.order[station]),
-        face=face,
-        thickness=float(stations.thickness[station]),
-        membrane=stations.treated.membrane[station],
-        bending=stations.treated.bending[station],
-        rated=model.curve_of_weld[weld],
-    )
+    point = kept_point(model, WorstPoint(int(model.stations.weld[station]), station, face))
     with table_writer(folder, CYCLES) as table:
         writer = cycle_writer(table, loads, plan)
         writer.add([point])

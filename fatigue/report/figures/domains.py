@@ -163,32 +163,32 @@ def _names(points: pd.DataFrame) -> list[str]:
 
 
 def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float]) -> go.Figure:
-    """Damage of one point per km of the mission, event by event: counted, and by both estimates from the spectrum.
+    """Damage of one point by every method, event by event and in all: over the counted damage of all events together.
 
-    ``damage`` has its rows of the table of damage; a sequence of events, which has no spectrum, is left out.
+    ``damage`` has its rows of the table of damage. Events without a spectrum, and sequences, are left out: estimates
+    have nothing of them.
     """
     damage = frame_of(damage, "damage", ("event", *METHODS.values()))
     check_known(damage["event"], passes_per_km, "passes_per_km", "event")
-    events = damage[damage["damage_same_ratio_per_pass"].notna()]
+    events = damage[damage[list(METHODS.values())].notna().all(axis=1)]
     weights = events["event"].map(passes_per_km).astype(float)
-    bars = []
+    per_km = events[list(METHODS.values())].astype(float).mul(weights, axis=0)
+    total = float(per_km[METHODS["rainflow"]].sum())
+    names = [in_figure(event) for event in events["event"]]
+    bars: list[Trace] = []
     for method, column in METHODS.items():
-        values = (events[column].astype(float) * weights).to_numpy()
+        parts = per_km[column].to_numpy() / (total or 1.0)
         bars.append(
             {
                 "type": "bar",
-                "x": [in_figure(event) for event in events["event"]],
-                "y": np.where(values > 0.0, values, np.nan),
+                "x": [*names, "together"] if len(names) > 1 else names,
+                "y": single([*parts, parts.sum()] if len(names) > 1 else parts),
                 "name": method,
                 "marker": {"color": METHOD_COLOURS[method]},
-                "hovertemplate": "%{x}<br>%{y:.4g} per km",
+                "hovertemplate": "%{x}: %{y:.1%}",
             }
         )
-    every = np.concatenate([bar["y"] for bar in bars])
-    every = every[np.isfinite(every)]
-    low, high = (np.log10(every.min()), np.log10(every.max())) if every.size else (-12.0, -9.0)
-    low = min(np.floor(low), np.floor(high) - 1.0)
-    y = log_axis("damage per km of the mission [1/km]", float(max(low, high - 6.0)), float(high + 0.3))
+    y = axis("damage / counted damage together [%]", tickformat=".0%", rangemode="tozero")
     return figure(bars, height=340, barmode="group", xaxis=axis("", type="category"), yaxis=y)
 
 

@@ -53,7 +53,7 @@ def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mappi
     width = 1.0 / len(excerpts)
     for i, excerpt in enumerate(excerpts):
         n = i + 2
-        data += _close_up(excerpt, modes, f"x{n}", "y2", named=i == 0)
+        data += _close_up(excerpt, modes, f"x{n}", "y2", named=i == 0, worded=True)
         layout[f"xaxis{n}"] = axis(
             "time of the record [s]", anchor="y2", domain=[i * width + 0.03 * i, (i + 1) * width], nticks=6
         )
@@ -77,9 +77,10 @@ def cycles_close_by(cycles: Sequence[Sequence[Excerpt]], titles: Sequence[str], 
         notes.append(_panel_title(title, float(edges[0])))
         for excerpt, left, right in zip(excerpts, edges, edges[1:], strict=False):
             x = f"x{len(axes) + 1}" if axes else "x"
-            data += _close_up(excerpt, modes, x, "y", named=not axes)
+            data += _close_up(excerpt, modes, x, "y", named=not axes, worded=False)
             domain = [float(left), float(right - EXCERPT_GAP * (right < edges[-1]))]
-            axes[x.replace("x", "xaxis")] = axis("time of the record [s]", domain=domain, nticks=4)
+            words = "time of the record [s]" if left == edges[0] else ""
+            axes[x.replace("x", "xaxis")] = axis(words, domain=domain, nticks=4)
     stress = axis("stress [MPa]")
     return figure(data, height=340, yaxis=stress, annotations=notes, **axes)
 
@@ -89,7 +90,7 @@ def _panel_title(text: str, x: float) -> Trace:
     return {**place, "text": text, "showarrow": False, "font": {"size": 11}, "bgcolor": "rgba(255,255,255,0.85)"}
 
 
-def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, y: str, *, named: bool) -> list[Trace]:
+def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, y: str, *, named: bool, worded: bool) -> list[Trace]:
     common = {"type": "scatter", "xaxis": x, "yaxis": y, "showlegend": named}
     lines = [
         {
@@ -114,7 +115,7 @@ def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, y: str, *, nam
             "mode": "markers+text",
             "name": "reversals of the cycle",
             "marker": {"symbol": "circle-open", "size": 11, "color": ACCENT, "line": {"width": 2}},
-            "text": [f" {number(v)} MPa" for v in excerpt.stress[at]],
+            "text": [f" {number(v)} MPa" if worded else "" for v in excerpt.stress[at]],
             "textposition": "middle right",
             "hoverinfo": "skip",
         }
