@@ -8,7 +8,7 @@ import pandas as pd
 from fatigue.point.page.checked import is_decided_by_shear
 from fatigue.point.page.gathered import Gathered
 from fatigue.report.merged_cycles import MOST_ROWS
-from fatigue.report.wording import km, listed, number, short, whole
+from fatigue.report.wording import km, number, short, whole
 from fatigue.shown import few
 
 
@@ -78,14 +78,11 @@ def _beside_the_worst(found: Gathered, weld: pd.Series) -> Iterator[str]:
     if worst == (found.station.part, found.station.order, found.surface):
         yield "The worst point of its weld"
         return
-    place = [
-        f"order {weld['worst_order']}",
-        *([f"part {weld['worst_part']}"] if weld["parts"] > 1 else []),
-        f"{weld['worst_surface']} face",
-    ]
+    part = f"part {weld['worst_part']}, " if weld["parts"] > 1 else ""
+    place = f"{part}order {weld['worst_order']}, node {weld['worst_node']}, {weld['worst_surface']} face"
     times = float(found.row["life_km"]) / float(weld["life_km"])
     ratio = f"; the life here is {number(times)} times as long" if np.isfinite(times) else ""
-    yield f"The weld is worst at {listed(place)}, node {weld['worst_node']}: {km(weld['life_km'])}{ratio}"
+    yield f"The weld is worst at {place}: {km(weld['life_km'])}{ratio}"
 
 
 def _is_event(found: Gathered, name: object) -> bool:

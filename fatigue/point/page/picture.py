@@ -1,6 +1,6 @@
 """The picture of a point: its figures in two columns under its name and numbers, for a mail or a slide."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,8 +11,11 @@ from fatigue.report.page_text import page_text
 from fatigue.report.sections.embed import Figures, Shown
 
 HEAD, CAPTION, FOOT = 236, 34, 44  # px
-TALL, LOW = 430, 340  # figures with panels one above the other, and others [px]
-PANELS = ("along", "history", "psd")
+ROWS = (
+    (520, ("along", "history")),
+    (300, ("matrix", "exceedance", "sn", "damage-modes", "modes", "damage-bands", "track")),
+    (400, ("psd", "domain-ranges")),
+)  # height of a figure [px], and the figures that are two by two in rows of it
 MOST_NOTES = 3
 
 
@@ -39,9 +42,8 @@ def picture_page(found: Gathered) -> tuple[str, int]:
     """Return the page that is drawn as text, and its height [px]: 1600 are its width."""
     figs = Figures()
     of = drawn(found, figs)
-    history = [shown for shown in of.over_time if shown.id == "history"]
-    left_to_right = [of.along, *history, *of.ranges, *of.damage, *of.spectrum, *of.domains]
-    rows = _rows(left_to_right)
+    shown = [of.along, *of.over_time, *of.ranges, *of.damage, *of.domains, *of.spectrum]
+    rows = _rows({one.id: one for one in shown})
     height = HEAD + FOOT + sum(row.height + CAPTION for row in rows)
     facts = facts_of(found)
     sizes = {"width": WIDTH, "head": HEAD, "caption": CAPTION, "foot": FOOT}
@@ -49,11 +51,10 @@ def picture_page(found: Gathered) -> tuple[str, int]:
     return page_text(ROOM, "picture.html", context, figs), height
 
 
-def _rows(shown: Sequence[Shown]) -> list[PictureRow]:
-    """Figures two by two, tall ones together so that no row has a gap."""
-    tall = [one for one in shown if one.id in PANELS]
-    low = [one for one in shown if one.id not in PANELS]
+def _rows(shown: Mapping[str, Shown]) -> list[PictureRow]:
+    """Figures two by two, those of a height together so that no row has a gap; what there is not is left out."""
     rows = []
-    for some, height in ((tall[:2], TALL), (low, LOW), (tall[2:], TALL)):
-        rows += [PictureRow(tuple(some[i : i + 2]), height) for i in range(0, len(some), 2)]
+    for height, names in ROWS:
+        there = [shown[name] for name in names if name in shown]
+        rows += [PictureRow(tuple(there[i : i + 2]), height) for i in range(0, len(there), 2)]
     return rows

@@ -225,9 +225,7 @@ def ranges_by_method(cycles: ResultTable, moments: NDArray[np.float64], duration
     return figure(
         lines,
         height=340,
-        xaxis=log_axis(
-            "cycles of a pass reached or exceeded [-]", float(np.log10(RAREST)), float(np.log10(most)) + 0.1
-        ),
+        xaxis=log_axis("cycles of a pass reached or exceeded [-]", float(np.log10(RAREST)), float(most)),
         yaxis=axis("stress range [MPa]", rangemode="tozero"),
     )
 
