@@ -80,7 +80,7 @@ def cycles_close_by(cycles: Sequence[Sequence[Excerpt]], titles: Sequence[str], 
             data += _close_up(excerpt, modes, x, "y", named=not axes, worded=False)
             domain = [float(left), float(right - EXCERPT_GAP * (right < edges[-1]))]
             words = "time of the record [s]" if left == edges[0] else ""
-            axes[x.replace("x", "xaxis")] = axis(words, domain=domain, nticks=4)
+            axes[x.replace("x", "xaxis")] = axis(words, domain=domain, nticks=4, tickangle=0)
     stress = axis("stress [MPa]")
     return figure(data, height=340, yaxis=stress, annotations=notes, **axes)
 
