@@ -8,8 +8,7 @@ import pandas as pd
 from fatigue.point.page.checked import is_decided_by_shear
 from fatigue.point.page.gathered import Gathered
 from fatigue.report.merged_cycles import MOST_ROWS
-from fatigue.report.wording import km, number, short, whole
-from fatigue.shown import few
+from fatigue.report.wording import km, number, share, short, whole
 
 
 def notes_of(found: Gathered) -> tuple[str, ...]:
@@ -52,13 +51,20 @@ def _notes(found: Gathered) -> Iterator[str]:
             f"Of {whole(found.cycle_rows)} cycles those that are alike are drawn as one; damage and sums are of each "
             "cycle by itself"
         )
-    if len(found.why.diagnosis):
-        untrusted = found.why.diagnosis.loc[found.why.diagnosis["record_too_short"].astype(bool), "event"]
-        if len(untrusted):
-            yield (
-                "The record is too short for a steady estimate: the damage scatters by more than 25 % from record to "
-                f"record, or that is not known, in {few(untrusted.tolist())}"
-            )
+    yield from _too_short(found)
+
+
+def _too_short(found: Gathered) -> Iterator[str]:
+    """Whether the damage of the event that is shown scatters from record to record."""
+    rows = found.why.diagnosis
+    rows = rows[(rows["event"] == found.event) & (rows["verdict"] != "not_assessed")]
+    if len(rows) and bool(rows["record_too_short"].iloc[0]) and found.row["damage_per_km"] > 0.0:
+        scatter = rows["damage_cov"].iloc[0]
+        much = "by an amount that is not known" if pd.isna(scatter) else f"by {share(scatter)}"
+        yield (
+            f"The record of {short(found.event)} is short: the damage scatters {much} from one record of its length "
+            "to the next (standard deviation)"
+        )
 
 
 def _screened(found: Gathered) -> str:
@@ -66,9 +72,9 @@ def _screened(found: Gathered) -> str:
     bound, damage = float(found.stored["damage_per_km"]), float(found.counted["damage_per_km"])
     times = "" if damage == 0.0 else f", {number(bound / damage)} times as much"
     return (
-        f"The result did not count this point: its {found.stored['screened']} settled it, with a damage of at most "
-        f"{number(bound)} per km{times}. Counted now: {number(damage)} per km, a life of "
-        f"{km(found.counted['life_km'])} where the bound says at least {km(found.stored['life_km'])}"
+        f"The result did not count this point: a bound ({found.stored['screened']}) settled it, with a damage of at "
+        f"most {number(bound)} per km and a life of at least {km(found.stored['life_km'])}. Counted now: "
+        f"{number(damage)} per km{', the bound is ' + times[2:] if times else ''}"
     )
 
 
