@@ -1,5 +1,6 @@
 """The table of a history as a file: CSV and Parquet as it comes, MAT for MATLAB once all of it is there."""
 
+import base64
 import json
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -40,11 +41,12 @@ def write_csv(path: Path, schema: pa.Schema, tables: Iterator[pa.Table], said: S
 
 def write_parquet(path: Path, schema: pa.Schema, tables: Iterator[pa.Table], said: Said) -> None:
     """Parquet as MATLAB and pandas read it; what is said of the table is in the metadata of the file."""
-    with pq.ParquetWriter(path, schema, compression="snappy", use_dictionary=["event"]) as file:
+    with pq.ParquetWriter(path, schema, compression="snappy", use_dictionary=["event"], store_schema=False) as file:
         for table in tables:
             file.write_table(table)
         words = {key: value if isinstance(value, str) else json.dumps(value) for key, value in said().items()}
-        file.add_key_value_metadata(words)
+        whole = schema.with_metadata({**schema.metadata, **words})  # what readers take the metadata from
+        file.add_key_value_metadata({**whole.metadata, "ARROW:schema": base64.b64encode(whole.serialize())})
 
 
 def write_mat(path: Path, schema: pa.Schema, tables: Iterator[pa.Table], said: Said) -> None:

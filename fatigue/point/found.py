@@ -1,15 +1,16 @@
 """Which point is meant: one station of a weld line of a finished result, and its two faces."""
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fatigue.errors import DataError, Problem
+from fatigue.errors import CaseError, DataError, Problem, refuse
 from fatigue.results import read_codes, read_rows, read_table, read_welds, rows_of_welds
 from fatigue.shown import few, shortened, visible
 
@@ -80,14 +81,17 @@ def find_station(
     Raises
     ------
     DataError : no such weld, part, order or node, or several stations that fit
+    CaseError : a part, order or node that is no whole number
     """
+    wanted_of = {"part": part, "order": order, "node": node}
+    refuse(CaseError, [problem for name, wanted in wanted_of.items() for problem in _no_number(name, wanted)])
     rows = rows_of_welds(folder, "nodes", [str(weld)])[str(weld)]
     if not rows.size:
         raise DataError(_unknown_weld(folder, str(weld)))
     points = read_rows(folder, "nodes", rows, _COLUMNS).to_pandas().assign(row=rows)
     points["screened"] = points["screened"].fillna("") != ""
     found = points
-    for name, wanted in (("part", part), ("order", order), ("node", node)):
+    for name, wanted in wanted_of.items():
         if wanted is not None:
             before, found = found, found[found[name] == wanted]
             if found.empty:
@@ -110,6 +114,11 @@ def refuse_unknown_weld(folder: Path, weld: str) -> None:
     welds = read_table(folder, "welds", ["weld", "status"]).to_pandas()
     if str(weld) not in set(welds.loc[welds["status"] == "assessed", "weld"]):
         raise DataError(_unknown_weld(folder, str(weld)))
+
+
+def _no_number(name: str, wanted: object) -> Iterator[Problem]:
+    if wanted is not None and (not isinstance(wanted, Integral) or isinstance(wanted, bool)):
+        yield Problem("argument", name, f"{wanted!r} is no {name}", "Give a whole number, as in nodes.parquet")
 
 
 def _worst(folder: Path, points: pd.DataFrame, *, of_weld: bool) -> pd.DataFrame:

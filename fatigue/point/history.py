@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.errors import CaseError, Problem
 from fatigue.life.counting.vertex import move, shifts
 from fatigue.life.records.history import stress_chunks
 from fatigue.life.records.spool import Samples
@@ -121,6 +122,18 @@ def event_histories(
         forget(load)
 
 
+def refuse_unknown_instants(instants: str) -> None:
+    """Refuse what are no instants of a history.
+
+    Raises
+    ------
+    CaseError : something else than ``counted`` and ``file``
+    """
+    if instants not in get_args(Instants):
+        what = f"{instants!r} are no instants of a history"
+        raise CaseError(Problem("argument", "instants", what, "Say 'counted' or 'file'"))
+
+
 def piece_columns(history: EventHistory, piece: Piece, *, at_vertices: bool) -> dict[str, Floats]:
     """Numbers of the table of a history by column, ``event`` excepted; ``at_vertices``: with ``AT_VERTICES``."""
     values = [piece.time, *piece.stress, *piece.structural, *(piece.counted if at_vertices else ())]
@@ -157,7 +170,7 @@ def _with_neighbours(modal: Floats, q: Samples, *, recurs: bool) -> Iterator[Flo
     waiting: list[Floats] = []
     for chunk in stress_chunks(modal, q):
         waiting.append(chunk)
-        if sum(one.shape[1] for one in waiting) > PIECE:
+        if len(waiting) > 1 and sum(one.shape[1] for one in waiting) > PIECE:
             *ready, held = waiting
             yield np.concatenate([before, *ready, held[:, :1]], axis=1)
             before, waiting = ready[-1][:, -1:], [held]

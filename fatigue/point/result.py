@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from html import escape
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,18 @@ import pandas as pd
 import plotly.graph_objects as go
 from threadpoolctl import threadpool_limits
 
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, DataError, Problem, given_names, given_path, refuse
 from fatigue.pipeline.run.inputs import Stamp, stamps_of
 from fatigue.point.cycles import cycle_frame
 from fatigue.point.drawn import FIGURES, FigureName, draw_lives, draw_point, draw_weld
 from fatigue.point.found import Station, find_station, refuse_unknown_weld
-from fatigue.point.history import Instants, event_histories, history_frame, reads_vertices
+from fatigue.point.history import (
+    Instants,
+    event_histories,
+    history_frame,
+    reads_vertices,
+    refuse_unknown_instants,
+)
 from fatigue.point.reopened import Reopened, reopened
 from fatigue.report.of_record import target_of
 from fatigue.report.wording import NOT_AVAILABLE, km, number
@@ -36,6 +43,7 @@ from fatigue.results import (
     rows_of_welds,
     worst_toes,
 )
+from fatigue.results.tables import unknown_columns
 from fatigue.shown import visible
 
 SHOWN = 10  # welds in a notebook
@@ -113,7 +121,7 @@ class Result:
         columns = ["code", "where", "what", "remedy", "count"]
         return pd.DataFrame(self.record["warnings"], columns=columns)
 
-    def table(self, name: str, columns: Sequence[str] | None = None, *, weld: str | None = None) -> pd.DataFrame:
+    def table(self, name: str, columns: str | Sequence[str] | None = None, *, weld: str | None = None) -> pd.DataFrame:
         """One of the ``tables``, or some columns of it; of one weld, where it has welds.
 
         Raises
@@ -130,18 +138,22 @@ class Result:
         rows = rows_of_welds(self.folder, name, [weld])[weld]
         if not rows.size:
             refuse_unknown_weld(self.folder, weld)
-        wanted = None if columns is None else list(dict.fromkeys(columns))
-        found = read_rows(self.folder, name, rows, wanted).to_pandas()
-        return found if wanted is None else found[wanted]
+        own = [column.name for column in TABLES[name]]
+        wanted = own if columns is None else list(given_names(columns, "columns"))
+        refuse(DataError, unknown_columns(self.folder / f"{name}.parquet", wanted, own))
+        return read_rows(self.folder, name, rows, wanted).to_pandas()[wanted]
 
     def worst(self, top: int = SHOWN, *, weld: str | None = None) -> pd.DataFrame:
         """Rows of ``nodes`` of the points with the shortest lives: counted, with a weld toe; of all welds or of one.
 
         Raises
         ------
-        DataError : no such weld, or a table that is not as it was written
+        DataError : no such weld, or a table that is not as it was written; CaseError : ``top`` is no number of points
         """
-        self._as_written("nodes")
+        if not (isinstance(top, Integral) and top >= 1):
+            what = f"{top!r} is no number of points"
+            raise CaseError(Problem("argument", "top", what, "Give a whole number from 1 on"))
+        self._as_written("nodes", "welds")
         if weld is not None:
             refuse_unknown_weld(self.folder, weld)
         rows = worst_toes(self.folder, top, () if weld is None else [weld])
@@ -185,6 +197,7 @@ class Result:
         ------
         DataError : no such point or event, or inputs that are gone or have changed
         """
+        refuse_unknown_instants(instants)
         station = self._station(weld, order, part, node)
         with self._reopened() as inputs:
             histories = event_histories(inputs, station, event, instants=instants)

@@ -7,13 +7,13 @@ was upsampled all of them. Some samples are in memory at a time, whatever the le
 import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
-from numbers import Integral
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
 from fatigue.files.whole import replacing, staged
@@ -27,6 +27,7 @@ from fatigue.point.history import (
     event_histories,
     piece_columns,
     reads_vertices,
+    refuse_unknown_instants,
 )
 from fatigue.point.reopened import Reopened, event_numbers, reopened
 from fatigue.point.summary import EventExtent, WrittenHistory
@@ -74,13 +75,14 @@ def write_history(
     """
     folder, output = given_path(folder, "folder"), given_path(output, "output")
     named = None if case_file is None else given_path(case_file, "case_file")
-    refuse(CaseError, _senseless(instants, order=order, node=node, part=part))
+    refuse_unknown_instants(instants)
     write = format_of(output)
     stage("reading the result and its case")
     record = finished_result(folder, ASSESSED, ("nodes", "welds"), no_lock=no_lock)
     station = find_station(folder, weld, order=order, node=node, part=part)
     refuse(DataError, in_the_way(output, folder, record, named, force=force))
-    with staged(output.absolute().parent, ".fatigue-history-") as scratch:
+    limited = threadpool_limits(limits=1, user_api="blas")  # as the assessment does: the same bits
+    with limited, staged(output.absolute().parent, ".fatigue-history-") as scratch:
         inputs = reopened(folder, record, scratch, named)
         warnings = list(_too_many(output, _samples(inputs, event, instants)))
         for problem in warnings:
@@ -219,12 +221,3 @@ def _said(inputs: Reopened, station: Station, instants: Instants, extents: list[
         "included": "stress factor of the event, constants of unit loads, removed means; weld ends treated",
         "events": [asdict(extent) for extent in extents],
     }
-
-
-def _senseless(instants: str, **numbers: int | None) -> Iterator[Problem]:
-    if instants not in get_args(Instants):
-        what = f"{instants!r} are no instants of a history"
-        yield Problem("argument", "instants", what, "Say 'counted' or 'file'")
-    for name, value in numbers.items():
-        if value is not None and (not isinstance(value, Integral) or isinstance(value, bool)):
-            yield Problem("argument", name, f"{value!r} is no {name}", "Give a whole number, as in nodes.parquet")
