@@ -41,30 +41,61 @@ def cycle_figures(record: Record, name: str, cycles: pd.DataFrame, used: Assumpt
 
 def record_figures(record: Record, detail: Detail, event: str | None, figs: Figures, *, modes_too: bool) -> list[Shown]:
     """Figures of the records, none where nothing damages; with the modes' shares of the variance if asked."""
-    if event is None or detail.envelope is None or detail.variance_share is None:
+    if event is None:
         return []
-    colours = figures.event_colours([e["event"] for e in events_of(record)])
-    names, natural = mode_names(record)
+    return [
+        *history_figure(record, detail, event, figs),
+        *(variance_figure(record, detail, event, figs) if modes_too else ()),
+        *spectrum_figure(record, detail, event, figs),
+    ]
+
+
+def history_figure(record: Record, detail: Detail, event: str, figs: Figures) -> list[Shown]:
+    """Stress over the whole record of an event, and close by at its most damaging cycle."""
+    if detail.envelope is None:
+        return []
+    names, _ = mode_names(record)
     largest = detail.excerpts[0] if detail.excerpts else []
-    history = figures.stress_history(detail.envelope, largest, names, colours[event])
+    history = figures.stress_history(detail.envelope, largest, names, _colours(record)[event])
     close_by = ", and close by at its most damaging cycle" if largest else ""
     caption = f"Stress in event {wording.short(event)}{close_by}"
-    shown = [figs.add("history", history, caption, wide=True, of_curve=False)]
-    leading = np.argsort(-np.abs(detail.variance_share), kind="stable")[:MODES_DRAWN]
+    return [figs.add("history", history, caption, wide=True, of_curve=False)]
+
+
+def variance_figure(record: Record, detail: Detail, event: str, figs: Figures) -> list[Shown]:
+    """Shares of modes and unit loads in the variance of the stress."""
+    if detail.variance_share is None:
+        return []
+    names, _ = mode_names(record)
+    parts = _leading(record, detail.variance_share)
+    title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
+    bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
+    what = "Modes and unit loads" if record.get("unit_loads") else "Modes"
+    return [figs.add("modes", bars, f"{what} in the stress of the worst point", of_curve=False)]
+
+
+def spectrum_figure(record: Record, detail: Detail, event: str, figs: Figures) -> list[Shown]:
+    """Spectra of the stress, with the normal modes marked that lead in its variance."""
+    if detail.variance_share is None or not detail.spectra:
+        return []
+    _, natural = mode_names(record)
+    parts = _leading(record, detail.variance_share)
+    drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
+    marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
+    spectrum = figures.stress_spectrum(drawn, _colours(record), dict(list(marked.items())[:MODES_MARKED]), event)
+    caption = "Stress spectrum, the leading normal modes, and where the variance lies"
+    return [figs.add("psd", spectrum, caption, of_curve=False)]
+
+
+def _colours(record: Record) -> dict[str, str]:
+    return figures.event_colours([event["event"] for event in events_of(record)])
+
+
+def _leading(record: Record, variance_share: NDArray[np.float64]) -> dict[int, float]:
+    """The largest shares of the variance by mode or unit load."""
+    leading = np.argsort(-np.abs(variance_share), kind="stable")[:MODES_DRAWN]
     numbers = list(coordinates_of(record))
-    parts = {numbers[k]: float(detail.variance_share[k]) for k in leading}
-    if modes_too:
-        title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
-        bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
-        what = "Modes and unit loads" if record.get("unit_loads") else "Modes"
-        shown.append(figs.add("modes", bars, f"{what} in the stress of the worst point", of_curve=False))
-    if detail.spectra:
-        drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
-        marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
-        spectrum = figures.stress_spectrum(drawn, colours, dict(list(marked.items())[:MODES_MARKED]), event)
-        caption = "Stress spectrum, the leading normal modes, and where the variance lies"
-        shown.append(figs.add("psd", spectrum, caption, of_curve=False))
-    return shown
+    return {numbers[k]: float(variance_share[k]) for k in leading}
 
 
 def shear_figure(record: Record, detail: Detail, event: str | None, figs: Figures) -> list[Shown]:
