@@ -10,9 +10,11 @@ from typing import Any
 __version__ = "0.1.0"
 
 _HOME = {
+    "Result": "fatigue.point.result",
     "catalogue": "fatigue.life.curves",
     "check_case": "fatigue.check",
     "load_case": "fatigue.case",
+    "open_result": "fatigue.point.result",
     "rainflow": "fatigue.life.counting.rainflow",
     "read_model": "fatigue.pipeline.solve.model",
     "read_provenance": "fatigue.results",

@@ -38,7 +38,7 @@ from fatigue.results import (
 from fatigue.spectrum.bands import third_octaves
 from fatigue.stages import stage
 from fatigue.why.across_events import attribute_loops
-from fatigue.why.attribute import Attribution, Bins, EventAttribution, attribute_event, numbers_of_point
+from fatigue.why.attribute import BIN_KM, Attribution, Bins, EventAttribution, attribute_event, numbers_of_point
 from fatigue.why.evidence import Evidence
 from fatigue.why.findings import Diagnosis, findings
 from fatigue.why.formation.damping import damping_of
@@ -53,7 +53,6 @@ log = logging.getLogger(__name__)
 Progress = Callable[[str, int, int], None]
 
 SHARE_OF_LIMIT = 0.1  # utilisation from which a point is shared out when not all points are
-BIN_KM = 0.1  # about one second at 350 km/h
 
 
 def diagnose(

@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.report.files.browser import find_browser
 from fatigue.report.files.export import refuse_without_xlsxwriter, write_csv, write_xlsx
-from fatigue.report.files.pdf import find_browser, print_pdf
+from fatigue.report.files.pdf import print_pdf
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import write_report
 from fatigue.results import (

@@ -24,10 +24,11 @@ from fatigue.report.sections.beside.sensitivity import sensitivity
 from fatigue.report.sections.beside.shear import shear
 from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
-from fatigue.report.sections.details import Detail, weld_details
+from fatigue.report.sections.details import weld_details
 from fatigue.report.sections.embed import Figures
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.ride.read import read_ride
 from fatigue.report.sections.ride.section import ride_section, ride_warnings
 from fatigue.report.sections.shift import shift_study, shift_warnings

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fatigue.life.rule import cycle_damage
 from fatigue.report.domains import Domains, read_domains
 from fatigue.report.merged_cycles import MOST_ROWS, MergedCycles, ShownPoint, merged_cycles
+from fatigue.report.of_record import coordinates_of, events_of, target_of, weights_of
 from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import (
     assessed,
@@ -69,12 +70,12 @@ class ShownResult:
     @property
     def target_km(self) -> float:
         """Mileage to be reached [km]."""
-        return float(self.record["mission"]["target_km"])
+        return target_of(self.record)
 
     @property
     def events(self) -> list[dict[str, Any]]:
         """The events of the mission in its order."""
-        return list(self.record["mission"]["events"])
+        return events_of(self.record)
 
     @property
     def passes_per_km(self) -> dict[str, float]:
@@ -84,9 +85,7 @@ class ShownResult:
     @property
     def coordinates(self) -> dict[int, str]:
         """Names of modes by their ids, and of unit loads by the numbers behind these, in the order of the tables."""
-        used = [int(mode) for mode in self.record["modes"]["used"]]
-        loads = [f"unit load {load['name']}" for load in self.record.get("unit_loads", ())]
-        return {mode: f"mode {mode}" for mode in used} | dict(enumerate(loads, start=max(used) + 1))
+        return coordinates_of(self.record)
 
     def worst(self, weld: str) -> pd.Series:
         """Row of the worst point of a detailed weld in the table of nodes."""
@@ -159,13 +158,6 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
         merged=_merged(folder, record, rows[rows["weld"].isin(detailed)]) if is_long else {},
         folder=folder,
     )
-
-
-def weights_of(record: Mapping[str, Any]) -> dict[str, float]:
-    """Passes of every event, and runs of every sequence behind them, in one km of the mission [1/km]."""
-    mission = record["mission"]
-    passes = {event["event"]: float(event["passes_per_km"]) for event in mission["events"]}
-    return passes | {loop["name"]: float(loop["runs_per_km"]) for loop in mission.get("sequences", [])}
 
 
 def _merged(folder: Path, record: Mapping[str, Any], welds: pd.DataFrame) -> dict[str, MergedCycles]:

@@ -58,6 +58,11 @@ def law_of(assumptions: Assumptions) -> DamageLaw:
     return damage_law(assumptions.curve, survival, assumptions.extension, assumptions.knee_cycles)
 
 
+def laws_of(assumptions: Assumptions) -> dict[str, DamageLaw]:
+    """Damage law of a curve at each of its survival levels, all else as it was assumed."""
+    return {level: law_of(replace(assumptions, survival=level)) for level in assumptions.curve.reference_range}
+
+
 def variants(
     point: pd.Series, cycles: pd.DataFrame, passes_per_km: Mapping[str, float], used: Assumptions
 ) -> pd.DataFrame:

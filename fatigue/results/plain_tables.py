@@ -56,13 +56,18 @@ def write_csv(folder: Path, name: str, columns: Sequence[Column], rows: Rows) ->
     ------
     DataError : as ``write_table``
     """
-    path, table = folder / f"{name}.csv", table_of(name, columns, rows)
-    for i, field in enumerate(table.schema):
-        if field.type == pa.string():
-            table = table.set_column(i, field, pc.replace_substring_regex(table[i], _FORMULA, r"'\1"))
+    path, table = folder / f"{name}.csv", harmless(table_of(name, columns, rows))
     with refused_writing(path):
         pa_csv.write_csv(table, path, pa_csv.WriteOptions(quoting_style="needed"))
     return path
+
+
+def harmless(table: pa.Table) -> pa.Table:
+    """The same table with an apostrophe before every text that a spreadsheet would take for a formula."""
+    for i, field in enumerate(table.schema):
+        if field.type == pa.string():
+            table = table.set_column(i, field, pc.replace_substring_regex(table[i], _FORMULA, r"'\1"))
+    return table
 
 
 def fill(

@@ -175,7 +175,7 @@ def read_table(folder: Path | str, table: str, columns: Sequence[str] | None = N
     path = table_path(folder, table)
     own = [column.name for column in TABLES[table]]
     wanted = own if columns is None else list(given_names(columns, "columns"))
-    refuse(DataError, _unknown_columns(path, wanted, own))
+    refuse(DataError, unknown_columns(path, wanted, own))
     with readable(path):
         later = later_columns(path, table)
         named = None if columns is None else [name for name in wanted if name not in later]
@@ -245,7 +245,7 @@ def table_path(folder: Path | str, table: str) -> Path:
     return given_path(folder, "folder") / f"{table}.parquet"
 
 
-def _unknown_columns(path: Path, wanted: Sequence[str], own: Sequence[str]) -> Iterator[Problem]:
+def unknown_columns(path: Path, wanted: Sequence[str], own: Sequence[str]) -> Iterator[Problem]:
     """Name columns that such a table never has, and what may have been meant."""
     for name in wanted:
         if name not in own:

@@ -26,6 +26,7 @@ from fatigue.why.points import Points
 
 Floats = NDArray[np.float64]
 
+BIN_KM = 0.1  # of the track, where nobody says otherwise: about one second at 350 km/h
 TIME_BINS = 40  # of an event that has no distance
 _OTHER_NUMBERS = 50  # of a point and event: damage, slopes, what the verdict says
 _SAMPLES_AT_ONCE = 1_000_000  # of each time vector of a block of points: 8 MB

@@ -164,20 +164,35 @@ def gather_points(folder: Path, groups: WeldGroups, chosen: Chosen) -> Points:
     ------
     DataError : the result in the folder has other points than the case
     """
+    solved = solved_rows(folder, groups, chosen.rows)
+    gathered = [points_of(model, rows // 2, rows % 2, chosen.why[here]) for model, rows, here in solved]
+    return Points(*(np.concatenate([getattr(points, f.name) for points in gathered]) for f in fields(Points)))
+
+
+def solved_rows(
+    folder: Path, groups: WeldGroups, rows: NDArray[np.int64]
+) -> Iterator[tuple[Model, NDArray[np.int64], slice]]:
+    """Groups of welds that hold some ``rows`` of ``nodes.parquet``, ascending, solved one after the other.
+
+    With each group come the rows it holds, counted from its first, ``2 station + face``, and where among ``rows``
+    they stand.
+
+    Raises
+    ------
+    DataError : the result in the folder has other points than the case
+    """
     node = read_table(folder, "nodes", ["node"])["node"].to_numpy()
-    gathered, first = [], 0
+    first = 0
     for number, of_case in enumerate(_nodes(groups)):
         end = first + 2 * len(of_case)
         if not np.array_equal(node[first:end], np.repeat(of_case, 2)):
             raise DataError(_other_points(folder, f"has other points than the case from row {first + 1} on"))
-        here = slice(*np.searchsorted(chosen.rows, [first, end]).tolist())
-        rows = chosen.rows[here] - first
-        if len(rows):
-            gathered.append(points_of(solve_group(groups, number), rows // 2, rows % 2, chosen.why[here]))
+        here = slice(*np.searchsorted(rows, [first, end]).tolist())
+        if here.stop > here.start:
+            yield solve_group(groups, number), rows[here] - first, here
         first = end
     if first != len(node):
         raise DataError(_other_points(folder, f"has {len(node)} points where the case has {first}"))
-    return Points(*(np.concatenate([getattr(points, f.name) for points in gathered]) for f in fields(Points)))
 
 
 def _nodes(groups: WeldGroups) -> Iterator[NDArray[np.int64]]:

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.report.files.pdf import find_browser
+from fatigue.report.files.browser import find_browser
 from tests.command_line import fatigue
 from tests.mystran import plates as joints
 from tests.mystran.chain import chain, waves_file

@@ -7,7 +7,8 @@ import subprocess
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.report.files.pdf import find_browser, print_pdf
+from fatigue.report.files.browser import find_browser
+from fatigue.report.files.pdf import print_pdf
 from fatigue.report.page import write_report
 from tests.report.tiny_result import Recipe, write_result
 

@@ -9,8 +9,9 @@ import pytest
 
 from fatigue.diagnose import diagnose
 from fatigue.errors import DataError
+from fatigue.report.files.browser import find_browser
 from fatigue.report.files.export import write_csv, write_xlsx
-from fatigue.report.files.pdf import find_browser, print_pdf
+from fatigue.report.files.pdf import print_pdf
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.page import report_page
 from fatigue.results import json_ready

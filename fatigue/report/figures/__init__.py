@@ -5,11 +5,17 @@ part of their rows.
 """
 
 from fatigue.report.figures.cycles import exceedance, rainflow_matrices, sn_with_spectrum
-from fatigue.report.figures.domains import drawn_points, ratio_histogram, time_against_frequency
+from fatigue.report.figures.domains import (
+    damage_by_method,
+    drawn_points,
+    ranges_by_method,
+    ratio_histogram,
+    time_against_frequency,
+)
 from fatigue.report.figures.lines import along_weld
 from fatigue.report.figures.load_spectra import class_matrices, crossings_by_level, spectrum_exceedance
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
-from fatigue.report.figures.records import stress_history, stress_spectrum
+from fatigue.report.figures.records import cycles_close_by, stress_history, stress_spectrum
 from fatigue.report.figures.ride import damage_in_hot_stretches, hunting_along_event
 from fatigue.report.figures.scene import BodyOutline, body_outline, line_rows, projections, scene, worst_faces
 from fatigue.report.figures.shear import shear_path
@@ -26,8 +32,10 @@ __all__ = [
     "body_outline",
     "class_matrices",
     "crossings_by_level",
+    "cycles_close_by",
     "damage_by_band",
     "damage_by_event",
+    "damage_by_method",
     "damage_in_hot_stretches",
     "damage_on_track",
     "drawn_points",
@@ -38,6 +46,7 @@ __all__ = [
     "line_rows",
     "projections",
     "rainflow_matrices",
+    "ranges_by_method",
     "ratio_histogram",
     "scene",
     "shares",

@@ -1,16 +1,20 @@
-"""Time against frequency domain at all points."""
+"""Time against frequency domain: at all points, and at one point event by event and range by range."""
+
+from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from fatigue.report.figures.given import ResultTable, frame_of
+from fatigue.report.figures.cycles import cumulative
+from fatigue.report.figures.given import ResultTable, check_known, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     INK,
     QUIET,
     SEQUENTIAL,
+    SERIES,
     Trace,
     axis,
     colour_bar,
@@ -22,12 +26,21 @@ from fatigue.report.figures.style import (
 )
 from fatigue.report.wording import in_figure
 from fatigue.spectrum import trust
+from fatigue.spectrum.methods import dirlik_density, spectral_shape
 
 MOST_POINTS = 20_000  # beyond, only a part of the points that agree is drawn
 VERDICTS = ("valid", *(verdict for verdict in trust.VERDICTS if verdict != "valid"))  # in the order of the legend
 TRUSTED = VERDICTS[:2]
 SYMBOLS = ("circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "x", "pentagon", "star", "hexagram")
 _ESTIMATES = ("life_km_same_ratio", "life_km_dirlik", "dirlik_ratio", "dirlik_verdict")
+METHODS = {
+    "rainflow": "damage_per_pass",
+    "rainflow, one bending ratio": "damage_same_ratio_per_pass",
+    "Dirlik": "damage_dirlik_per_pass",
+    "Tovo-Benasciutti": "damage_tb_per_pass",
+}
+METHOD_COLOURS = dict(zip(METHODS, (ACCENT, SERIES[4], SERIES[1], SERIES[5]), strict=True))
+RAREST = 0.1  # cycles of a pass that are drawn
 FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 
 
@@ -147,3 +160,86 @@ def _names(points: pd.DataFrame) -> list[str]:
         f"{short[weld]}, node {node}, {face}"
         for weld, node, face in zip(points["weld"], points["node"], points["surface"], strict=True)
     ]
+
+
+def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float]) -> go.Figure:
+    """Damage of one point by every method, event by event and in all: over the counted damage of all events together.
+
+    ``damage`` has its rows of the table of damage. Events without a spectrum, and sequences, are left out: estimates
+    have nothing of them.
+    """
+    damage = frame_of(damage, "damage", ("event", *METHODS.values()))
+    check_known(damage["event"], passes_per_km, "passes_per_km", "event")
+    events = damage[damage[list(METHODS.values())].notna().all(axis=1)]
+    weights = events["event"].map(passes_per_km).astype(float)
+    per_km = events[list(METHODS.values())].astype(float).mul(weights, axis=0)
+    total = float(per_km[METHODS["rainflow"]].sum())
+    names = [in_figure(event) for event in events["event"]]
+    bars: list[Trace] = []
+    for method, column in METHODS.items():
+        parts = per_km[column].to_numpy() / (total or 1.0)
+        bars.append(
+            {
+                "type": "bar",
+                "x": [*names, "together"] if len(names) > 1 else names,
+                "y": single([*parts, parts.sum()] if len(names) > 1 else parts),
+                "name": method,
+                "marker": {"color": METHOD_COLOURS[method]},
+                "hovertemplate": "%{x}: %{y:.1%}",
+            }
+        )
+    y = axis("damage / counted damage together [%]", tickformat=".0%", rangemode="tozero")
+    return figure(bars, height=340, barmode="group", xaxis=axis("", type="category"), yaxis=y)
+
+
+def ranges_by_method(cycles: ResultTable, moments: NDArray[np.float64], duration: float) -> go.Figure:
+    """How often each stress range is reached in one pass of an event: counted, and as Dirlik expects of its spectrum.
+
+    Parameters
+    ----------
+    cycles : rows of the table of cycles of one point and event
+    moments : (4,) spectral moments m0, m1, m2, m4 of its stress [MPa^2 Hz^n]
+    duration : of the pass [s]
+
+    Beside both is what would be if the stress were of a narrow band: Rayleigh ranges at the rate of zero crossings.
+    """
+    cycles = frame_of(cycles, "cycles", ("range_MPa", "count"))
+    ranges = cycles["range_MPa"].to_numpy(dtype=np.float64)
+    counted, reached = cumulative(ranges, cycles["count"].to_numpy(dtype=np.float64))
+    shape = spectral_shape(moments[:, None])
+    of = dirlik_density(shape)
+    S = np.linspace(0.0, 1.25 * float(ranges.max()), 200)
+    z = S / (2.0 * np.sqrt(moments[0]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        exponential = np.where(of.d1 > 0.0, np.exp(-z / of.q), 0.0)
+        narrower = np.where(of.d2 > 0.0, np.exp(-0.5 * (z / of.r) ** 2), 0.0)
+    rayleigh = np.exp(-0.5 * z**2)
+    dirlik = shape.peaks * duration * (of.d1 * exponential + of.d2 * narrower + of.d3 * rayleigh)
+    narrow = shape.zero_crossings * duration * rayleigh
+    lines = [
+        _reached(counted, reached, "rainflow", {"shape": "hv", "color": METHOD_COLOURS["rainflow"], "width": 2.2}),
+        _reached(dirlik, S, "Dirlik", {"color": METHOD_COLOURS["Dirlik"], "width": 1.8, "dash": "dash"}),
+        _reached(narrow, S, "narrow band", {"color": QUIET, "width": 1.2, "dash": "dot"}),
+    ]
+    most = np.log10(max(float(counted[-1]), float(dirlik[0]), 10.0)) + 0.1
+    return figure(
+        lines,
+        height=340,
+        xaxis=log_axis("cycles of a pass reached or exceeded [-]", float(np.log10(RAREST)), float(most)),
+        yaxis=axis("stress range [MPa]", rangemode="tozero"),
+    )
+
+
+def _reached(x: NDArray[np.float64], y: NDArray[np.float64], name: str, line: Trace) -> Trace:
+    """Line of how often ranges are reached, rarer ones than ``RAREST`` left out."""
+    drawn = x >= RAREST
+    hover = "%{x:.3g} cycles of %{y:.4g} MPa and more"
+    return {
+        "type": "scatter",
+        "x": single(x[drawn]),
+        "y": single(y[drawn]),
+        "mode": "lines",
+        "name": name,
+        "line": line,
+        "hovertemplate": hover,
+    }

@@ -10,11 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from fatigue.report.figures.given import ResultTable, check_one_each, check_one_weld, check_target, frame_of
 from fatigue.report.figures.style import (
+    ACCENT,
     DASHES,
     FACE,
     FACE_DASH,
     INK,
     MISSED,
+    PAPER,
     SERIES,
     Trace,
     across,
@@ -38,7 +40,11 @@ _PANELS = {"y": [0.57, 1.0], "y2": [0.30, 0.53], "y3": [0.0, 0.26]}
 
 
 def along_weld(
-    points: ResultTable, target_km: float, stress: Mapping[str, ArrayLike] | None = None, event: str = ""
+    points: ResultTable,
+    target_km: float,
+    stress: Mapping[str, ArrayLike] | None = None,
+    event: str = "",
+    marked: tuple[int, int, str] | None = None,
 ) -> go.Figure:
     """Life, load factor and stress of one weld over its arc length, both faces, zoomed together.
 
@@ -49,6 +55,7 @@ def along_weld(
     stress : standard deviation of stress components in one event, one value per station [MPa]; None: the largest stress
         ranges of the faces are drawn instead
     event : name of that event
+    marked : part, order and surface of a point that is marked
 
     Treated zones of weld ends are shaded, corners marked; faces without a toe are drawn thin, lives that are bounds as
     open circles.
@@ -80,6 +87,11 @@ def along_weld(
     worst = points.loc[points["utilisation"].where(points["toe"], -1.0).idxmax()]
     at = int(((top["part"] == worst["part"]) & (top["order"] == worst["order"])).argmax())
     data.append(_worst(worst, float(place[at]), float(place[at] / max(place[-1], 1.0))))
+    shapes = []
+    if marked is not None:
+        here = int(((top["part"] == marked[0]) & (top["order"] == marked[1])).argmax())
+        data.append(_marked(points, marked, float(place[here])))
+        shapes.append(upright(float(place[here]), ACCENT, 1.5, "solid"))
     stress_title = "largest range [MPa]" if stress is None else "std of stress [MPa]"
     place_title = "arc length [mm]" + (f"; stresses in event {event}" if stress else "")
     margin = 0.02 * max(float(np.ptp(place)), 1.0)
@@ -96,6 +108,7 @@ def along_weld(
             *(upright(float(at)) for at in place[top["at_corner"].to_numpy()]),
             across(target_km),
             across(1.0, on="y2"),
+            *shapes,
         ],
     )
 
@@ -152,6 +165,22 @@ def _worst(worst: pd.Series, place: float, along: float) -> Trace:
         "text": [life_km(worst["life_km"])],
         "textposition": f"{level} {side}",
         "hoverinfo": "skip",
+        "cliponaxis": False,
+    }
+
+
+def _marked(points: pd.DataFrame, marked: tuple[int, int, str], place: float) -> Trace:
+    """Mark at the life of a point."""
+    part, order, surface = marked
+    row = points[(points["part"] == part) & (points["order"] == order) & (points["surface"] == surface)].iloc[0]
+    return {
+        "type": "scatter",
+        "x": [place],
+        "y": drawn_life([row["life_km"]]),
+        "mode": "markers",
+        "name": f"this point, {surface} face",
+        "marker": {"symbol": "diamond", "size": 12, "color": ACCENT, "line": {"width": 1.5, "color": PAPER}},
+        "hovertemplate": "%{y:.4g} km",
         "cliponaxis": False,
     }
 

@@ -1,4 +1,4 @@
-"""Figures of the records of one point: its stress over time with the parts of the modes, and its spectra."""
+"""Figures of the records of one point: its stress over time and at its cycles with the parts of modes, its spectra."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,6 +6,7 @@ import numpy as np
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.given import check_one_each
 from fatigue.report.figures.style import (
     ACCENT,
     INK,
@@ -25,6 +26,7 @@ from fatigue.report.wording import in_figure, number, share
 
 PSD_POINTS = 400
 PSD_DECADES = 6
+PANEL_GAP, EXCERPT_GAP = 0.12, 0.01  # between cycles, of a panel; between the reversals of one, of the figure
 
 
 def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> go.Figure:
@@ -51,7 +53,7 @@ def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mappi
     width = 1.0 / len(excerpts)
     for i, excerpt in enumerate(excerpts):
         n = i + 2
-        data += _close_up(excerpt, modes, f"x{n}", named=i == 0)
+        data += _close_up(excerpt, modes, f"x{n}", "y2", named=i == 0, worded=True)
         layout[f"xaxis{n}"] = axis(
             "time of the record [s]", anchor="y2", domain=[i * width + 0.03 * i, (i + 1) * width], nticks=6
         )
@@ -60,8 +62,36 @@ def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mappi
     return figure(data, height=440, shapes=bands, **layout)
 
 
-def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, *, named: bool) -> list[Trace]:
-    common = {"type": "scatter", "xaxis": x, "yaxis": "y2", "showlegend": named}
+def cycles_close_by(cycles: Sequence[Sequence[Excerpt]], titles: Sequence[str], modes: Mapping[int, str]) -> go.Figure:
+    """Stress around the reversals of some cycles, each in a panel of its own, with the parts of modes.
+
+    ``cycles`` has the one or two excerpts of each, one where both reversals are close; ``titles`` names the cycles and
+    ``modes`` the modes, whose parts are drawn about their own mean.
+    """
+    check_one_each(titles, cycles, "titles")
+    data: list[Trace] = []
+    axes: dict[str, Trace] = {}
+    notes: list[Trace] = []
+    for i, (excerpts, title) in enumerate(zip(cycles, titles, strict=True)):
+        edges = np.linspace(i, i + 1 - PANEL_GAP, len(excerpts) + 1) / (len(cycles) - PANEL_GAP)
+        notes.append(_panel_title(title, float(edges[0])))
+        for excerpt, left, right in zip(excerpts, edges, edges[1:], strict=False):
+            x = f"x{len(axes) + 1}" if axes else "x"
+            data += _close_up(excerpt, modes, x, "y", named=not axes, worded=False)
+            domain = [float(left), float(right - EXCERPT_GAP * (right < edges[-1]))]
+            words = "time of the record [s]" if left == edges[0] else ""
+            axes[x.replace("x", "xaxis")] = axis(words, domain=domain, nticks=4, tickangle=0)
+    stress = axis("stress [MPa]")
+    return figure(data, height=340, yaxis=stress, annotations=notes, **axes)
+
+
+def _panel_title(text: str, x: float) -> Trace:
+    place = {"x": x, "y": 1.0, "xref": "paper", "yref": "paper", "xanchor": "left", "yanchor": "top", "xshift": 4}
+    return {**place, "text": text, "showarrow": False, "font": {"size": 11}, "bgcolor": "rgba(255,255,255,0.85)"}
+
+
+def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, y: str, *, named: bool, worded: bool) -> list[Trace]:
+    common = {"type": "scatter", "xaxis": x, "yaxis": y, "showlegend": named}
     lines = [
         {
             **common,
@@ -85,7 +115,7 @@ def _close_up(excerpt: Excerpt, modes: Mapping[int, str], x: str, *, named: bool
             "mode": "markers+text",
             "name": "reversals of the cycle",
             "marker": {"symbol": "circle-open", "size": 11, "color": ACCENT, "line": {"width": 2}},
-            "text": [f" {number(v)} MPa" for v in excerpt.stress[at]],
+            "text": [f" {number(v)} MPa" if worded else "" for v in excerpt.stress[at]],
             "textposition": "middle right",
             "hoverinfo": "skip",
         }

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.report.files.pdf import find_browser, print_pdf
+from fatigue.report.files.browser import find_browser
+from fatigue.report.files.pdf import print_pdf
 
 
 def program(path, script):
@@ -66,7 +67,7 @@ def test_a_browser_that_hangs_is_stopped(monkeypatch, tmp_path):
     page = tmp_path / "report.html"
     page.write_text("<p>")
     monkeypatch.setenv("FATIGUE_BROWSER", str(program(tmp_path / "slow", "exec sleep 30")))
-    monkeypatch.setattr("fatigue.report.files.pdf.TIME_LIMIT_S", 0.2)
+    monkeypatch.setattr("fatigue.report.files.browser.TIME_LIMIT_S", 0.2)
     with pytest.raises(DataError, match="not done after"):
         print_pdf(page, tmp_path / "report.pdf")
 

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from fatigue.report.sections.details import upper_hz
+from fatigue.report.sections.point.detail import upper_hz
 
 
 @pytest.mark.parametrize(
@@ -18,6 +18,6 @@ from fatigue.report.sections.details import upper_hz
 )
 def test_upper_frequency(hertz, kinds, given, expected):
     """As given; else the lower of 0.4 of the sampling rate and 1.5 times the highest mode that vibrates."""
-    result = SimpleNamespace(record={"modes": {"frequency_hz": hertz, "kind": kinds}})
+    record = {"modes": {"frequency_hz": hertz, "kind": kinds}}
     inputs = SimpleNamespace(case=SimpleNamespace(spectrum=SimpleNamespace(upper_hz=given)))
-    assert upper_hz(result, inputs, 0.005) == pytest.approx(expected)
+    assert upper_hz(record, inputs, 0.005) == pytest.approx(expected)
