@@ -20,6 +20,7 @@ ROW_PX = 26
 MARKS = ("circle", "diamond", "square", "triangle-up", "cross", "x")
 LEAST, MOST = math.log(1.25), math.log(1e6)  # how far the axis goes to either side of 1
 TICKS = (1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0, 1e3, 1e4, 1e5, 1e6)
+APART = 0.19  # of the reach of an axis, between two ticks
 
 
 def ratio_figure(pairs: Sequence[Pair]) -> go.Figure | None:
@@ -86,7 +87,7 @@ def event_figure(pair: Pair) -> go.Figure | None:
     ]
     parts = rows[rows["kind"].isin((MISSION, PER_PASS))].set_index(["weld", "event"]).index
     whole = rows["kind"].isin((EVENT, SEQUENCE)) & pd.MultiIndex.from_frame(rows[["weld", "event"]]).isin(parts)
-    rows = rows[~whole]
+    rows = rows[~whole & (rows["log_life_ratio"] != 0.0)]
     colour = event_colours(list(dict.fromkeys([*pair.first.passes, *pair.other.passes])))
     names = {LIMIT: "damage limit", MISSION: ", how often"}
     labelled = rows.assign(
@@ -102,7 +103,7 @@ def event_figure(pair: Pair) -> go.Figure | None:
 def mode_figure(pair: Pair) -> go.Figure | None:
     """What modes and unit loads add, over all events, at the welds that change most; None without a diagnosis."""
     rows = pair.causes[(pair.causes["scope"] == WELD) & pair.causes["kind"].isin((MODE, UNIT_LOAD))]
-    if rows.empty:
+    if not rows["log_life_ratio"].any():
         return None
     names = mode_names(pair.first.record)
     labels = [coordinate(mode, load, names) for mode, load in zip(rows["mode"], rows["unit_load"], strict=True)]
@@ -188,8 +189,10 @@ def _stacked(pair: Pair, rows: pd.DataFrame) -> go.Figure | None:
 def _ratio_axis(title: str, reach: float) -> Trace:
     """Axis of log ratios, its ticks written as factors."""
     reach = min(max(1.15 * reach, LEAST), MOST)
-    steps = [t for t in TICKS if math.log(t) <= reach]
-    steps = steps[:: max(1, math.ceil(len(steps) / 4))] if len(steps) > 4 else steps
+    steps: list[float] = []
+    for tick in TICKS:
+        if APART * reach <= math.log(tick) - math.log(steps[-1] if steps else 1.0) and math.log(tick) <= reach:
+            steps.append(tick)
     ticks = [*(-math.log(t) for t in steps[::-1]), 0.0, *(math.log(t) for t in steps)]
     words = [*(f"1/{t:g}" if t >= 2.0 else f"{1.0 / t:.2g}" for t in steps[::-1]), "1", *(f"{t:g}" for t in steps)]
     return axis(title, range=[-reach, reach], tickvals=ticks, ticktext=words)

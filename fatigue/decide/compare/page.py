@@ -13,7 +13,7 @@ from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import MOST_ROWS, rows_table
 from fatigue.report.sections.cells import Cell, Heading, PageTable, num, text, verdict
 from fatigue.report.sections.embed import Figures
-from fatigue.results.dictionary.decided.compare import DIFFERENCES, MATCHES, RESULTS
+from fatigue.results.dictionary.decided.compare import MATCHES, RESULTS
 
 PAGE = "compare.html"
 
@@ -27,9 +27,9 @@ def compare_page(found: Comparison) -> str:
         "the weld meets its target in one of them only, with a red edge where it misses it now."
     )
     context = {
-        "title": " and ".join([", ".join(one.letter for one in found.results[1:]), "A"]) + " beside each other",
+        "title": _title(found),
         "several": len(found.pairs) > 1,
-        "results": rows_table("results", RESULTS, list(result_rows(found.results).itertuples(index=False))),
+        "results": _results(found),
         "ratios": figs.add("ratios", ratios, caption, wide=True) if ratios is not None else None,
         "pairs": [_pair(pair, figs) for pair in found.pairs],
     }
@@ -49,9 +49,7 @@ def _pair(pair: Pair, figs: Figures) -> dict[str, Any]:
         "key": _key(pair, losing, gaining, same),
         "said": list(sentences(pair)),
         "notes": list(notes(pair)),
-        "differences": rows_table(f"differences-{letter}", DIFFERENCES[1:], pair.differences)
-        if pair.differences
-        else None,
+        "differences": _differences(pair) if pair.differences else None,
         "ranking": _ranking(pair),
         "left_out": max(0, len(pair.welds) - MOST_ROWS),
         "events": under.add(
@@ -75,6 +73,24 @@ def _pair(pair: Pair, figs: Figures) -> dict[str, Any]:
         else None,
         "matches": rows_table(f"matches-{letter}", MATCHES[1:], list(matches.itertuples(index=False))),
     }
+
+
+def _results(found: Comparison) -> PageTable:
+    """The results; a hash says nothing to a reader of the page."""
+    columns = [column for column in RESULTS if column.name != "hash"]
+    return rows_table("results", columns, list(result_rows(found.results).itertuples(index=False)))
+
+
+def _title(found: Comparison) -> str:
+    first, *others = (str(one.record["title"]) for one in found.results)
+    return f"{others[0] if len(others) == 1 else f'{len(others)} results'} against {first}"
+
+
+def _differences(pair: Pair) -> PageTable:
+    """What else differs, a column for each result."""
+    names = ("what", "in A", f"in {pair.other.letter}", "sits in")
+    rows = tuple((text(d.what), text(d.value), text(d.other_value), text(d.sits_in)) for d in pair.differences)
+    return PageTable(f"differences-{pair.other.letter}", tuple(Heading(name, numeric=False) for name in names), rows)
 
 
 def _key(pair: Pair, *groups: pd.DataFrame) -> list[dict[str, str]]:

@@ -1,6 +1,6 @@
 """The tables of two results beside each other: points, welds, and what makes the ratio of their lives."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,8 +14,8 @@ from fatigue.decide.compare.matched.stations import MatchedStations, match_stati
 from fatigue.decide.compare.matched.welds import MatchedWelds
 from fatigue.decide.compare.ratios import EXACT, life_ratio
 from fatigue.decide.compare.rules import Difference, differences
-from fatigue.decide.compare.split import causes
-from fatigue.decide.compare.words import largest_cause, mode_names, modes_of, why
+from fatigue.decide.compare.split import MODE, UNIT_LOAD, causes
+from fatigue.decide.compare.words import MOST_MODES, Cause, largest_cause, mode_names, modes_of, why
 
 MOST_ROWS = 2_000_000  # of causes of all points; where there would be more, those of each weld's worst point are kept
 POINT, WELD = "point", "weld"
@@ -161,22 +161,32 @@ def _welds(a: Finished, b: Finished, matched: MatchedWelds, worst: pd.DataFrame,
         curve=ours["curve"].to_numpy(),
         other_curve=theirs["curve"].to_numpy(),
     )
-    of_weld, names = dict(iter(made.groupby("weld", sort=False))), mode_names(a.record)
+    of_weld, names = _by_weld(made), mode_names(a.record)
     each = zip(table["weld"], table["log_life_ratio"], table["worst_moved"], strict=True)
-    said = [_cause(of_weld.get(weld), log, names, moved=moved) for weld, log, moved in each]
+    said = [_cause(of_weld.get(weld, []), log, names, moved=moved) for weld, log, moved in each]
     of_cause = pd.DataFrame(said, columns=["cause_event", "cause_log_life_ratio", "cause_by", "why"])
     table = pd.concat([table, of_cause], axis=1)
     return table.sort_values("log_life_ratio", kind="stable", ignore_index=True)
 
 
-def _cause(made: pd.DataFrame | None, log: float, names: Mapping[int, str], *, moved: bool) -> tuple[Any, ...]:
+def _by_weld(made: pd.DataFrame) -> dict[str, list[Cause]]:
+    """Causes of each weld; of the modes of an event only the largest, which may be named."""
+    sign = np.sign(made["log_life_ratio"])
+    place = made.groupby(["weld", "event", "kind", sign], sort=False, dropna=False).cumcount()  # largest first
+    some = made[(place < MOST_MODES) | ~made["kind"].isin((MODE, UNIT_LOAD))]
+    found: dict[str, list[Cause]] = {}
+    for weld, *cause in some[["weld", *Cause._fields]].itertuples(index=False, name=None):
+        found.setdefault(weld, []).append(Cause(*cause))
+    return found
+
+
+def _cause(made: Sequence[Cause], log: float, names: Mapping[int, str], *, moved: bool) -> tuple[Any, ...]:
     """Event that moves a life most (empty: the limit), what it adds, by which modes, and all of it in words."""
-    row = None if made is None else largest_cause(made)
-    if made is None or row is None:
+    largest = largest_cause(made)
+    if largest is None:
         return None, np.nan, "", ""
-    modes = modes_of(made, row["event"], row["log_life_ratio"], names)
-    said = why(made, log, names)
-    return row["event"], row["log_life_ratio"], ", ".join(modes), f"{said}{ELSEWHERE * (moved and bool(said))}"
+    modes, said = modes_of(made, largest, names), why(made, log, names)
+    return largest.event, largest.log_life_ratio, ", ".join(modes), f"{said}{ELSEWHERE * (moved and bool(said))}"
 
 
 def _unmatched(b: Finished, stations: MatchedStations) -> dict[str, tuple[int, int]]:

@@ -26,8 +26,8 @@ def sentences(pair: Pair) -> Iterator[str]:
         yield "No matched weld has a toe, so that no life is compared."
         return
     yield (
-        f"Of {len(pair.welds)} welds {_count(len(gaining))} longer in {b} than in A, {_count(len(losing))} less, and "
-        f"{_count(len(same))} as long to {100.0 * (SAME - 1.0):.0f} %."
+        f"Of {len(pair.welds)} welds {_count(len(gaining))} longer in {b} than in A, {len(losing) or 'none'} less long "
+        f"and {len(same) or 'none'} as long to {100.0 * (SAME - 1.0):.0f} %."
     )
     yield from _flips(pair)
     for some, verb in ((losing, "loses"), (gaining, "gains")):

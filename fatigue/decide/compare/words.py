@@ -1,10 +1,8 @@
 """Causes in words: what an event does now, by which modes, and a weld in one sentence."""
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
-
-import pandas as pd
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from fatigue.decide.compare.split import LIMIT, MISSION, MODE, PER_PASS, SEQUENCE, UNIT_LOAD, WHOLE
 from fatigue.report.wording import listed, number, short
@@ -14,6 +12,18 @@ NAMED = 0.2  # of the log ratio: causes from here on are named
 MOST = 2  # causes of either direction in a sentence
 MOST_MODES = 3
 MOSTLY = 0.6  # of what an event adds: modes are named until they make so much of it
+
+
+class Cause(NamedTuple):
+    """A row of the causes of one pair of points; see the columns of ``compare_causes``."""
+
+    kind: str
+    event: str
+    mode: Any
+    unit_load: str | None
+    value: float
+    other_value: float
+    log_life_ratio: float
 
 
 def times(factor: float) -> str:
@@ -32,48 +42,45 @@ def is_same(log_ratio: float) -> bool:
     return abs(log_ratio) <= math.log(SAME)
 
 
-def why(causes: pd.DataFrame, log_ratio: float, names: Mapping[int, str]) -> str:
-    """What makes the ratio of two lives, in words; ``causes`` are the rows of one pair; empty without any."""
-    whole = causes[causes["kind"].isin(WHOLE)]
-    if whole.empty or is_same(size := max(abs(log_ratio), whole["log_life_ratio"].abs().max())):
+def why(causes: Sequence[Cause], log_ratio: float, names: Mapping[int, str]) -> str:
+    """What makes the ratio of two lives, in words; ``causes`` are those of one pair.
+
+    Empty where nothing changes the life by more than a few percent, be it made up for by something else.
+    """
+    whole = _whole(causes)
+    size = max([abs(log_ratio), *(abs(one.log_life_ratio) for one in whole)])
+    if not whole or is_same(size):
         return ""
-    said = whole[whole["log_life_ratio"].abs() >= NAMED * size]
-    direction = math.copysign(1.0, log_ratio)
-    with_it = said[said["log_life_ratio"] * direction > 0.0]
-    against = said[said["log_life_ratio"] * direction < 0.0]
-    parts = [_cause(row, causes, names) for row in _largest(with_it)]
-    found = listed(parts)
-    if back := [_cause(row, causes, names) for row in _largest(against)]:
-        found += f"; against it {listed(back)}" if found else f"{listed(back)}, which others make up for"
-    return found
+    said = [one for one in whole if abs(one.log_life_ratio) >= NAMED * size]
+    with_it = [_said(one, causes, names) for one in said if one.log_life_ratio * log_ratio > 0.0][:MOST]
+    against = [_said(one, causes, names) for one in said if one.log_life_ratio * log_ratio <= 0.0][:MOST]
+    if not with_it:
+        return f"{listed(against)}, which others make up for"
+    return listed(with_it) + (f"; against it {listed(against)}" if against else "")
 
 
-def largest_cause(causes: pd.DataFrame) -> pd.Series | None:
-    """The row that moves the life most, with the whole of it: a limit, an event, a sequence."""
-    whole = causes[causes["kind"].isin(WHOLE)]
-    if whole.empty or not whole["log_life_ratio"].abs().max() > 0.0:
-        return None
-    return whole.loc[whole["log_life_ratio"].abs().idxmax()]
+def largest_cause(causes: Sequence[Cause]) -> Cause | None:
+    """What moves the life most, with the whole of it: a limit, an event, a sequence; None where nothing does."""
+    return next((one for one in _whole(causes) if one.log_life_ratio != 0.0), None)
 
 
-def modes_of(causes: pd.DataFrame, event: str, log_ratio: float, names: Mapping[int, str]) -> list[str]:
+def modes_of(causes: Sequence[Cause], of: Cause, names: Mapping[int, str]) -> list[str]:
     """Modes and unit loads that make most of what an event adds, largest first; none without a diagnosis."""
-    parts = causes[causes["kind"].isin((MODE, UNIT_LOAD)) & (causes["event"] == event)]
-    parts = parts[parts["log_life_ratio"] * log_ratio > 0.0].sort_values("log_life_ratio", key=abs, ascending=False)
+    parts = [one for one in causes if one.kind in (MODE, UNIT_LOAD) and one.event == of.event]
     found, made = [], 0.0
-    for row in parts.head(MOST_MODES).to_dict("records"):
-        if made >= MOSTLY * abs(log_ratio):
+    for one in _by_size(part for part in parts if part.log_life_ratio * of.log_life_ratio > 0.0)[:MOST_MODES]:
+        if made >= MOSTLY * abs(of.log_life_ratio):
             break
-        made += abs(row["log_life_ratio"])
-        found.append(coordinate(row["mode"], row["unit_load"], names))
+        made += abs(one.log_life_ratio)
+        found.append(coordinate(one.mode, one.unit_load, names))
     return found
 
 
-def coordinate(mode: object, unit_load: object, names: Mapping[int, str]) -> str:
+def coordinate(mode: Any, unit_load: str | None, names: Mapping[int, str]) -> str:
     """A mode by its name, or a unit load, in words."""
     if isinstance(unit_load, str) and unit_load:
         return short(unit_load)
-    return names.get(int(str(mode)), f"mode {mode}")
+    return names.get(int(mode), f"mode {mode}")
 
 
 def mode_names(record: Mapping[str, Any]) -> dict[int, str]:
@@ -86,40 +93,41 @@ def mode_names(record: Mapping[str, Any]) -> dict[int, str]:
     }
 
 
-def _largest(rows: pd.DataFrame) -> Sequence[Mapping[str, object]]:
-    ordered = rows.sort_values("log_life_ratio", key=abs, ascending=False)
-    found: Sequence[Mapping[str, object]] = ordered.head(MOST).to_dict("records")
-    return found
+def _whole(causes: Iterable[Cause]) -> list[Cause]:
+    """Causes that add up to the log ratio, the largest first."""
+    return _by_size(one for one in causes if one.kind in WHOLE)
 
 
-def _cause(row: Mapping[str, object], causes: pd.DataFrame, names: Mapping[int, str]) -> str:
+def _by_size(causes: Iterable[Cause]) -> list[Cause]:
+    return sorted(causes, key=lambda one: -abs(one.log_life_ratio))
+
+
+def _said(of: Cause, causes: Sequence[Cause], names: Mapping[int, str]) -> str:
     """One cause in words."""
-    value, other, log = (float(str(row[name])) for name in ("value", "other_value", "log_life_ratio"))
-    if row["kind"] == LIMIT:
-        return f"the damage limit is {number(other)} instead of {number(value)}"
-    event, name = str(row["event"]), short(str(row["event"]))
-    if value == 0.0 or other == 0.0:
-        said = f"{name} comes in" if value == 0.0 else f"{name} is gone"
-        if row["kind"] == SEQUENCE:
-            said = f"cycles across events {said.removeprefix(name).strip()}, {name}"
+    if of.kind == LIMIT:
+        return f"the damage limit is {number(of.other_value)} instead of {number(of.value)}"
+    name = short(of.event)
+    if of.value == 0.0 or of.other_value == 0.0:
+        change = "comes in" if of.value == 0.0 else "is gone"
+        said = f"what {name} adds across events {change}" if of.kind == SEQUENCE else f"{name} {change}"
     else:
-        said = f"{name} {_changed(causes[causes['event'] == event])}"
-    modes = modes_of(causes, event, log, names)
+        said = f"{name} {_changed([one for one in causes if one.event == of.event])}"
+    modes = modes_of(causes, of, names)
     return f"{said}, most of it by {listed(modes)}" if modes else said
 
 
-def _changed(rows: pd.DataFrame) -> str:
+def _changed(causes: Sequence[Cause]) -> str:
     """How an event that both results have differs: how often it occurs, the damage of a pass, or both."""
-    parts = {str(row["kind"]): row for row in rows.to_dict("records") if row["kind"] in (MISSION, PER_PASS)}
+    parts = {one.kind: one for one in causes if one.kind in (MISSION, PER_PASS)}
     if len(parts) < 2:
-        return "relieves in one result and damages in the other"
+        return "relieves in one of them and damages in the other"
     often, damage = parts[MISSION], parts[PER_PASS]
-    both = abs(often["log_life_ratio"]) + abs(damage["log_life_ratio"])
+    both = abs(often.log_life_ratio) + abs(damage.log_life_ratio)
     said = []
-    if abs(damage["log_life_ratio"]) >= NAMED * both:
-        said.append(f"does {_of(damage['other_value'] / damage['value'])} the damage per pass")
-    if abs(often["log_life_ratio"]) >= NAMED * both:
-        said.append(f"occurs {times(often['other_value'] / often['value'])} as often")
+    if abs(damage.log_life_ratio) >= NAMED * both:
+        said.append(f"does {_of(damage.other_value / damage.value)} the damage per pass")
+    if abs(often.log_life_ratio) >= NAMED * both:
+        said.append(f"occurs {times(often.other_value / often.value)} as often")
     return listed(said)
 
 

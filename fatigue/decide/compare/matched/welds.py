@@ -91,12 +91,14 @@ def match_welds(a: Finished, b: Finished, of_map: WeldMap, *, accept_proposed: b
         if weld not in other and weld in there and weld not in taken:
             other[weld], by[weld] = weld, NAME
     free_a = [weld for weld in a.welds.index if weld not in other]
-    free_b = [weld for weld in b.welds.index if weld not in set(other.values())]
+    named = set(other.values())
+    free_b = [weld for weld in b.welds.index if weld not in named]
     proposed = proposals(a, b, free_a, free_b)
     used = [one for one in proposed if accept_proposed and not one.others]
     for one in used:
         other[one.weld], by[one.weld] = one.other_weld, GEOMETRY
-    left = tuple(one for one in proposed if one not in used)
+    left = tuple(one for one in proposed if one.weld not in other)
+    partners = set(other.values())
     if not other:
         refuse(DataError, _nothing_common(a, b, left))
     return MatchedWelds(
@@ -104,7 +106,7 @@ def match_welds(a: Finished, b: Finished, of_map: WeldMap, *, accept_proposed: b
         by=by,
         proposed=left,
         only_first=tuple(weld for weld in free_a if weld not in other),
-        only_other=tuple(weld for weld in free_b if weld not in set(other.values())),
+        only_other=tuple(weld for weld in free_b if weld not in partners),
         distance_mm={one.weld: one.distance_mm for one in proposed},
     )
 
