@@ -1,0 +1,1 @@
+"""Welds, stations and faces of one result that another has at the same place."""
