@@ -60,7 +60,7 @@ def test_bounds_of_one_class_are_those_of_the_specification(exponent, key):
         (ALUMINIUM, 2.0 * ALUMINIUM - 1.0, 0.0026260827409800847),
         (3.0, 5.0, 0.0016187673111269785),
         (3.0, 3.6, 0.00034948131141154803),
-        (3.12989, 5.0, 0.0015135525877858491),
+        (1.0 / 0.3195, 5.0, 0.0015135525877858491),
     ],
 )
 def test_widest_gap_between_the_bounds_of_a_class(k, other, gap):
