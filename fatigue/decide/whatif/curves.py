@@ -9,7 +9,7 @@ only its bounds are known, or nothing.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +26,13 @@ from fatigue.readers.neutral.body.strength_factors import StrengthFactor, read_s
 
 Floats = NDArray[np.float64]
 Ranges = Literal["dS", "S", "none"]
+
+
+class Between(NamedTuple):
+    """Smallest and largest value of a factor, (n,) each."""
+
+    least: Floats
+    most: Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +69,12 @@ class OneCurve:
         return "S" if rule.stress_ratio == "none" and not rule.mean_stress else "none"
 
     @property
+    def same_size(self) -> bool:
+        """Whether plates of any thickness have the same factor on the range."""
+        a, b = self.before, self.after
+        return a.curve == b.curve and a.thickness_rule == b.thickness_rule and a.on_range == b.on_range
+
+    @property
     def slope(self) -> float:
         """Exponent of the power sums of the result."""
         return float(self.before.rule.law.slopes[0])
@@ -72,18 +85,25 @@ class OneCurve:
         old, new = self.before.rule.law, self.after.rule.law
         return self.same_cycle and old.is_straight and new.is_straight and old.slopes[0] == new.slopes[0]
 
-    def size_ratio(self, thickness: Floats, attachment: Floats) -> Floats:
-        """Size factor after over that before, (n,)."""
-        return self.after.size(thickness, attachment) / self.before.size(thickness, attachment)
-
-    def range_factors(self, thickness: Floats, attachment: Floats) -> tuple[Floats, Floats]:
-        """Smallest and largest factor (n,) from the range that ``ranges`` names to that of the new law."""
+    def range_factors(self, thickness: Floats, attachment: Floats) -> Between:
+        """Factor (n,) from the range that ``ranges`` names to that of the new law."""
+        after = self.after.size(thickness, attachment)
         if self.ranges == "dS":
-            ratio = self.size_ratio(thickness, attachment)
-            return ratio, ratio
-        size = self.after.size(thickness, attachment)
-        of_bending, of_membrane = self.after.rule.ratio_factor(np.array([1.0, 0.0])).tolist()
-        return size / of_bending, size / of_membrane
+            same = after / self.before.size(thickness, attachment)
+            return Between(same, same)
+        least, most = _of_bending(self.after.rule)
+        return Between(after / most, after / least)
+
+    def equivalent_factors(self, thickness: Floats, attachment: Floats) -> Between | None:
+        """Factor (n,) from the equivalent range of the old law to that of the new one; None: nothing bounds it."""
+        own = self.range_factors(thickness, attachment)
+        if self.ranges == "dS":
+            return own
+        if self.before.rule.mean_stress or self.before.rule.stress_ratio != "none":
+            return None
+        least, most = _of_bending(self.before.rule)
+        before = self.before.size(thickness, attachment)
+        return Between(own.least * least / before, own.most * most / before)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -150,10 +170,15 @@ def _is_recorded(record: Mapping[str, Any], rated: RatedCurve, case: Case) -> bo
     """Whether a curve is what the result was computed with."""
     used, law = record["curves"][rated.curve.name]["used"], rated.rule.law
     limit = rated.damage_limit(case.mission.damage_limit)
-    ours = (law.slopes, law.log_constants, law.knees, law.cutoff, rated.on_range, limit)
-    stored = (used["slopes"], used["log_constants"], used["knees"], used["cutoff"])
-    stored += (used.get("factor_on_range", 1.0), used.get("damage_limit", limit))
-    return all(_is_close(a, b) for a, b in zip(ours, stored, strict=True))
+    pairs: list[tuple[ArrayLike, ArrayLike]] = [
+        (law.slopes, used["slopes"]),
+        (law.log_constants, used["log_constants"]),
+        (law.knees, used["knees"]),
+        (law.cutoff, used["cutoff"]),
+        (rated.on_range, used.get("factor_on_range", 1.0)),
+        (limit, used.get("damage_limit", limit)),
+    ]
+    return all(_is_close(ours, stored) for ours, stored in pairs)
 
 
 def _is_close(ours: ArrayLike, stored: ArrayLike) -> bool:
@@ -169,6 +194,12 @@ def _other_curve(record: Mapping[str, Any], name: str) -> Problem:
 def _of_cycle(rule: CycleRule) -> tuple[object, ...]:
     """What is of the cycle itself in its range."""
     return rule.uses_bending_ratio, rule.bending_factor, rule.stress_ratio, rule.yield_of_damage
+
+
+def _of_bending(rule: CycleRule) -> tuple[float, float]:
+    """Smallest and largest number that bending may divide a range by: that of pure membrane and of pure bending."""
+    of_membrane, of_bending = rule.ratio_factor(np.array([0.0, 1.0])).tolist()
+    return of_membrane, of_bending
 
 
 def _same_law(old: DamageLaw, new: DamageLaw) -> bool:
