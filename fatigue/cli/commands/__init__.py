@@ -16,6 +16,7 @@ from fatigue.cli.commands import (
     study,
     verify,
     welds,
+    whatif,
 )
 
 __all__ = [
@@ -31,4 +32,5 @@ __all__ = [
     "study",
     "verify",
     "welds",
+    "whatif",
 ]
