@@ -20,6 +20,7 @@ from fatigue.cli.commands import (
     study,
     verify,
     welds,
+    whatif,
 )
 
 __all__ = [
@@ -39,4 +40,5 @@ __all__ = [
     "study",
     "verify",
     "welds",
+    "whatif",
 ]
