@@ -15,7 +15,7 @@ from fatigue.case.problems import clash
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.misplaced import misplaced
 from fatigue.files.naming import control_characters
-from fatigue.study.toml_file import read_toml
+from fatigue.case.toml_file import read_toml
 from fatigue.study.vehicle_keys import KEYS, OF_SETTING, Key
 from fatigue.vehicle.definition import Vehicle
 
