@@ -99,9 +99,8 @@ def _of_its_kind(
             )
         table.report(own & (column < 0.0), "bad_value", name, _first(column, own & (column < 0.0)), "Give at least 0")
         what = "the condition is counted by " + ("number" if name.startswith(KM) else "km")
-        table.report(
-            ~own & ~np.isnan(column), "fleet_kind", name, what, f"Give {other} in its place, and leave this empty"
-        )
+        foreign = ~own & ~np.isnan(column) & (column != 0.0)
+        table.report(foreign, "fleet_kind", name, what, f"Give {other} in its place, and leave this empty")
         values[own] = np.nan_to_num(column[own], nan=default or 0.0)
     return values
 

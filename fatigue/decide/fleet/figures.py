@@ -83,9 +83,10 @@ def shares(rows: Sequence[VarianceRow], of: str) -> go.Figure | None:
         return None
     bars = list(dict.fromkeys(_bar(row) for row in own))[:MOST_WELDS]
     data: list[Trace] = []
-    for i, (condition, source) in enumerate(dict.fromkeys((row.condition, row.source) for row in own)):
+    conditions = list(dict.fromkeys(row.condition for row in own))
+    for condition, source in dict.fromkeys((row.condition, row.source) for row in own if row.share):
         of_bar = {_bar(row): row.share for row in own if (row.condition, row.source) == (condition, source)}
-        name = in_figure(condition, 28) + ("" if source == "distance" else f" ({source})")
+        name = in_figure(condition, 24) + ("" if source == "distance" else f" ({source})")
         data.append(
             {
                 "type": "bar",
@@ -94,7 +95,7 @@ def shares(rows: Sequence[VarianceRow], of: str) -> go.Figure | None:
                 "x": [100.0 * of_bar.get(bar, 0.0) for bar in bars],
                 "y": list(range(len(bars))),
                 "marker": {
-                    "color": SERIES[i % len(SERIES)],
+                    "color": SERIES[conditions.index(condition) % len(SERIES)],
                     "pattern": {"shape": {"distance": "", "damage": "/", "both": "x"}[source]},
                 },
                 "hovertemplate": f"{name}: %{{x:.3g}} %<extra></extra>",
@@ -134,8 +135,8 @@ def _beside_names(
     """Figure with a row for each name, the first on top, and the target as an upright line."""
     return figure(
         data,
-        height=(170 if legend else 110) + 24 * len(names),
-        margin={"l": 190, "r": 16, "t": 70 if legend else 20, "b": 50},
+        height=(150 if legend else 80) + 24 * len(names),
+        margin={"l": 190, "r": 16, "t": 90 if legend else 20, "b": 50},
         xaxis=along,
         yaxis=axis("", tickvals=list(range(len(names))), ticktext=list(names), range=[len(names) - 0.5, -0.5]),
         shapes=[] if target_years is None else [upright(target_years, INK, dash="solid")],

@@ -3,9 +3,11 @@
 from typing import Any
 
 from fatigue.decide.fleet.figures import MOST_UNITS, MOST_WELDS, ranking, shares, spread
+from fatigue.decide.fleet.page_tables import percentiles_table, units_table
 from fatigue.decide.fleet.summary import FleetFound
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import MOST_ROWS, rows_table
+from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.results.dictionary.decided.fleet import FLEET
 
@@ -27,27 +29,29 @@ def fleet_page(found: FleetFound) -> str:
         "facts": f"{len(found.units)} units, {len(found.conditions)} conditions, {found.welds} welds, "
         f"{found.points} points.",
         "ranking": figs.add("ranking", ranking(found.units, found.target_years), _ranked(found), wide=True),
-        "units": _table(found, "fleet_units", found.units),
+        "units": _table("fleet_units", units_table(found.units), len(found.units)),
         "spread": figs.add("spread", spread(found.percentiles, found.target_years), _spread(found), wide=True),
-        "percentiles": _table(found, "fleet_percentiles", found.percentiles),
+        "percentiles": _table("fleet_percentiles", percentiles_table(found.percentiles), found.welds + 1),
         "shares": _shares(found, figs),
-        "variance": _table(found, "fleet_variance", found.variance),
+        "variance": _table("fleet_variance", _variance(found), len(found.variance)) if found.variance else None,
         "points_rule": found.points_rule,
         "warnings": found.warnings,
     }
     return page_text("fatigue.decide.fleet", "fleet.html", context, figs)
 
 
-def _table(found: FleetFound, name: str, rows: Any) -> dict[str, Any] | None:
+def _table(name: str, shown: PageTable, rows: int) -> dict[str, Any]:
     """A table with what the page says of it: how many rows it folds, how many it leaves to the file."""
-    if not rows:
-        return None
     return {
-        "table": rows_table(name, FLEET[name], rows),
-        "folded": len(rows) if len(rows) >= FOLDED_FROM else 0,
-        "left_out": max(0, len(rows) - MOST_ROWS),
+        "table": shown,
+        "folded": rows if rows >= FOLDED_FROM else 0,
+        "left_out": max(0, rows - MOST_ROWS),
         "file": f"{name}.parquet",
     }
+
+
+def _variance(found: FleetFound) -> PageTable:
+    return rows_table("fleet_variance", FLEET["fleet_variance"], found.variance)
 
 
 def _shares(found: FleetFound, figs: Figures) -> list[Shown]:
