@@ -74,9 +74,30 @@ def parsed_case(path: Path, text: str) -> Case:
     CaseError
         as ``load_case``
     """
-    problems: list[Problem] = []
     try:
         raw = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        other = misplaced(path, path.name)
+        if other is not None and other.what != CASE_FILE:
+            raise CaseError(other) from None
+        problem = syntax_problem(text, error)
+    except (RecursionError, ValueError):  # an integer of more digits than Python reads
+        problem = excess(text)
+    else:
+        return case_of_tables(path, text, raw)
+    raise CaseError(replace(problem, where=f"{path.name}: {problem.where}"))
+
+
+def case_of_tables(path: Path, text: str, raw: dict[str, Any]) -> Case:
+    """Case of the tables that a case file holds, or of others in their place; ``text`` is what is kept as its text.
+
+    Raises
+    ------
+    CaseError
+        as ``load_case``
+    """
+    problems: list[Problem] = []
+    try:
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         problems += curve_problems(raw, catalogue())
         problems += own_curve_problems(raw, catalogue())
@@ -87,16 +108,11 @@ def parsed_case(path: Path, text: str) -> Case:
         problems += channel_problems(raw)
         problems += shear_problems(raw)
         case = Case.model_validate(raw, context=(path, text))
-    except tomllib.TOMLDecodeError as error:
-        other = misplaced(path, path.name)
-        if other is not None and other.what != CASE_FILE:
-            raise CaseError(other) from None
-        problems.append(syntax_problem(text, error))
     except RecursionError:
         problems.append(excess(text))
     except ValidationError as error:  # a ``ValueError``, as is the next
         problems[:0] = (found for details in error.errors() for found in model_problems(details, MODELS, raw))
-    except ValueError:  # an integer of more digits than Python reads
+    except ValueError:
         problems.append(excess(text))
     refuse(CaseError, (replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
     return case

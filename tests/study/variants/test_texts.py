@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fatigue.errors import DataError
+from fatigue.files.dotted import NoSuchKey, put, value_at
 from fatigue.study.variants.source.placeholders import filled, names_in
-from fatigue.study.variants.varied.dotted import NoSuchKey, put, value_at
 from fatigue.study.variants.varied.toml_text import toml_text
 
 TEXTS = st.text(st.characters(blacklist_categories=("Cs",)), max_size=8)

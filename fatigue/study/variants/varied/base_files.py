@@ -13,9 +13,9 @@ from fatigue.case.checks import CHECK_FILES
 from fatigue.case.load import parsed_case
 from fatigue.case.tables import BASIS_FILES, BODY_FILES
 from fatigue.errors import CaseError, Problem, refuse
+from fatigue.files.dotted import NoSuchKey, put, value_at
 from fatigue.study.study_file import Study
 from fatigue.study.variants.runs.case_of_run import way
-from fatigue.study.variants.varied.dotted import NoSuchKey, put, value_at
 from fatigue.study.variants.varied.toml_text import toml_text
 from fatigue.study.vehicle_file import FRAME, load_vehicle
 from fatigue.vehicle.definition import Vehicle

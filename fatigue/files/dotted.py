@@ -1,6 +1,7 @@
 """Keys of a case with dots between them, as in ``mission.event.worn.stress_factor``, where a table has its name.
 
-A list of tables is entered by the ``name`` of one of them, which may itself hold dots.
+A list of tables is entered by the ``name`` of one of them, which may itself hold dots; a list of tables without names,
+as ``mission.sequence.1.per_1000_km``, by the number of one.
 """
 
 import difflib
@@ -63,6 +64,8 @@ def _last_table(tables: Any, key: str, *, makes: bool) -> tuple[Any, str]:
 def _named(tables: list[Any], done: str, rest: str) -> tuple[Any, str, str]:
     """The table of a list whose name a key begins with, the name, and the rest of the key; of several the longest."""
     names = [name for table in tables if isinstance(table, Mapping) and isinstance(name := table.get("name"), str)]
+    if tables and not names:
+        return _numbered(tables, done, rest)
     fitting = [name for name in names if rest == name or rest.startswith(f"{name}.")]
     if not fitting:
         wanted = rest.rpartition(".")[0] or rest
@@ -73,3 +76,12 @@ def _named(tables: list[Any], done: str, rest: str) -> tuple[Any, str, str]:
     name = max(fitting, key=len)
     found = next(table for table in tables if isinstance(table, Mapping) and table.get("name") == name)
     return found, name, rest[len(name) + 1 :]
+
+
+def _numbered(tables: list[Any], done: str, rest: str) -> tuple[Any, str, str]:
+    """The table of a list without names that a key enters by its number from 1, the number, and the rest of the key."""
+    number, _, after = rest.partition(".")
+    if not number.isdecimal() or not 1 <= int(number) <= len(tables):
+        remedy = "Write 1" if len(tables) == 1 else f"Write a number from 1 to {len(tables)}"
+        raise NoSuchKey(f"{done} has no table {number!r}", remedy)
+    return tables[int(number) - 1], number, after
