@@ -5,6 +5,7 @@ A file here registers its commands with ``main.cli`` when it is imported, and kn
 
 from fatigue.cli.commands import (
     assess,
+    backsolve,
     basis,
     beginnings,
     convert,
@@ -21,6 +22,7 @@ from fatigue.cli.commands import (
 
 __all__ = [
     "assess",
+    "backsolve",
     "basis",
     "beginnings",
     "convert",
