@@ -13,11 +13,17 @@ import click
 
 from fatigue.case import case_schema
 from fatigue.cli import cli
+from fatigue.decide.fleet.fleet_file import Fleet
 from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
+from fatigue.results.dictionary.decided.backsolve import BACKSOLVED
+from fatigue.results.dictionary.decided.compare import COMPARED
 from fatigue.results.dictionary.decided.correlation import CORRELATED
+from fatigue.results.dictionary.decided.fleet import FLEET
+from fatigue.results.dictionary.decided.gauges import GAUGE_TABLES
 from fatigue.results.dictionary.decided.history import HISTORIES
+from fatigue.results.dictionary.decided.whatif import WHATIFS
 from fatigue.results.dictionary.graph import GRAPH
 from fatigue.results.dictionary.study import STUDY
 from fatigue.study.study_file import Study
@@ -47,7 +53,9 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("documents", "Result folders and documents"),
     ("point", "Result folders and documents"),
     ("verify", "Result folders and documents"),
-    ("decide", "Bench programmes"),
+    ("decide/bench_files", "Bench programmes"),
+    ("decide/bench_points", "Bench programmes"),
+    ("decide", "Decisions"),
     ("bench", "Bench programmes"),
     ("gauges", "Strain gauges"),
     ("study", "Studies of a vehicle"),
@@ -71,6 +79,11 @@ CASE_TABLES = {  # of case.toml, and the models that describe them
     "[checks.stress_category]": "StressCategory",
     "[[checks.interaction]]": "Interaction",
     "[[checks.endurance]]": "EnduranceCheck",
+}
+FLEET_TABLES = {  # of fleet.toml
+    "Fleet: the keys above all tables": "Fleet",
+    "Fleet: [[condition]]": "Condition",
+    "Fleet: [[correlation]]": "Correlation",
 }
 STUDY_TABLES = {  # of study.toml
     "Study: the keys above all tables": "Study",
@@ -163,6 +176,11 @@ def study_key_text() -> str:
     return _keys_of_models(STUDY_TABLES, Study.model_json_schema())
 
 
+def fleet_key_text() -> str:
+    """Keys of ``fleet.toml`` with default and meaning, table by table."""
+    return _keys_of_models(FLEET_TABLES, Fleet.model_json_schema())
+
+
 def _keys_of_models(tables: dict[str, str], schema: dict[str, Any]) -> str:
     """Keys of the models of some tables, by heading and name; the schema itself is the model of its title."""
     models = {**schema["$defs"], schema["title"]: schema}
@@ -202,10 +220,14 @@ def _allowed(key: Key) -> str:
     return "" if key.choices or str(key.range) == "finite" else f"; {key.range}"
 
 
+WRITTEN = TABLES | HISTORIES | COMPARED | WHATIFS | BACKSOLVED | FLEET | GAUGE_TABLES | CORRELATED
+WRITTEN |= BASIS | GRAPH | STUDY | CLAIMED  # every table that a command writes
+
+
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | HISTORIES | BASIS | GRAPH | STUDY | CLAIMED | CORRELATED).items():
+    for table, its in WRITTEN.items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])
@@ -234,6 +256,7 @@ def with_collected(page: str) -> str:
         "keys": key_text(),
         "vehicle keys": vehicle_key_text(),
         "study keys": study_key_text(),
+        "fleet keys": fleet_key_text(),
         "columns": column_text(),
         "codes": refusal_text(page),
     }

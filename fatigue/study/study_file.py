@@ -14,8 +14,8 @@ from pydantic_core import ErrorDetails
 
 from fatigue.case.problems import Contradictions, absent, clash, model_problems, path_problems
 from fatigue.case.table import Positive, Table, Text
+from fatigue.case.toml_file import read_toml
 from fatigue.errors import CaseError, Problem, given_path, refuse
-from fatigue.study.toml_file import read_toml
 from fatigue.study.vehicle_keys import KEYS
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

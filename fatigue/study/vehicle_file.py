@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any, get_type_hints
 
 from fatigue.case.problems import clash
+from fatigue.case.toml_file import read_toml
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.misplaced import misplaced
 from fatigue.files.naming import control_characters
-from fatigue.study.toml_file import read_toml
 from fatigue.study.vehicle_keys import KEYS, OF_SETTING, Key
 from fatigue.vehicle.definition import Vehicle
 

@@ -5,6 +5,7 @@ A file here registers its commands with ``main.cli`` when it is imported, and kn
 
 from fatigue.cli.commands import (
     assess,
+    backsolve,
     basis,
     beginnings,
     compare,
@@ -12,6 +13,7 @@ from fatigue.cli.commands import (
     gauges,
     history,
     point,
+    fleet,
     reduce,
     results,
     ride,
@@ -25,6 +27,7 @@ from fatigue.cli.commands import (
 
 __all__ = [
     "assess",
+    "backsolve",
     "basis",
     "beginnings",
     "compare",
@@ -32,6 +35,7 @@ __all__ = [
     "gauges",
     "history",
     "point",
+    "fleet",
     "reduce",
     "results",
     "ride",

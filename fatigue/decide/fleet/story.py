@@ -1,0 +1,152 @@
+"""A fleet as a story: conditions of several results, how far every unit runs under each, and what that does to it.
+
+D[point, unit] = sum over the conditions of d[point, condition] km[unit, condition]: nothing is counted again. A
+condition is one event of one result. All results must have the same points, on the same curves.
+"""
+
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fatigue.decide.fleet.conditions import Points, Result, read_results, shared_points
+from fatigue.decide.fleet.distances import Distances, correlation_matrix, read_distances
+from fatigue.decide.fleet.doubts import doubts, refuse_short_loops
+from fatigue.decide.fleet.fleet_file import Fleet, load_fleet
+from fatigue.decide.fleet.page import PAGE, fleet_page
+from fatigue.decide.fleet.rows import MOST_POINT_ROWS, percentile_rows, point_rows, unit_rows, variance_rows, weld_rows
+from fatigue.decide.fleet.summary import FleetFound
+from fatigue.decide.fleet.summed import Scatter, Summed, summed, variances
+from fatigue.errors import DataError, Problem, given_path, refuse
+from fatigue.files.hashes import sha256
+from fatigue.files.recorded import Filled, refuse_foreign
+from fatigue.report.wording import whole
+from fatigue.results.dictionary.decided.fleet import FLEET
+from fatigue.results.plain_tables import Rows, fill, table_files
+from fatigue.stages import stage
+
+Floats = NDArray[np.float64]
+
+RECORD = "fleet.json"
+FILLED = Filled("fatigue fleet", "fleet", RECORD, (*table_files(tuple(FLEET)), PAGE))
+
+
+def fleet(
+    file: Path | str, *, into: Path | str | None = None, csv: bool = False, force: bool = False, no_lock: bool = False
+) -> FleetFound:
+    """What the conditions of several results do to the units of a fleet, written into a folder where one is given.
+
+    Parameters
+    ----------
+    file : ``fleet.toml``: conditions, and the table of distances in a year
+    into : folder for tables, page and record; None: nothing is written
+    csv : write the tables as CSV as well
+    force : overwrite files in it that are not ours
+    no_lock : for a file system without locks, see ``fatigue.assess``
+
+    Raises
+    ------
+    CaseError : a mistake in the fleet file, or correlations that cannot be
+    DataError : a mistake in the distances; results that are not there, or are not of one register, its points and
+        curves; files in the way in the folder
+    """
+    asked = load_fleet(file)
+    folder = None if into is None else given_path(into, "into")
+    km = asked.resolve(asked.km)
+    if folder is not None:
+        refuse(DataError, _in_a_result(asked, folder))
+        refuse_foreign(folder, FILLED, force=force, inputs=[asked.path, km])
+    stage("reading %d conditions", len(asked.condition))
+    results = read_results(asked, no_lock=no_lock)
+    by_number = np.array([results[one.results].is_by_number(one.event) for one in asked.condition])
+    distances, warnings = read_distances(km, asked.names, by_number)
+    refuse_short_loops(asked, results, distances)
+    correlation = correlation_matrix(asked.names, asked.correlation, asked.path.name)
+    points = shared_points(asked, results)
+    stage("summing %d points of %d units", len(points.key), len(distances.units))
+    of = summed(points, distances)
+    scatter = _scatter(asked, distances, correlation)
+    found = FleetFound(
+        title=asked.title,
+        conditions=asked.names,
+        welds=len(points.names),
+        points=len(points.key),
+        target_years=asked.target_years,
+        units=unit_rows(of, scatter, asked.names, asked.target_years),
+        percentiles=percentile_rows(of, asked.percentiles),
+        variance=variance_rows(of, tuple(variances(of, scatter)), asked.names),
+        every_point=len(points.key) * len(distances.units) <= MOST_POINT_ROWS,
+        points_rule=_points_rule(points, distances),
+        warnings=(*warnings, *doubts(asked, results, points)),
+    )
+    if folder is not None:
+        stage("writing tables and page")
+        written = _write(folder, asked, results, found, of, csv=csv)
+        found = replace(found, written=tuple(str(folder / name) for name in written))
+    return found
+
+
+def _in_a_result(asked: Fleet, folder: Path) -> Iterator[Problem]:
+    """Refusal of a folder of results as the one to write into: they stay as they are."""
+    for name in dict.fromkeys(one.results for one in asked.condition):
+        path = asked.resolve(name)
+        if folder.exists() and path.exists() and folder.samefile(path):
+            what = f"is the result {name!r}, which a fleet does not change"
+            yield Problem("input_in_the_way", str(folder), what, "Give another folder with -o")
+
+
+def _points_rule(points: Points, distances: Distances) -> str:
+    """What the table of points holds, in words."""
+    rows = len(points.key) * len(distances.units)
+    if rows <= MOST_POINT_ROWS:
+        return (
+            f"fleet_points has all {whole(len(points.key))} points of every unit, as these are no more than 2e6 rows."
+        )
+    return (
+        f"There is no table fleet_points: {whole(rows)} rows are more than 2e6. fleet_welds has the worst point of "
+        "every weld and unit; docs/fleet.md has a query for any others."
+    )
+
+
+def _scatter(asked: Fleet, distances: Distances, correlation: Floats) -> Scatter:
+    """How sure distances and damage are, as far as it is said."""
+    pairs = [(one.results, one.event) for one in asked.condition]
+    known = list(dict.fromkeys(pairs))
+    damage_cv = np.array([one.damage_cv or 0.0 for one in asked.condition])
+    return Scatter(
+        correlation=correlation,
+        damage_cv=damage_cv,
+        same=np.array([known.index(pair) for pair in pairs]),
+        is_known=distances.deviation is not None or bool(damage_cv.any()),
+    )
+
+
+def _write(
+    folder: Path, asked: Fleet, results: dict[str, Result], found: FleetFound, of: Summed, *, csv: bool
+) -> list[str]:
+    """Write tables, page and record; returns their names."""
+    tables: dict[str, Rows] = {
+        "fleet_units": found.units,
+        "fleet_welds": weld_rows(of, asked.names, asked.target_years),
+        "fleet_percentiles": found.percentiles,
+    }
+    every = point_rows(of)
+    if every is not None:
+        tables["fleet_points"] = every
+    if found.variance:
+        tables["fleet_variance"] = found.variance
+    said = {
+        "title": asked.title,
+        "inputs": {path.name: sha256(path) for path in (asked.path, asked.resolve(asked.km))},
+        "conditions": [
+            one.model_dump() | {"result": results[one.results].record.get("result", "")} for one in asked.condition
+        ],
+        "target_years": asked.target_years,
+        "verdict": found.verdict,
+        "points": found.points_rule,
+        "warnings": [asdict(problem) for problem in found.warnings],
+    }
+    written = {name: (FLEET[name], rows) for name, rows in tables.items()}
+    return fill(folder, FILLED, written, {PAGE: fleet_page(found)}, said, csv=csv)
