@@ -5,15 +5,13 @@ A file here registers its commands with ``main.cli`` when it is imported, and kn
 
 from fatigue.cli.commands import (
     assess,
-    backsolve,
     basis,
     beginnings,
-    compare,
     convert,
+    decide,
     gauges,
     history,
     point,
-    fleet,
     reduce,
     results,
     ride,
@@ -22,20 +20,17 @@ from fatigue.cli.commands import (
     study,
     verify,
     welds,
-    whatif,
 )
 
 __all__ = [
     "assess",
-    "backsolve",
     "basis",
     "beginnings",
-    "compare",
     "convert",
+    "decide",
     "gauges",
     "history",
     "point",
-    "fleet",
     "reduce",
     "results",
     "ride",
@@ -44,5 +39,4 @@ __all__ = [
     "study",
     "verify",
     "welds",
-    "whatif",
 ]
