@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import assert_type
 
 import fatigue
-import pandas as pd
 from fatigue.assess import Assessment, assess
 from fatigue.case import Case
 from fatigue.diagnose import diagnose
@@ -31,8 +30,8 @@ def main(case_file: str, folder: Path) -> None:
     print(fatigue.check_case(case_file), fatigue.recount(str(folder), case_file=case_file), diagnose(str(folder)))
     result: fatigue.Result = fatigue.open_result(str(folder), case_file=case_file)
     assert_type(result, fatigue.Result)
-    assert_type(result.history("W", 3, event="tangent", instants="file"), pd.DataFrame)
-    assert_type(result.cycles("W", node=17, surface="top"), pd.DataFrame)
+    result.history("W", 3, event="tangent", instants="file").to_csv("history.csv")
+    result.cycles("W", node=17, surface="top").describe()
     result.figure("sn", "W").show()
     assert_type(result.fulfilled, bool)
     figures.weld_lives(fatigue.read_table(folder, "welds"), 1e7)
