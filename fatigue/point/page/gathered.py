@@ -50,7 +50,8 @@ class Gathered:
     damage, damage_stored : its rows of ``damage.parquet`` counted again, and as they are in the result
     cycles : its cycles, with the columns of ``cycles.parquet``; of very many those that are alike are one row
     cycle_rows : how many cycles and half cycles there are
-    event : whose record is shown: the one that damages most, of an undamaged point that with the largest range
+    event : whose record is shown: by default the one that damages most, of an undamaged point that with the largest
+        range
     evidence, why : whose damage it is, in numbers and as the tables of a diagnosis
     diagnosis : what the diagnosis in the folder has of it; None where there is none
     detail : what the records say of it
@@ -95,9 +96,17 @@ class Gathered:
 
 
 def gather(
-    inputs: Reopened, found: FoundInputs, station: Station, face: int, loads: Sequence[EventLoad], plan: Plan
+    inputs: Reopened,
+    found: FoundInputs,
+    station: Station,
+    face: int,
+    loads: Sequence[EventLoad],
+    plan: Plan,
+    shown: str | None = None,
 ) -> Gathered:
     """Solve the welds around a point, count it again under all ``loads``, and share its damage out.
+
+    ``shown`` is the event whose record is shown, None: the one that damages most.
 
     Raises
     ------
@@ -115,7 +124,7 @@ def gather(
     write_cycles(scratch, model, at, face, loads, plan)
     weld = read_welds(folder).set_index("weld", drop=False).loc[station.weld]
     cycles = _cycles(scratch, record, station, face, str(weld["curve"]))
-    event = _event_of(damage, record)
+    event = _event_of(damage, record) if shown is None else shown
 
     key = (station.part, station.order, FACES[face])
     known = diagnosed(folder, record, station.weld, key)
@@ -159,6 +168,11 @@ def _cycles(scratch: Path, record: Record, station: Station, face: int, curve: s
     return merged_cycles(scratch, {station.weld: point}, list(passes_per_km))[station.weld].rows
 
 
+def listed(cycles: pd.DataFrame) -> pd.DataFrame:
+    """Cycles with their instants, those with the largest ranges first; merged ones have none."""
+    return cycles[cycles["start_s"].notna()].sort_values("range_MPa", ascending=False, kind="stable")
+
+
 def _event_of(damage: pd.DataFrame, record: Record) -> str:
     """The event that damages most, of those with a record; where none does, the one with the largest range."""
     events = [event["event"] for event in record["mission"]["events"]]
@@ -198,7 +212,7 @@ def _detail(
         stations={name: stress[of_weld] for name, stress in components.items()},
         shear=stations.treated.in_plane_shear[at] + side * stations.treated.twist_shear[at] if by_model else None,
         governing_event=event,
-        cycles=most_damaging(cycles[cycles["start_s"].notna()], event, CLOSE_BY),
+        cycles=most_damaging(listed(cycles), event, CLOSE_BY),
     )
     details, _ = point_details({"": point}, found, record)
     return details[""]

@@ -32,13 +32,7 @@ def _notes(found: Gathered) -> Iterator[str]:
             f"The case has shear decide (method {method}): life and utilisation are the worse of both, cycles and "
             f"shares are of the normal stress alone, whose utilisation is {number(of_normal)}"
         )
-    if row["damage_per_km"] == 0.0:
-        yield "Nothing damages this point; the record shown is that of the event with the largest range"
-    elif not _is_event(found, row["governing_event"]):
-        yield (
-            f"Cycles across events govern here ({row['governing_event']}), which have no record of their own: shown is "
-            f"{short(found.event)}, the event that damages most"
-        )
+    yield from _shown(found)
     if row["summed_corner"]:
         yield "At a corner whose nodal forces are one sum of both legs: the stress is of neither leg, and unbounded"
     elif row["at_corner"]:
@@ -91,5 +85,19 @@ def _beside_the_worst(found: Gathered, weld: pd.Series) -> Iterator[str]:
     yield f"The weld is worst at {place}: {km(weld['life_km'])}{ratio}"
 
 
-def _is_event(found: Gathered, name: object) -> bool:
-    return any(event["event"] == name for event in found.record["mission"]["events"])
+def _shown(found: Gathered) -> Iterator[str]:
+    """Whose record is shown, where it is not that of the governing event."""
+    governing = found.row["governing_event"]
+    if found.row["damage_per_km"] == 0.0:
+        yield f"Nothing damages this point; shown is the record of {short(found.event)}"
+        return
+    if governing == found.event:
+        return
+    events = [event["event"] for event in found.record["mission"]["events"]]
+    across = "" if governing in events else ": cycles across events, which have no record of their own"
+    parts = found.why.attribution
+    of_event = parts.loc[(parts["kind"] == "event") & (parts["event"] == found.event), "share"].sum()
+    yield (
+        f"Shown is the record of {short(found.event)}, {share(of_event)} of the damage; {short(str(governing))} "
+        f"governs{across}"
+    )

@@ -68,6 +68,22 @@ def test_a_difference_is_told(results):
     assert off.as_record()["checks"][0]["agrees"] is False
 
 
+def test_the_record_of_any_event(results, tmp_path):
+    """Shown instead of that of the governing event, and said so; numbers and shares stay."""
+    folder = results("plain")
+    usual = point(folder, "A", order=3)
+    other = "noise" if usual.stored["governing_event"] == "sine" else "sine"
+    found = point(folder, "A", order=3, event=other, output=tmp_path / "page.html")
+    assert f"Shown is the record of {other}" in found.notes[0]
+    assert f"{usual.stored['governing_event']} governs" in found.notes[0]
+    assert f"Stress in event {other}, and close by" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert json_ready(found.counted) == json_ready(usual.counted)
+    loop = point(results("loop"), "A", event="laden")
+    assert any("cycles across events, which have no record" in note for note in loop.notes) == (
+        loop.stored["governing_event"] == "(sequence 1)"
+    )
+
+
 def test_a_face_without_toe_is_said(results):
     """Weld B has its toe on the top face: its bottom face has numbers and no verdict."""
     folder = results("plain")
@@ -153,7 +169,7 @@ def test_an_undamaged_point_below_a_cut_off_has_its_figures(tmp_path):
     folder = result_of(case.write(tmp_path / "case"), tmp_path / "result")
     found = point(folder, "A", order=2, output=tmp_path / "quiet.html")
     assert found.stored["damage_per_km"] == 0.0
-    assert "event with the largest range" in found.notes[0]
+    assert "Nothing damages this point; shown is the record of sine" in found.notes[0]
     page = (tmp_path / "quiet.html").read_text(encoding="utf-8")
     for figure in ("along", "history", "matrix", "exceedance", "sn", "modes", "psd"):
         assert f'id="json-{figure}"' in page
@@ -219,6 +235,7 @@ def test_record_for_machines(results):
         ({"order": 99}, DataError, "has no order 99. Take one of its orders: 1, 2"),
         ({"node": 1}, DataError, "has no node 1"),
         ({"surface": "left"}, DataError, "there is no face 'left'"),
+        ({"event": "sine 2"}, DataError, "the mission has no event 'sine 2'. Name 'sine'"),
         ({"order": 2.5}, CaseError, "order: 2.5 is no whole number"),
         ({"threads": 0}, CaseError, "threads: 0 is no number of threads"),
         ({"output": "page.pdf"}, CaseError, "Write .html, and print it from any browser"),
