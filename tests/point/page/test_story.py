@@ -169,7 +169,7 @@ def test_an_undamaged_point_below_a_cut_off_has_its_figures(tmp_path):
     folder = result_of(case.write(tmp_path / "case"), tmp_path / "result")
     found = point(folder, "A", order=2, output=tmp_path / "quiet.html")
     assert found.stored["damage_per_km"] == 0.0
-    assert "Nothing damages this point; shown is the record of sine" in found.notes[0]
+    assert "Nothing damages this point; shown is the record of noise" in found.notes[0]
     page = (tmp_path / "quiet.html").read_text(encoding="utf-8")
     for figure in ("along", "history", "matrix", "exceedance", "sn", "modes", "psd"):
         assert f'id="json-{figure}"' in page
