@@ -1,13 +1,13 @@
 """Every cycle of any point under one event or all of them, in the rows of ``cycles.parquet``."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import pandas as pd
 import pyarrow as pa
 
+from fatigue.life.mission import Loop, Pass, Plan
 from fatigue.pipeline.count.worst import WorstPoint
-from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.cycles import point_cycles
 from fatigue.pipeline.tables.sequence_cycles import sequence_rows
@@ -31,26 +31,42 @@ def cycle_rows(inputs: Reopened, point: KeptPoint, event: str | None = None) -> 
     ------
     DataError : no such event, or records that cannot be read
     """
-    if event not in inputs.sequences:
-        for number in event_numbers(inputs, event):
-            load = counted_load(inputs, number)
-            yield from point_cycles([point], load)
-            forget(load)
-    if event is None or event in inputs.sequences:
-        yield from _of_sequences(inputs, point, event)
-
-
-def _of_sequences(inputs: Reopened, point: KeptPoint, name: str | None) -> Iterator[dict[str, Any]]:
-    """Rows of the cycles across events, of all sequences or of one; the records of all events are there meanwhile."""
-    if not inputs.sequences:
+    if inputs.sequences and (event is None or event in inputs.sequences):
+        yield from _with_sequences(inputs, point, event)
         return
-    plan, _ = mission_plan(inputs.body)
-    loads = [counted_load(inputs, number) for number in range(len(inputs.events))]
+    for number in event_numbers(inputs, event):
+        load = counted_load(inputs, number)
+        yield from point_cycles([point], load)
+        forget(load)
+
+
+def _with_sequences(inputs: Reopened, point: KeptPoint, name: str | None) -> Iterator[dict[str, Any]]:
+    """Rows of all events and of the cycles across them, or of one sequence; all records are there meanwhile."""
+    loads = [counted_load(inputs, number) for number in event_numbers(inputs, None)]
+    if name is None:
+        for load in loads:
+            yield from point_cycles([point], load)
+    plan = recorded_plan(inputs.record)
     for loop, rows in zip(plan.loops, sequence_rows([point], loads, plan), strict=True):
         if name in (None, loop.name):
             yield rows
     for load in loads:
         forget(load)
+
+
+def recorded_plan(record: Mapping[str, Any]) -> Plan:
+    """The mission of a result in numbers, as its provenance has them."""
+    mission = record["mission"]
+    names = [one["event"] for one in mission["events"]]
+    passes = [
+        Pass(one["event"], one["samples"], one["length"], one["share"], one["per_1000_km"]) for one in mission["events"]
+    ]
+    loops = [
+        Loop(loop["name"], tuple(names.index(event) for event in loop["order"]), 1000.0 * loop["runs_per_km"])
+        for loop in mission.get("sequences", ())
+    ]
+    target = mission["target_km"], mission["km_per_year"], mission["damage_limit"]
+    return Plan(tuple(passes), *target, tuple(loops))
 
 
 def cycle_frame(inputs: Reopened, station: Station, face: int, event: str | None = None) -> pd.DataFrame:

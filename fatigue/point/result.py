@@ -334,11 +334,12 @@ def _row_html(weld: Mapping[str, Any]) -> str:
     part, order, node, surface = (weld[f"worst_{name}"] for name in ("part", "order", "node", "surface"))
     event = weld["governing_event"]
     cells = (
-        visible(weld["weld"]),
-        number(weld["life_km"]),
-        number(weld["utilisation"]),
-        f"part {part}, order {order}, node {node}, {surface}",
-        NOT_AVAILABLE if pd.isna(event) else visible(event),
-        "meets" if weld["fulfilled"] else "misses",
+        (visible(weld["weld"]), "left"),
+        (number(float(f"{weld['life_km']:.3g}")), "right"),  # a life has no more digits than that
+        (f"{weld['utilisation']:.3g}", "right"),
+        (f"part {part}, order {order}, node {node}, {surface}", "left"),
+        (NOT_AVAILABLE if pd.isna(event) else visible(event), "left"),
+        ("meets" if weld["fulfilled"] else "misses", "left"),
     )
-    return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+    shown = (f'<td style="text-align: {side}; padding: 2px 10px">{escape(text)}</td>' for text, side in cells)
+    return f"<tr>{''.join(shown)}</tr>"

@@ -84,7 +84,9 @@ def write_history(
     limited = threadpool_limits(limits=1, user_api="blas")  # as the assessment does: the same bits
     with limited, staged(output.absolute().parent, ".fatigue-history-") as scratch:
         inputs = reopened(folder, record, scratch, named)
-        warnings = list(_too_many(output, _samples(inputs, event, instants)))
+        samples = _samples(inputs, event, instants)
+        _refuse_large_mat(output, samples)
+        warnings = _excel_warnings(output, samples)
         for problem in warnings:
             log.warning("%s", problem)
         stage("writing the history")
@@ -148,22 +150,21 @@ def _samples(inputs: Reopened, event: str | None, instants: Instants) -> int:
     return sum(of_events[i]["samples"] * (inputs.factors[i] if instants == "counted" else 1) for i in numbers)
 
 
-def _too_many(output: Path, samples: int) -> Iterator[Problem]:
-    """Warning about more rows than Excel opens.
-
-    Raises
-    ------
-    DataError : more than are held in memory for a MAT file
-    """
-    ending = output.suffix.lower()
-    if ending == ".mat" and samples > MOST_IN_MAT:
+def _refuse_large_mat(output: Path, samples: int) -> None:
+    """Refuse more samples than are held in memory for a MAT file."""
+    if output.suffix.lower() == ".mat" and samples > MOST_IN_MAT:
         what = f"would have {samples} samples, and {MOST_IN_MAT} at most go into a MAT file"
         remedy = "Write .parquet, which MATLAB reads with parquetread, or one event with --event"
         raise DataError(Problem("too_many_samples", str(output), what, remedy))
-    if ending == ".csv" and samples > EXCEL_ROWS:
-        what = f"has {samples} rows, and Excel opens the first {EXCEL_ROWS} of them"
-        remedy = "Write one event with --event, the samples of the file with --instants file, or .parquet"
-        yield Problem("excel_rows", str(output), what, remedy)
+
+
+def _excel_warnings(output: Path, samples: int) -> list[Problem]:
+    """Warning about more rows than Excel opens."""
+    if output.suffix.lower() != ".csv" or samples <= EXCEL_ROWS:
+        return []
+    what = f"has {samples} rows, and Excel opens the first {EXCEL_ROWS} of them"
+    remedy = "Write one event with --event, the samples of the file with --instants file, or .parquet"
+    return [Problem("excel_rows", str(output), what, remedy)]
 
 
 def _tables(histories: Iterator[EventHistory], schema: pa.Schema, extents: list[EventExtent]) -> Iterator[pa.Table]:

@@ -41,7 +41,9 @@ def test_a_notebook_shows_verdict_and_worst_welds(opened):
     assert html.startswith("<h4>small case</h4><p>")
     assert html.count("<tr>") == 1 + len(opened.welds)
     assert ("miss the target of" in html) == (not opened.fulfilled)
-    assert html.index("<td>" + opened.welds["weld"].iloc[0]) < html.index("<td>" + opened.welds["weld"].iloc[1])
+    first, second = opened.welds["weld"]
+    assert 0 < html.index(f">{first}<") < html.index(f">{second}<")
+    assert f">{opened.welds['utilisation'].iloc[0]:.3g}<" in html
 
 
 def test_names_are_no_markup_in_a_notebook(tmp_path):

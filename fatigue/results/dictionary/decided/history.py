@@ -21,3 +21,5 @@ AT_VERTICES = (
     ),
 )
 """Beside them where the case has reversals read between samples."""
+
+HISTORIES: dict[str, tuple[Column, ...]] = {"history": (*HISTORY, *AT_VERTICES)}
