@@ -14,7 +14,7 @@ from fatigue.life.rule import cycle_damage
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.point.found import FACES, Station
-from fatigue.point.page.counted import CYCLES, rows_of_station, write_cycles
+from fatigue.point.page.counted import CYCLES, count_station, write_band, write_cycles
 from fatigue.point.page.shared_out import AS_USUAL, Diagnosed, diagnosed, share_out, tables_of
 from fatigue.point.reopened import Reopened, solved_station
 from fatigue.report.inputs import FoundInputs
@@ -25,6 +25,7 @@ from fatigue.report.sections.point.worst_cycles import most_damaging
 from fatigue.report.sections.why import Why
 from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import read_rows, read_table, read_welds, row_count, rows_of_welds
+from fatigue.results.beside.life_band import Bands, read_bands
 from fatigue.spectrum.moments import point_moments
 from fatigue.why.evidence import Evidence
 from fatigue.why.points import Points, points_of
@@ -47,6 +48,7 @@ class Gathered:
     counted : the same columns counted again, without those about shear
     weld : row of its weld in the register
     line : rows of all points of its weld
+    bands_counted, bands_stored : band of its life counted now, and those of its weld in the result; None: none there
     damage, damage_stored : its rows of ``damage.parquet`` counted again, and as they are in the result
     cycles : its cycles, with the columns of ``cycles.parquet``; of very many those that are alike are one row
     cycle_rows : how many cycles and half cycles there are
@@ -66,6 +68,8 @@ class Gathered:
     counted: pd.Series
     weld: pd.Series
     line: pd.DataFrame
+    bands_counted: Bands | None
+    bands_stored: Bands | None
     damage: pd.DataFrame
     damage_stored: pd.DataFrame
     cycles: pd.DataFrame
@@ -86,6 +90,17 @@ class Gathered:
     def is_screened(self) -> bool:
         """Whether the result has a bound where it was counted now."""
         return self.station.screened[self.face]
+
+    @property
+    def bands(self) -> Bands | None:
+        """Bands that hold that of its life: those of the result, with the survival of its line, else that of now."""
+        has_it = self.bands_stored is not None and self.bands_stored.of(*self.key) is not None
+        return self.bands_stored if has_it and not self.is_screened else self.bands_counted
+
+    @property
+    def key(self) -> tuple[str, int, int, str]:
+        """Weld, part, order and surface."""
+        return self.station.weld, self.station.part, self.station.order, self.surface
 
     @property
     def row(self) -> pd.Series:
@@ -116,12 +131,15 @@ def gather(
     folder, record = inputs.folder, inputs.record
     model, at = solved_station(inputs, station)
     points = points_of(model, np.array([at]), np.array([face]), ON_DEMAND)
-    nodes, damage = (rows[rows["surface"] == FACES[face]] for rows in rows_of_station(model, at, loads, plan))
-    damage = damage.reset_index(drop=True)
+    again = count_station(model, at, loads, plan)
+    damage = again.damage[again.damage["surface"] == FACES[face]].reset_index(drop=True)
+    stored = read_rows(folder, "nodes", np.array([station.rows[face]])).to_pandas().iloc[0]
+    counted = again.nodes.iloc[face]
 
     scratch = inputs.scratch / "point"
     scratch.mkdir()
-    write_cycles(scratch, model, at, face, loads, plan)
+    write_cycles(scratch, again, face, loads, plan)
+    write_band(scratch, again, face, counted if station.screened[face] else stored, loads, plan)
     weld = read_welds(folder).set_index("weld", drop=False).loc[station.weld]
     cycles = _cycles(scratch, record, station, face, str(weld["curve"]))
     event = _event_of(damage, record) if shown is None else shown
@@ -131,15 +149,16 @@ def gather(
     of_events = [damage.iloc[number : number + 1].reset_index(drop=True) for number in range(len(loads))]
     how = AS_USUAL if known is None else known.settings
     evidence = share_out(inputs.body, points, loads, plan, of_events, how)
-    stored = read_rows(folder, "nodes", np.array([station.rows[face]])).to_pandas().iloc[0]
     return Gathered(
         record=record,
         station=station,
         face=face,
         stored=stored,
-        counted=nodes.iloc[0],
+        counted=counted,
         weld=weld,
         line=read_rows(folder, "nodes", rows_of_welds(folder, "nodes", [station.weld])[station.weld]).to_pandas(),
+        bands_counted=read_bands(scratch, [station.weld]),
+        bands_stored=read_bands(folder, [station.weld]),
         damage=damage,
         damage_stored=_stored_damage(folder, station.rows[face], len(plan.names)),
         cycles=cycles,

@@ -8,7 +8,7 @@ import pandas as pd
 from fatigue.point.page.checked import is_decided_by_shear
 from fatigue.point.page.gathered import Gathered
 from fatigue.report.merged_cycles import MOST_ROWS
-from fatigue.report.wording import km, number, share, short, whole
+from fatigue.report.wording import life_km, number, share, short, whole
 
 
 def notes_of(found: Gathered) -> tuple[str, ...]:
@@ -67,7 +67,7 @@ def _screened(found: Gathered) -> str:
     times = "" if damage == 0.0 else f", {number(bound / damage)} times as much"
     return (
         f"The result did not count this point: a bound ({found.stored['screened']}) settled it, with a damage of at "
-        f"most {number(bound)} per km and a life of at least {km(found.stored['life_km'])}. Counted now: "
+        f"most {number(bound)} per km and a life of at least {life_km(found.stored['life_km'])}. Counted now: "
         f"{number(damage)} per km{', the bound is ' + times[2:] if times else ''}"
     )
 
@@ -82,7 +82,7 @@ def _beside_the_worst(found: Gathered, weld: pd.Series) -> Iterator[str]:
     place = f"{part}order {weld['worst_order']}, node {weld['worst_node']}, {weld['worst_surface']} face"
     times = float(found.row["life_km"]) / float(weld["life_km"])
     ratio = f"; the life here is {number(times)} times as long" if np.isfinite(times) else ""
-    yield f"The weld is worst at {place}: {km(weld['life_km'])}{ratio}"
+    yield f"The weld is worst at {place}: {life_km(weld['life_km'])}{ratio}"
 
 
 def _shown(found: Gathered) -> Iterator[str]:

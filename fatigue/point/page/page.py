@@ -13,6 +13,7 @@ from fatigue.report import figures, wording
 from fatigue.report.of_record import mode_names, target_of, weights_of
 from fatigue.report.page_text import page_text
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.beside.life_band import band_facts, band_sentence
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.curves import curve_words, figure_mark
 from fatigue.report.sections.embed import Figures, Shown
@@ -69,7 +70,8 @@ def facts_of(found: Gathered) -> dict[str, Any]:
         "verdict": verdict_cell(found),
         "target_km": target_of(record),
         "notes": notes_of(found),
-        "facts": [*weld_tables.facts(row, weld, curve), *shear_facts(row)],
+        "facts": [*weld_tables.facts(row, weld, curve), *band_facts(found.bands, row), *shear_facts(row)],
+        "band": band_sentence(None if found.bands is None else found.bands.of(*found.key)),
         "event": found.event,
         "undamaged": row["damage_per_km"] == 0.0,
     }

@@ -38,10 +38,27 @@ def test_the_result_is_met_again(results, name):
     for row in nodes.iloc[[5, len(nodes) - 2]].itertuples():
         found = point(folder, row.weld, order=row.order, part=row.part, surface=row.surface)
         assert max(check.difference for check in found.checks) < 1e-9, found.checks
-        assert len(found.checks) == 5
+        assert len(found.checks) == 6
         assert found.counted["damage_per_km"] == pytest.approx(row.damage_per_km, rel=1e-12)
         assert found.counted["max_range_MPa"] == pytest.approx(row.max_range_MPa, rel=1e-12)
         assert found.events["share"].sum() == pytest.approx(1.0)
+
+
+def test_every_point_has_a_band(tmp_path):
+    """Where the result has one the same; where it has none, as without histograms, counted now."""
+    path = small_case(seconds=60.0).write(tmp_path / "case")
+    for histogram in ("all", "none"):
+        assess(path, tmp_path / histogram, threads=1, report=False, histogram=histogram)
+    with_band, without = (point(tmp_path / name, "A", order=5, surface="bottom") for name in ("all", "none"))
+    assert with_band.checks[-1].what == "band.parquet, both ends of the band of load"
+    assert with_band.agrees
+    row = stored(tmp_path / "all", "band").set_index(KEY).loc["A", 1, 5, "bottom"]
+    for found in (with_band, without):
+        assert found.band.low_km == pytest.approx(row["life_km_load_low"], rel=1e-9, nan_ok=True)
+        assert found.band.lives_km["life_km_p90"] == pytest.approx(row["life_km_p90"], rel=1e-9, nan_ok=True)
+        assert found.band.reason == ("" if pd.isna(row["band_reason"]) else row["band_reason"])
+        assert any(name == "Life, 90 % band of load" for name, _ in found.facts)
+    assert not (tmp_path / "none" / "band.parquet").exists()
 
 
 def test_cycles_are_those_of_the_result(results):
