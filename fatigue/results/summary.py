@@ -352,7 +352,8 @@ def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
 
 def _life(value: Any) -> str:
     """A life in a cell: three digits, the fourth is far below its scatter."""
-    return _cell(float(f"{value:.3g}") if isinstance(value, float) else value)
+    rounds = isinstance(value, float) and value <= LONGEST_LIFE_KM
+    return _cell(float(f"{value:.3g}") if rounds else value)
 
 
 def _cell(value: Any) -> str:

@@ -100,5 +100,6 @@ def slope_of_damage(point: BandPoint, of: MissionHistogram) -> float:
     if law.is_straight or not of.count.any():
         return float(law.slopes[0])
     weaker, stronger = log_life_factors(of.count, of.power_sum, law, np.array([0.99, 1.01]))
-    slope = (stronger - weaker) / np.log(1.01 / 0.99)
-    return float(slope) if np.isfinite(slope) else float(law.slopes[0])
+    if not np.isfinite([weaker, stronger]).all():  # no cycle damages
+        return float(law.slopes[0])
+    return float((stronger - weaker) / np.log(1.01 / 0.99))

@@ -8,7 +8,7 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.report.figures.cycles import cumulative
-from fatigue.report.figures.given import ResultTable, check_known, frame_of
+from fatigue.report.figures.given import ResultTable, check_known, check_one_each, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
     INK,
@@ -204,6 +204,7 @@ def ranges_by_method(cycles: ResultTable, moments: NDArray[np.float64], duration
     Beside both is what would be if the stress were of a narrow band: Rayleigh ranges at the rate of zero crossings.
     """
     cycles = frame_of(cycles, "cycles", ("range_MPa", "count"))
+    check_one_each(moments, range(4), "moments")
     ranges = cycles["range_MPa"].to_numpy(dtype=np.float64)
     counted, reached = cumulative(ranges, cycles["count"].to_numpy(dtype=np.float64))
     shape = spectral_shape(moments[:, None])

@@ -8,7 +8,14 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
-from fatigue.report.figures.given import ResultTable, check_one_each, check_one_weld, check_target, frame_of
+from fatigue.report.figures.given import (
+    ResultTable,
+    check_one_each,
+    check_one_weld,
+    check_point,
+    check_target,
+    frame_of,
+)
 from fatigue.report.figures.style import (
     ACCENT,
     DASHES,
@@ -89,6 +96,7 @@ def along_weld(
     data.append(_worst(worst, float(place[at]), float(place[at] / max(place[-1], 1.0))))
     shapes = []
     if marked is not None:
+        check_point(points, marked, "marked")
         here = int(((top["part"] == marked[0]) & (top["order"] == marked[1])).argmax())
         data.append(_marked(points, marked, float(place[here])))
         shapes.append(upright(float(place[here]), ACCENT, 1.5, "solid"))

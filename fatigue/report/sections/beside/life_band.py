@@ -41,7 +41,7 @@ def life_band_section(result: ShownResult, bands: Bands | None, links: Mapping[s
     asked = result.record["rules"]["life_band"]
     return {
         "band": True,
-        "band_head": _of_worst(found[0]) if found else "",
+        "band_head": band_sentence(found[0]) if found else "",
         "life_bands": _table(welds, found, links, with_lines=lines),
         "band_left_out": max(0, len(result.assessed) - MOST),
         "band_reasons": [(SHORT_REASONS[reason], REASONS[reason]) for reason in reasons],
@@ -67,8 +67,8 @@ def band_facts(bands: Bands | None, point: pd.Series) -> list[tuple[str, str]]:
     return facts
 
 
-def _of_worst(found: BandOfPoint | None) -> str:
-    """Sentence beneath the shortest life."""
+def band_sentence(found: BandOfPoint | None) -> str:
+    """Sentence beneath a life; empty where it has no row."""
     if found is None:
         return ""
     if not found.has_band:
