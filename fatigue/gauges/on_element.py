@@ -106,7 +106,8 @@ def plate_thickness(gauge: Gauge, plates: Plates, index: int) -> float:
     """
     shells = plates.shells
     element, pid, own = int(shells.element[index]), int(shells.pid[index]), float(shells.thickness[index])
-    return thickness_of(gauge, plates.properties, element, pid, own)
+    doubt = plates.loads.mesh.unconfirmed.get(element, "")
+    return thickness_of(gauge, plates.properties, element, pid, own, doubt)
 
 
 def _doubts(gauge: Gauge, plates: Plates, index: int) -> list[Problem]:
