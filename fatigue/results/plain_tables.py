@@ -1,5 +1,6 @@
 """Rows on disk: Parquet with unit and meaning of every column, and CSV, in a folder that a command fills."""
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -63,11 +64,11 @@ def write_csv(folder: Path, name: str, columns: Sequence[Column], rows: Rows) ->
 
 
 def harmless(table: pa.Table) -> pa.Table:
-    """The same table with an apostrophe before every text that a spreadsheet would take for a formula."""
+    """The same table with an apostrophe before every text, and every name, that a spreadsheet takes for a formula."""
     for i, field in enumerate(table.schema):
         if field.type == pa.string():
             table = table.set_column(i, field, pc.replace_substring_regex(table[i], _FORMULA, r"'\1"))
-    return table
+    return table.rename_columns([re.sub(_FORMULA, r"'\1", name) for name in table.column_names])
 
 
 def fill(
