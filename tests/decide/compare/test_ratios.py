@@ -38,7 +38,9 @@ def test_the_side_of_a_bound_is_the_right_one():
     life_a, life_b = rng.uniform(1e5, 1e7, (2, 200))
     bound_a = rng.uniform(size=200) < 0.5
     log, basis = life_ratio(life_a, life_b, bound_a, ~bound_a)
-    true_a, true_b = (np.where(bound, life * rng.uniform(1, 5, 200), life) for bound, life in ((bound_a, life_a), (~bound_a, life_b)))
+    true_a, true_b = (
+        np.where(bound, life * rng.uniform(1, 5, 200), life) for bound, life in ((bound_a, life_a), (~bound_a, life_b))
+    )
     truth = np.log(true_b / true_a)
     assert (truth[basis == "at_most"] <= log[basis == "at_most"]).all()
     assert (truth[basis == "at_least"] >= log[basis == "at_least"]).all()

@@ -30,7 +30,13 @@ def body(letter: str, lines: dict[str, np.ndarray], thickness: dict[str, float] 
     )
     length = [float(np.linalg.norm(np.diff(xyz, axis=0), axis=1).sum()) for xyz in lines.values()]
     thick = [(thickness or {}).get(name, 8.0) for name in names]
-    columns = {"length_mm": length, "closed": False, "thickness_min_mm": thick, "thickness_max_mm": thick, "surface": "both"}
+    columns = {
+        "length_mm": length,
+        "closed": False,
+        "thickness_min_mm": thick,
+        "thickness_max_mm": thick,
+        "surface": "both",
+    }
     welds = pd.DataFrame(columns, index=list(names))
     return Finished(letter, None, {}, points, welds, {}, np.ones(len(names)), {}, is_diagnosed=False)  # type: ignore[arg-type]
 
@@ -65,7 +71,15 @@ def names(found):
 def test_lines_near_and_equally_long_are_proposed():
     """Within 5 mm and 5 %; the nearest one each way; lines further away or of another length are not."""
     a = body("A", {"near": straight(0.0), "long": straight(500.0), "far": straight(1000.0)})
-    b = body("B", {"one": straight(3.0, count=7), "two": straight(-4.0), "three": straight(500.0, 106.0), "four": straight(1006.0)})
+    b = body(
+        "B",
+        {
+            "one": straight(3.0, count=7),
+            "two": straight(-4.0),
+            "three": straight(500.0, 106.0),
+            "four": straight(1006.0),
+        },
+    )
     found = proposals(a, b, ["near", "long", "far"], ["one", "two", "three", "four"])
     assert names(found) == [("near", "one")]
     assert found[0].distance_mm == pytest.approx(3.0)

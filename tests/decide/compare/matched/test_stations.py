@@ -20,7 +20,16 @@ def points(xyz, part=None, order=None, weld=None) -> Points:
     columns = {name: np.repeat(value, 2) for name, value in (("weld", weld), ("part", part), ("order", order))}
     ones = np.ones(2 * n)
     names = tuple(f"w{i}" for i in range(int(weld.max(initial=0)) + 1))
-    return Points(names, **columns, node=np.arange(2 * n), xyz=np.asarray(xyz, float), toe=ones > 0, damage=ones, life=ones, screened=ones < 0)
+    return Points(
+        names,
+        **columns,
+        node=np.arange(2 * n),
+        xyz=np.asarray(xyz, float),
+        toe=ones > 0,
+        damage=ones,
+        life=ones,
+        screened=ones < 0,
+    )
 
 
 def line(count=11, length=100.0):
