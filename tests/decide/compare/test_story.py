@@ -305,11 +305,10 @@ def test_points_that_nothing_damages(reference, tmp_path):
 def test_bounds_make_ratios_one_sided(reference, tmp_path):
     """Screened points of B: at least; of A: at most; of both: unknown. None of them has causes."""
     screened = without_hashes(shutil.copytree(reference, tmp_path / "screened"))
-    table = pd.read_parquet(screened / "nodes.parquet")
-    schema = pq.read_schema(screened / "nodes.parquet")
-    table.loc[table["order"] == 3, "screened"] = "modal bound"
-    pq.write_table(pq.read_table(screened / "nodes.parquet").set_column(
-        schema.get_field_index("screened"), "screened", [table["screened"].to_list()]), screened / "nodes.parquet")  # fmt: skip
+    table = pq.read_table(screened / "nodes.parquet")
+    tier = np.where(np.array(table["order"]) == 3, "modal bound", "")
+    place = table.schema.get_field_index("screened")
+    pq.write_table(table.set_column(place, "screened", [tier.tolist()]), screened / "nodes.parquet")
     for folders, basis in (((reference, screened), "at_least"), ((screened, reference), "at_most")):
         (pair,) = compare(folders).pairs
         bounded = pair.points["order"] == 3

@@ -32,8 +32,8 @@ def test_the_largest_causes_come_first_and_those_against_them_behind():
     ]  # fmt: skip
     said = why(causes, -2.4, NAMES)
     assert said == (
-        "first does 4 times the damage per pass and occurs 2 times as often and second occurs 2 times as often; against "
-        "it back does 4 times the damage per pass"
+        "first does 4 times the damage per pass and occurs 2 times as often and second occurs 2 times as often; "
+        "against it back does 4 times the damage per pass"
     )
     assert largest_cause(causes).event == "first"
 

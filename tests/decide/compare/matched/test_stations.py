@@ -57,12 +57,12 @@ def test_a_reversed_line_matches_by_place():
 
 def test_a_finer_line_gives_its_nearest_stations():
     """Between stations of the finer line nothing is interpolated: beyond half its spacing they stand for two places."""
-    coarse, fine = line(6), line(41) + [1.2, 0.0, 0.0]
+    coarse, fine = line(6), line(41) + np.array([1.2, 0.0, 0.0])
     found = match_stations(points(coarse), points(fine), ONE)
     assert found.second.tolist() == [0, 8, 16, 24, 32, 40]
     assert found.distance == pytest.approx(np.full(6, 1.2))
     assert found.comparable.all()
-    apart = match_stations(points(coarse), points(fine + [0.0, 1.25, 0.0]), ONE)
+    apart = match_stations(points(coarse), points(fine + np.array([0.0, 1.25, 0.0])), ONE)
     assert not apart.comparable.any()
     assert match_stations(points(fine), points(coarse), ONE).comparable.sum() < 41
 
