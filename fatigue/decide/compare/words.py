@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from fatigue.decide.compare.split import LIMIT, MISSION, MODE, PER_PASS, SEQUENCE, UNIT_LOAD, WHOLE
-from fatigue.report.wording import listed, number, short
+from fatigue.report.wording import listed, short
 
 SAME = 1.05  # factor on a life up to which it is called as long as before
 NAMED = 0.2  # of the log ratio: causes from here on are named
@@ -103,32 +103,30 @@ def _by_size(causes: Iterable[Cause]) -> list[Cause]:
 
 
 def _said(of: Cause, causes: Sequence[Cause], names: Mapping[int, str]) -> str:
-    """One cause in words."""
+    """One cause in words; modes where the damage of a pass changes, as none makes an event more frequent."""
     if of.kind == LIMIT:
-        return f"the damage limit is {number(of.other_value)} instead of {number(of.value)}"
+        return f"the damage limit is {of.other_value:g} instead of {of.value:g}"
     name = short(of.event)
+    often, damage = _shares([one for one in causes if one.event == of.event])
+    said = [f"does {_of(damage.other_value / damage.value)} the damage per pass"] if damage is not None else []
+    said += [f"occurs {times(often.other_value / often.value)} as often"] if often is not None else []
     if of.value == 0.0 or of.other_value == 0.0:
         change = "comes in" if of.value == 0.0 else "is gone"
-        said = f"what {name} adds across events {change}" if of.kind == SEQUENCE else f"{name} {change}"
+        event = f"what {name} adds across events {change}" if of.kind == SEQUENCE else f"{name} {change}"
     else:
-        said = f"{name} {_changed([one for one in causes if one.event == of.event])}"
-    modes = modes_of(causes, of, names)
-    return f"{said}, most of it by {listed(modes)}" if modes else said
+        event = f"{name} {listed(said) or 'relieves in one of them and damages in the other'}"
+    modes = modes_of(causes, of, names) if damage is not None or not said else []
+    return f"{event}, most of it by {listed(modes)}" if modes else event
 
 
-def _changed(causes: Sequence[Cause]) -> str:
-    """How an event that both results have differs: how often it occurs, the damage of a pass, or both."""
+def _shares(causes: Sequence[Cause]) -> tuple[Cause | None, Cause | None]:
+    """How often an event occurs, and the damage of a pass, where they are worth naming in what the event adds."""
     parts = {one.kind: one for one in causes if one.kind in (MISSION, PER_PASS)}
-    if len(parts) < 2:
-        return "relieves in one of them and damages in the other"
-    often, damage = parts[MISSION], parts[PER_PASS]
-    both = abs(often.log_life_ratio) + abs(damage.log_life_ratio)
-    said = []
-    if abs(damage.log_life_ratio) >= NAMED * both:
-        said.append(f"does {_of(damage.other_value / damage.value)} the damage per pass")
-    if abs(often.log_life_ratio) >= NAMED * both:
-        said.append(f"occurs {times(often.other_value / often.value)} as often")
-    return listed(said)
+    least = NAMED * sum(abs(one.log_life_ratio) for one in parts.values())
+    often, damage = (
+        one if one and abs(one.log_life_ratio) >= least else None for one in map(parts.get, (MISSION, PER_PASS))
+    )
+    return often, damage
 
 
 def _of(factor: float) -> str:

@@ -12,6 +12,7 @@ from fatigue.decide.compare.finished import Ints, Points
 Floats = NDArray[np.float64]
 
 SAME_MM = 1e-3  # between stations at one place
+INWARD_MM = 10.0 * SAME_MM  # by which ends are moved into their parts, so that two legs of a kink stay apart
 FINER = 0.5  # of the finer spacing: further away a station stands for another place
 
 
@@ -45,25 +46,21 @@ def match_stations(a: Points, b: Points, partner: Ints) -> MatchedStations:
     wanted = pd.MultiIndex.from_arrays([weld, a.part[a.stations][first], a.order[a.stations][first]])
     second = there.get_indexer(wanted).astype(np.int64)
     known = second >= 0
-    known[known] = np.linalg.norm(a.xyz[first[known]] - b.xyz[second[known]], axis=1) <= SAME_MM
+    mine, theirs = (one.xyz + INWARD_MM * _inward(one) for one in (a, b))
+    known[known] = np.linalg.norm(mine[first[known]] - theirs[second[known]], axis=1) <= SAME_MM
     if not known.all():
-        second[~known] = _nearest(a, b, first[~known], weld[~known])
+        second[~known] = _nearest(mine[first[~known]], theirs, weld[~known], b.weld[b.stations])
     distance = np.linalg.norm(a.xyz[first] - b.xyz[second], axis=1)
     finer = np.fmin(spacing(a)[first], spacing(b)[second])
     comparable = distance <= np.fmax(SAME_MM, FINER * np.nan_to_num(finer))
     return MatchedStations(first, second, distance, comparable)
 
 
-def _nearest(a: Points, b: Points, stations: Ints, weld: Ints) -> Ints:
-    """Nearest stations on the matched welds.
-
-    Welds lie apart in a fourth dimension, so that one tree serves all. At a kink two parts end in one node: ends are
-    moved into their parts by as much as two places of one station may differ.
-    """
-    mine, theirs = (one.xyz + SAME_MM * _inward(one) for one in (a, b))
-    apart = 10.0 * (1.0 + max(float(np.ptp(xyz, axis=0).max()) for xyz in (a.xyz, b.xyz)))
-    tree = cKDTree(np.column_stack([theirs, apart * b.weld[b.stations]]))
-    return np.asarray(tree.query(np.column_stack([mine[stations], apart * weld]))[1], np.int64)
+def _nearest(mine: Floats, theirs: Floats, weld: Ints, weld_there: Ints) -> Ints:
+    """Nearest places on the matched welds; these lie apart in a fourth dimension, so that one tree serves all."""
+    apart = 10.0 * float(np.ptp(np.vstack([mine, theirs]), axis=0).max()) + 1.0
+    tree = cKDTree(np.column_stack([theirs, apart * weld_there]))
+    return np.asarray(tree.query(np.column_stack([mine, apart * weld]))[1], np.int64)
 
 
 def spacing(points: Points) -> Floats:

@@ -9,7 +9,7 @@ from fatigue.decide.compare.finished import Finished
 from fatigue.decide.compare.matched.lines import Proposal, proposals
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.tables import open_table
-from fatigue.shown import few, shortened
+from fatigue.shown import few
 
 NAME, MAP, GEOMETRY, PROPOSED = "name", "map", "geometry", "proposed"
 
@@ -112,7 +112,7 @@ def match_welds(a: Finished, b: Finished, of_map: WeldMap, *, accept_proposed: b
 
 
 def _nothing_common(a: Finished, b: Finished, proposed: Sequence[Proposal]) -> Iterator[Problem]:
-    names = [few([shortened(str(name)) for name in one.welds.index]) or "none" for one in (a, b)]
+    names = [few(sorted(one.welds.index)) or "none" for one in (a, b)]
     what = f"no weld has its name in {a.letter} ({a.folder}) as well: there {names[0]}, here {names[1]}"
     certain = sum(not one.others for one in proposed)
     remedy = "Name the pairs in a table weld_a,weld_b with --map"
