@@ -26,16 +26,15 @@ MEANING = {
 }
 HEADINGS = (
     Heading("weld", numeric=False),
+    Heading("before", numeric=False),
+    Heading("now", numeric=False),
     Heading("life before", "km"),
     Heading("life", "km"),
     Heading("from .. to", "km"),
     Heading("life ratio"),
-    Heading("utilisation before"),
     Heading("utilisation"),
     Heading("load factor"),
     Heading("basis", numeric=False),
-    Heading("before", numeric=False),
-    Heading("now", numeric=False),
 )
 
 
@@ -79,24 +78,22 @@ def _flips(found: WhatIf) -> PageTable | None:
         (text(row.weld), VERDICT[row.verdict_before], VERDICT[row.verdict], num(row.life_km_before), num(row.life_km))
         for row in found.flips.head(MOST_ROWS).itertuples()
     ]
-    headings = (HEADINGS[0], *HEADINGS[-2:], *HEADINGS[1:3])
-    return PageTable("flips", headings, tuple(rows)) if rows else None
+    return PageTable("flips", HEADINGS[:5], tuple(rows)) if rows else None
 
 
 def _weld_table(found: WhatIf) -> PageTable:
     rows = tuple(
         (
             text(row.weld),
+            VERDICT[row.verdict_before],
+            VERDICT[row.verdict],
             num(row.life_km_before),
             num(row.life_km),
             span(row.life_km_low, row.life_km_high),
             num(row.life_ratio),
-            num(row.utilisation_before),
             num(row.utilisation),
             num(row.load_factor),
             text(row.basis),
-            VERDICT[row.verdict_before],
-            VERDICT[row.verdict],
         )
         for row in found.welds.head(MOST_ROWS).itertuples()
     )

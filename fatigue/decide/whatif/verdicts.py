@@ -19,6 +19,7 @@ from fatigue.life.mission import life_km
 from fatigue.quotient import quotient
 
 Floats = NDArray[np.float64]
+KEY = ("part", "order", "surface")
 MEETS, MISSES, NOT_PROVEN = VERDICTS = ("meets", "misses", "not_proven")
 
 
@@ -47,8 +48,7 @@ def weld_table(
     verdict = np.select([low > 1.0, sure & (high <= 1.0) & ~checks_fail], [MISSES, MEETS], NOT_PROVEN)
     life_before = before["life_km"].to_numpy(dtype=np.float64)
     place = _places(keys, worst)
-    old_place = before[["worst_part", "worst_order", "worst_surface"]].astype(str).agg("/".join, axis=1).to_numpy()
-    new_place = place[["worst_part", "worst_order", "worst_surface"]].astype(str).agg("/".join, axis=1).to_numpy()
+    moved = [there & (keys[name].to_numpy()[worst] != before[f"worst_{name}"].to_numpy()) for name in KEY]
     basis = np.where(sure & there, found.basis[worst], RECOUNT)
     table = pd.DataFrame(
         {
@@ -74,7 +74,7 @@ def weld_table(
             "load_factor_low": np.where(sure, of_weld.low, np.nan),
             "load_factor_high": of_weld.high,
             **place,
-            "worst_moved": there & (old_place != new_place),
+            "worst_moved": np.logical_or.reduce(moved),
         }
     )
     urgency = table["verdict"].map({MISSES: 0, NOT_PROVEN: 1, MEETS: 2})
