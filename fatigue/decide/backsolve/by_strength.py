@@ -73,7 +73,7 @@ def from_stored(base: Base, kind: Kind, target_km: float, counting: Counting) ->
     straight = np.array([base.curve(w).after.rule.law.is_straight for w in _each(base)]) & ~of_counted
     damaged = u > 0.0
     guess = np.where(damaged, strength_factor(np.where(damaged, u, 1.0), slope), 1.0)
-    found.x = np.where(damaged, guess, 0.0)
+    found.x = np.where(damaged & ~of_counted, guess, 0.0)  # counted points ask for more
     found.low, found.high = found.x.copy(), found.x.copy()
     found.basis[straight] = "exact"
     knees = ~straight & ~of_counted & damaged
