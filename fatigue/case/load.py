@@ -11,7 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from fatigue.case.channels import Alarm, Channel, Equipment, EquipmentMode, Ride, channel_problems
 from fatigue.case.check_problems import counts_problems, shear_problems
-from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
+from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial, StressCategory
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
 from fatigue.case.load_problems import unit_load_problems
@@ -51,6 +51,7 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
     ("checks",): Checks,
     ("checks", "interaction"): Interaction,
     ("checks", "endurance"): EnduranceCheck,
+    ("checks", "stress_category"): StressCategory,
 }
 
 

@@ -18,6 +18,7 @@ from fatigue.cli.commands import (
     study,
     verify,
     welds,
+    whatif,
 )
 
 __all__ = [
@@ -35,4 +36,5 @@ __all__ = [
     "study",
     "verify",
     "welds",
+    "whatif",
 ]

@@ -59,7 +59,7 @@ class Difference:
     @property
     def words(self) -> str:
         """What is changed, in words."""
-        return f"{self.name}: {_shown(self.before)} > {_shown(self.after)}"
+        return f"{self.name} from {_shown(self.before)} to {_shown(self.after)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +171,7 @@ def _other_files(record: Mapping[str, Any], base: Case, changed: Case, told: set
 
 def _refused(changed: Case, key: Parts, before: Any, after: Any) -> Problem:
     one = Difference(key, before, after, "words")
-    what = f"{_shown(before)} > {_shown(after)} is a change that the result says nothing about"
+    what = f"a change from {_shown(before)} to {_shown(after)} is no knob: the result says nothing about it"
     return Problem(
         "no_knob", f"{changed.path.name}: {one.name}", what, "Assess the changed case, or leave it as it was"
     )

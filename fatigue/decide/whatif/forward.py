@@ -4,6 +4,7 @@
 ``histogram``   ranges in classes are entered into the new law: between two proven bounds
 ``bound``       a multiple of a stored damage that no cycle exceeds; of points that were not counted, or have no ranges
 ``recount``     nothing stored says enough: no number
+``counted``     counted again, where that was asked for (``recounted``)
 
 Events that keep their damage stay exact beside others that do not. Cycles across events go with the events they join.
 """
@@ -24,8 +25,8 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Ranges = Callable[[Kind], StoredRanges]
 
-BASES = ("exact", "histogram", "bound", "recount")
-EXACT, HISTOGRAM, BOUND, RECOUNT = range(4)
+BASES = ("exact", "histogram", "bound", "recount", "counted")
+EXACT, HISTOGRAM, BOUND, RECOUNT, COUNTED = range(5)
 SHARE_OF_LIMIT = 0.1  # a bound that reaches it is counted again
 ROUNDING = 1e-9  # relative, of a stored sum
 
@@ -170,23 +171,37 @@ def _add_others(
 
 def _of_ranges(stored: Stored, change: Change, curve: OneCurve, some: StoredRanges, others: Flags) -> Enclosed:
     """Damage per km (n,) of the events among ``others`` from their ranges, 0 of points that have none here."""
-    joined = others & change.loop_events()
-    parts = [some.classes_of(~joined[some.row], change.after.weights)]
-    factors = [change.factors[some.row[~joined[some.row]]]]
+    classes, f = mission_classes(change, some, others)
+    return entered(classes, f, curve, stored, len(stored))
+
+
+def mission_classes(change: Change, some: StoredRanges, rows: Flags) -> tuple[Classes, Floats]:
+    """Classes per km of some events and loops, and the factor on the stress of each.
+
+    Loops are joined with the events whose cycles they replace.
+    """
+    joined = rows & change.loop_events()
+    alone = rows & ~joined
+    parts = [some.classes_of(alone[some.row], change.after.weights)]
+    factors = [change.factors[some.row[alone[some.row]]]]
     for factor in np.unique(change.factors[joined]):
         of_loops = joined & (change.factors == factor)
         parts.append(joined_classes(some.classes_of(of_loops[some.row], change.after.weights)))
         factors.append(np.full(len(parts[-1]), factor))
-    classes = Classes(*(np.concatenate([getattr(p, name) for p in parts]) for name in Classes.__slots__))
+    classes = Classes(*(np.concatenate([getattr(part, name) for part in parts]) for name in Classes.__slots__))
+    return classes, np.concatenate(factors)
+
+
+def entered(classes: Classes, f: Floats, curve: OneCurve, stored: Stored, points: int) -> Enclosed:
+    """Damage of classes with a factor ``f`` (c,) on their stress, entered into the new law of a curve, by points."""
     own = curve.range_factors(stored.thickness, stored.attachment)
-    f = np.concatenate(factors)
-    law, n = curve.after.rule.law, len(stored)
+    law = curve.after.rule.law
     least, most = f * own.least[classes.of], f * own.most[classes.of]
-    found = damage_of_classes(classes, curve.slope, law, np.sqrt(least * most) if curve.ranges == "S" else most, n)
+    found = damage_of_classes(classes, curve.slope, law, np.sqrt(least * most) if curve.ranges == "S" else most, points)
     if np.array_equal(least, most):
         return found
-    low = damage_of_classes(classes, curve.slope, law, least, n).low
-    return Enclosed(low, found.value, damage_of_classes(classes, curve.slope, law, most, n).high)
+    low = damage_of_classes(classes, curve.slope, law, least, points).low
+    return Enclosed(low, found.value, damage_of_classes(classes, curve.slope, law, most, points).high)
 
 
 def _bounded(stored: Stored, change: Change, curve: OneCurve, rows: NDArray[np.intp], others: Flags) -> Enclosed:
