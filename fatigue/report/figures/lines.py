@@ -26,7 +26,7 @@ from fatigue.report.figures.style import (
     single,
     upright,
 )
-from fatigue.report.wording import number
+from fatigue.report.wording import life_km
 
 PART_GAP = 0.03  # of the whole length, between the parts of a weld split at its kinks
 LARGEST_FACTOR = 1e3  # load factors beyond are drawn there
@@ -149,7 +149,7 @@ def _worst(worst: pd.Series, place: float, along: float) -> Trace:
             "color": INK if worst["fulfilled"] else MISSED,
             "line": {"width": 2},
         },
-        "text": [f"{number(worst['life_km'])} km"],
+        "text": [life_km(worst["life_km"])],
         "textposition": f"{level} {side}",
         "hoverinfo": "skip",
         "cliponaxis": False,

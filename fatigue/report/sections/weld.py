@@ -14,6 +14,7 @@ from fatigue.report.checks import ShownChecks
 from fatigue.report.result import ShownResult
 from fatigue.report.sections import weld_tables
 from fatigue.report.sections.beside.checks import weld_checks
+from fatigue.report.sections.beside.life_band import band_facts
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.curves import all_marked, curve_words, figure_mark, of_toes
@@ -23,6 +24,7 @@ from fatigue.report.sections.formation.words import of_one_weld
 from fatigue.report.sections.load_spectra import LoadSpectra, equivalent_table, spectra_figures
 from fatigue.report.sections.why import Why, band_shares, exponents, mode_shares
 from fatigue.report.variants import Assumptions, assumptions_of, how_often, variants
+from fatigue.results.beside.life_band import Bands
 
 SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED, EVENTS_LISTED = 6, 8, 4, 20
 
@@ -61,6 +63,7 @@ def weld_page(
     why: Why | None,
     spectra: LoadSpectra | None,
     checks: ShownChecks,
+    bands: Bands | None,
     figs: Figures,
     id_: str,
 ) -> WeldPage:
@@ -105,7 +108,11 @@ def weld_page(
         name=weld,
         row=row.to_dict(),
         unverified=bool(unverified),
-        facts=[*weld_tables.facts(point, row, curve_words(row["curve"], result.record)), *shear_facts(point)],
+        facts=[
+            *weld_tables.facts(point, row, curve_words(row["curve"], result.record)),
+            *band_facts(bands, point),
+            *shear_facts(point),
+        ],
         checks=weld_checks(f"{id_}-checks", checks, weld),
         along=along,
         point=shown,
