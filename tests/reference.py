@@ -17,6 +17,7 @@ from fatigue.decide.fleet.fleet_file import Fleet
 from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
+from fatigue.results.dictionary.decided.backsolve import BACKSOLVED
 from fatigue.results.dictionary.decided.fleet import FLEET
 from fatigue.results.dictionary.graph import GRAPH
 from fatigue.results.dictionary.study import STUDY
@@ -215,7 +216,7 @@ def _allowed(key: Key) -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED | FLEET).items():
+    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED | FLEET | BACKSOLVED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])
