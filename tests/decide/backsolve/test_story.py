@@ -112,23 +112,42 @@ def test_knee(tmp_path, question):
         case = scaled(short(), factor) if question == "load" else short()
         case = own_curve(case, 40.0 * (factor if question == "curve" else 1.0), **knees)
         u = utilisations(made(case, tmp_path / at)).max()
-        rises = question == "load"
         if at == "answer":
             assert u == pytest.approx(1.0, abs=1e-3)
-        elif (at == "low") == rises:
+        elif (at == "low") == (question == "load"):
             assert u <= 1.0 + 1e-9
         else:
             assert u >= 1.0 - 1e-9
 
 
-def test_points_without_ranges_are_counted(tmp_path):
-    """Without histograms the answer on a curve with a knee is counted, and exact."""
+@pytest.mark.parametrize("factor", [1.0, 0.1])
+def test_points_without_ranges_are_counted(tmp_path, factor):
+    """Without histograms the answer on a curve with a knee is counted, and exact: whether the target is met or not."""
     knees = {"slopes": [3.0, 5.0], "knees_cycles": [1e7]}
-    base = made(own_curve(short(), **knees), tmp_path / "base", histogram="none")
+    base = made(own_curve(scaled(short(), factor), **knees), tmp_path / "base", histogram="none")
+    assert (utilisations(base).max() > 1.0) == (factor == 1.0)
     row = proved(backsolve(base, "load"))[""]
     assert row.basis == "recount"
-    case = own_curve(scaled(short(), row.answer), **knees)
+    case = own_curve(scaled(short(), factor * row.answer), **knees)
     assert utilisations(made(case, tmp_path / "again")).max() == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("slopes", [[3.0], [3.0, 5.0]])
+def test_curve_under_mean_stress(tmp_path, slopes):
+    """f_M is of the stress and not of the curve: exact on one slope, counted with a knee."""
+    knees = {"slopes": slopes, "knees_cycles": [1e7] * (len(slopes) - 1), "applies": "dS"}
+
+    def case(factor=1.0):
+        one = own_curve(short(), 60.0 * factor, **knees)
+        one.curve |= {"mean_stress": "asme", "yield_MPa": 30.0}
+        for history in one.histories.values():
+            history["q_1"] += 60.0
+        return one
+
+    row = proved(backsolve(made(case(), tmp_path / "base"), "curve"))[""]
+    assert row.basis == ("exact" if len(slopes) == 1 else "recount")
+    u = utilisations(made(case(row.answer), tmp_path / "again")).max()
+    assert u == pytest.approx(1.0, abs=1e-6)
 
 
 def test_load_under_mean_stress(tmp_path):
