@@ -8,17 +8,18 @@ counted as soon as that bound could govern.
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.decide.backsolve.closed import strength_factor
 from fatigue.decide.backsolve.counted import CountedPoints
-from fatigue.decide.backsolve.forward import Base, largest_of_welds, with_strength, worst_of_welds
-from fatigue.decide.backsolve.root import log_steps, smallest_that_meets
+from fatigue.decide.backsolve.forward import Base, with_strength, worst_of_welds
+from fatigue.decide.backsolve.root import JUMPS, log_steps, smallest_that_meets
 from fatigue.decide.backsolve.strength import Kind
-from fatigue.decide.whatif.forward import EXACT, HISTOGRAM
+from fatigue.decide.whatif.forward import EXACT, HISTOGRAM, forward
+from fatigue.decide.whatif.margin import load_factors
 from fatigue.stages import stage
 
 Floats = NDArray[np.float64]
@@ -67,18 +68,20 @@ def from_stored(base: Base, kind: Kind, target_km: float, counting: Counting) ->
     now = stored.damage_per_km * target_km / base.limit[stored.weld]
     u, row = worst_of_welds(base, now, stored.toe & stored.counted)
     found = _nothing(len(stored.welds), row)
-    of_counted = np.array(
-        [kind == "load" and base.curve(w).after.rule.yield_of_damage is not None for w in _each(base)]
-    )
-    straight = np.array([base.curve(w).after.rule.law.is_straight for w in _each(base)]) & ~of_counted
+    rules = [base.curve(w).after.rule for w in _each(base)]
+    is_straight = np.array([rule.law.is_straight for rule in rules])
+    with_f_M = np.array([rule.yield_of_damage is not None for rule in rules])
+    of_counted = with_f_M & ((kind == "load") | ~is_straight)  # its conditions do not scale with the load
+    straight = is_straight & ~of_counted
     damaged = u > 0.0
     guess = np.where(damaged, strength_factor(np.where(damaged, u, 1.0), slope), 1.0)
-    found.x = np.where(damaged, guess, 0.0)
+    found.x = np.where(damaged & ~of_counted, guess, 0.0)  # counted points ask for more
     found.low, found.high = found.x.copy(), found.x.copy()
     found.basis[straight] = "exact"
     knees = ~straight & ~of_counted & damaged
     if knees.any():
-        _on_histograms(base, target_km, guess, knees, found)
+        of_counted |= knees & ~_on_histograms(base, target_km, knees, found)
+    found.low, found.high = np.minimum(found.low, found.x), np.maximum(found.high, found.x)  # but for rounding
     to_count = _could_govern(base, kind, target_km, now, found, of_counted)
     if to_count.size:
         stage("counting %d points again", len(to_count))
@@ -98,25 +101,26 @@ def _nothing(welds: int, row: Rows) -> Strengths:
     return Strengths(zero, zero.copy(), zero.copy(), row.copy(), nan, np.full(welds, "", object), flags, flags.copy())
 
 
-def _on_histograms(base: Base, target_km: float, guess: Floats, knees: NDArray[np.bool_], found: Strengths) -> None:
-    """Solve welds on curves with a knee: with the value, and with both bounds of the utilisation, in place."""
+def _on_histograms(base: Base, target_km: float, knees: NDArray[np.bool_], found: Strengths) -> NDArray[np.bool_]:
+    """Solve welds on curves with a knee: the load factors of their points, between two bounds, in place.
 
-    def utilisation(part: int) -> Callable[[Floats], Floats]:
-        def at(y: Floats) -> Floats:
-            largest = largest_of_welds(base, with_strength(base, np.where(knees, guess * y, 1.0)), target_km)
-            return np.where(knees, np.maximum(largest[part], 0.0), 0.0)
-
-        return at
-
-    of = [smallest_that_meets(utilisation(part), AROUND, len(guess)) for part in (0, 1, 2)]
-    for name, one in zip(("low", "x", "high"), of, strict=True):
-        setattr(found, name, np.where(knees, guess * one.x, getattr(found, name)))
-    found.jumps |= knees & of[1].jumps
-    found.basis[knees] = "histogram"
-    at = with_strength(base, np.where(knees & np.isfinite(found.x) & (found.x > 0.0), found.x, 1.0))
-    known = base.stored.toe & np.isin(at.basis, (EXACT, HISTOGRAM))
-    _, row = worst_of_welds(base, at.utilisation(target_km).value, known)
-    found.row = np.where(knees & (row >= 0), row, found.row)
+    Returns
+    -------
+    (w,) welds of which some point has ranges; nothing is known of the others
+    """
+    stored = base.stored
+    change = replace(base.change, after=replace(base.change.after, target_km=target_km))
+    at = forward(stored, change, base.curves, base.ranges_of)
+    factors = load_factors(stored, change, base.curves, base.ranges_of, at)
+    for name, part in (("low", factors.high), ("x", factors.value), ("high", factors.low)):
+        with np.errstate(divide="ignore"):
+            x, row = worst_of_welds(base, 1.0 / part, stored.toe & ~np.isnan(part))
+        solved = row >= 0
+        setattr(found, name, np.where(knees, np.where(solved, x, 0.0), getattr(found, name)))
+        if name == "x":
+            found.row = np.where(knees & solved, row, found.row)
+    found.basis[knees & solved] = "histogram"
+    return np.asarray(solved)
 
 
 def _could_govern(
@@ -176,6 +180,8 @@ def _prove(base: Base, target_km: float, found: Strengths) -> None:
     at = with_strength(base, np.where(solved, found.x, 1.0)).utilisation(target_km).value
     stored = solved & (found.basis != "recount")
     found.utilisation = np.where(stored, at[np.maximum(found.row, 0)], found.utilisation)
+    with np.errstate(invalid="ignore"):
+        found.jumps |= solved & (np.abs(found.utilisation - 1.0) > JUMPS)
 
 
 def of_thickness(base: Base, target_km: float, counting: Counting, rows: Rows) -> Strengths:

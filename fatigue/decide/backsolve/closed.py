@@ -43,7 +43,7 @@ def share_that_meets(held: Floats, own: Floats, rest: Floats, allowed: Floats | 
     allowed : damage limit over target
 
     >>> share_that_meets(np.zeros(1), np.array([4e-8]), np.array([(3e-8 + 1.2e-8) / 0.3]), 1.0 / 1.2e7).round(6)
-    array([0.565217])
+    array([0.566667])
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray((allowed - held - rest) / (own - rest))

@@ -3,7 +3,6 @@
 The way is that of ``whatif``: a strength scales the law of the curve of a weld, knees at the same numbers of cycles.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -17,10 +16,9 @@ from fatigue.decide.whatif.asked import TwoCases
 from fatigue.decide.whatif.change import Change, unchanged
 from fatigue.decide.whatif.curves import Curves, OneCurve, curves_of
 from fatigue.decide.whatif.difference import Differences
-from fatigue.decide.whatif.forward import BASES, RECOUNT, Forward, forward
+from fatigue.decide.whatif.forward import Forward, forward
 from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges, stored_ranges
 from fatigue.errors import DataError, Problem
-from fatigue.life.bounds.histogram import Enclosed
 from fatigue.life.curves import DamageLaw
 from fatigue.results import case_of
 
@@ -126,13 +124,6 @@ def worst_of_welds(base: Base, values: Floats, known: NDArray[np.bool_]) -> tupl
     return np.where(row >= 0, values[row], -np.inf), row
 
 
-def largest_of_welds(base: Base, found: Forward, target_km: float) -> Enclosed:
-    """Low, value and high (w,) of the utilisation of every weld, of the toe points of which something is known."""
-    known = base.stored.toe & (found.basis != RECOUNT)
-    parts = found.utilisation(target_km)
-    return Enclosed(*(worst_of_welds(base, part, known)[0] for part in parts))
-
-
 def with_counted(stored: Stored, rows: NDArray[np.int64], per_pass: Floats) -> Stored:
     """The same with the damage of some points counted, instead of a bound."""
     damage, counted, per_km = stored.per_pass.copy(), stored.counted.copy(), stored.damage_per_km.copy()
@@ -143,8 +134,3 @@ def with_counted(stored: Stored, rows: NDArray[np.int64], per_pass: Floats) -> S
 
 def _weights(stored: Stored) -> Floats:
     return unchanged(stored.record).before.weights
-
-
-def basis_of(found: Forward, rows: Sequence[int] | NDArray[np.int64]) -> list[str]:
-    """What the numbers of some points rest on."""
-    return [BASES[found.basis[row]] for row in rows]

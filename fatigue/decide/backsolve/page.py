@@ -28,7 +28,7 @@ def answers_page(found: Answers) -> str:
         "figure": _figure(found, figs),
         "table": _welds(found),
         "left_out": max(0, len(found.rows) - 1 - MOST_ROWS),
-        "notes": {row.weld or "the whole body": row.note for row in found.rows if row.note},
+        "notes": found.notes,
         "held": found.held,
         "points": found.points,
         "warnings": found.warnings,
@@ -103,10 +103,15 @@ def _welds(found: Answers) -> PageTable:
             of_span = (row.share_at_least, row.share_at_most, row.utilisation_at_0, row.utilisation_at_1)
             line += [num(value) for value in of_span]
         line += [num(row.factor)] if asked.of in ("thickness", "km_per_year") else []
-        line += [num(row.utilisation_now), num(row.deviation), text(row.basis)]
+        line += [num(row.utilisation_now), _deviation(row), text(row.basis)]
         cells.append(tuple(line))
     label = "Find a weld" if len(rows) >= FILTERED_FROM else ""
     return PageTable("backsolve-table", tuple(headings), tuple(cells), label)
+
+
+def _deviation(row: AnswerRow) -> Cell:
+    solved = row.state == "solved" and np.isfinite(row.deviation)
+    return Cell(f"{row.deviation:.1e}".replace("-", "−"), row.deviation) if solved else num(None)
 
 
 def _answer(row: AnswerRow) -> Cell:

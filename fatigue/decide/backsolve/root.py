@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 UtilisationAt = Callable[[Floats], Floats]
 
-CLOSE = 1e-7  # of the utilisation from 1
+CLOSE = 1e-11  # of the utilisation from 1
+JUMPS = 1e-7  # of the utilisation from 1, where nothing lies between
 NARROW = 1e-13  # of ln x: what is left between is a jump
 MOST_STEPS = 100
 RISES = 1e-9  # relative, by which a utilisation may rise from rounding
@@ -97,4 +98,4 @@ def _refined(
         side = np.where(open_, np.where(meets, 1.0, -1.0), side)
         better = open_ & (meets | (np.abs(u - 1.0) <= CLOSE))
         best, of_best = np.where(better, at, best), np.where(better, u, of_best)
-    return np.exp(best), of_best, np.abs(of_best - 1.0) > 10.0 * CLOSE
+    return np.exp(best), of_best, np.abs(of_best - 1.0) > JUMPS

@@ -80,6 +80,12 @@ class Answers:
             return f"{target} need {side} {number(row.factor)} times the thickness"
         return f"{target} {'allow' if row.sense == 'at_most' else 'need'} a {of} of {side} {number(row.answer)}"
 
+    @property
+    def notes(self) -> dict[str, str]:
+        """What is to be known about answers, and whose."""
+        notes = dict.fromkeys(row.note for row in self.rows if row.note)
+        return {note: ", ".join(_having(self.rows, note)) for note in notes}
+
     def as_record(self) -> dict[str, Any]:
         """Record for machines."""
         return asdict(self) | {"verdict": self.verdict, "solved": self.solved}
@@ -90,9 +96,9 @@ class Answers:
         lines = [f"{visible(self.title)}: {self.verdict}", "", *_table(self.asked, welds[:WELDS_TOLD])]
         if len(welds) > WELDS_TOLD:
             lines.append(f"and {len(welds) - WELDS_TOLD} welds that ask for less; -o writes all")
-        notes = dict.fromkeys(row.note for row in self.rows if row.note)
-        told = [f"- {note}: {', '.join(_having(self.rows, note))}" for note in notes]
-        told = [textwrap.fill(one, WIDTH, subsequent_indent="  ") for one in told]
+        told = [
+            textwrap.fill(f"- {whose}: {note}", WIDTH, subsequent_indent="  ") for note, whose in self.notes.items()
+        ]
         lines += ["", *told] if told else []
         lines += ["", *(textwrap.fill(text, WIDTH) for text in (self.held, self.points) if text)]
         lines += [f"written: {', '.join(self.written)}"] if self.written else []

@@ -29,8 +29,8 @@ class Condition(Table):
     )
     damage_cv: NotNegative | None = Field(
         default=None,
-        description="relative standard error of its damage, at least 0, for the variance shares; left out: se_load of "
-        "the life band of the result, where there is one",
+        description="relative standard error of its damage, at least 0, for the variance shares; left out: se_load in "
+        "band.parquet of the result, where its mission is this one event",
     )
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fatigue.decide.fleet.conditions import Points, Result, read_results, shared_points
 from fatigue.decide.fleet.distances import Distances, correlation_matrix, read_distances
 from fatigue.decide.fleet.doubts import doubts, refuse_short_loops
+from fatigue.decide.fleet.errors_of_damage import errors_of_damage
 from fatigue.decide.fleet.fleet_file import Fleet, load_fleet
 from fatigue.decide.fleet.page import PAGE, fleet_page
 from fatigue.decide.fleet.rows import MOST_POINT_ROWS, percentile_rows, point_rows, unit_rows, variance_rows, weld_rows
@@ -67,7 +68,7 @@ def fleet(
     points = shared_points(asked, results)
     stage("summing %d points of %d units", len(points.key), len(distances.units))
     of = summed(points, distances)
-    scatter = _scatter(asked, distances, correlation)
+    scatter = _scatter(asked, results, points, distances, correlation)
     found = FleetFound(
         title=asked.title,
         conditions=asked.names,
@@ -110,11 +111,13 @@ def _points_rule(points: Points, distances: Distances) -> str:
     )
 
 
-def _scatter(asked: Fleet, distances: Distances, correlation: Floats) -> Scatter:
+def _scatter(
+    asked: Fleet, results: dict[str, Result], points: Points, distances: Distances, correlation: Floats
+) -> Scatter:
     """How sure distances and damage are, as far as it is said."""
     pairs = [(one.results, one.event) for one in asked.condition]
     known = list(dict.fromkeys(pairs))
-    damage_cv = np.array([one.damage_cv or 0.0 for one in asked.condition])
+    damage_cv = errors_of_damage(asked, results, points)
     return Scatter(
         correlation=correlation,
         damage_cv=damage_cv,

@@ -21,7 +21,7 @@ class Scatter:
     Attributes
     ----------
     correlation : (c, c) of the distances of a unit
-    damage_cv : (c,) relative standard error of the damage of each condition, 0 where none is known
+    damage_cv : (p, c) relative standard error of the damage of each condition, 0 where none is known
     same : (c,) conditions of one number share event and result, and so the error of their damage
     is_known : whether anything is said: deviations of distances or errors of damage
     """
@@ -104,7 +104,7 @@ def variance_of_unit(of: Summed, scatter: Scatter, unit: int, point: int) -> Var
     damage, deviation = of.points.damage[point], of.distances.deviation
     given = np.zeros_like(damage) if deviation is None else deviation[unit]
     cov = covariance(given, scatter.correlation)
-    error = (scatter.damage_cv * damage) ** 2
+    error = (scatter.damage_cv[point] * damage) ** 2
     return variance_of_damage(damage, of.distances.distance[unit], cov, error, scatter.same)
 
 

@@ -280,3 +280,16 @@ def test_folders_that_are_not_ours(folder, tmp_path):
         fleet(path, into=tmp_path / "mine")
     fleet(path, into=tmp_path / "mine", force=True)
     fleet(path, into=tmp_path / "mine")
+
+
+def test_error_of_the_band(tmp_path):
+    """Without damage_cv the standard error is that of the band, where the mission is the one event."""
+    case = body()
+    case.events = [case.events[1] | {"share": 1.0}]
+    into = result(case, tmp_path / "case", tmp_path / "one")
+    band = pd.read_parquet(into / "band.parquet").set_index(POINT)
+    km = [{"unit": "T", "condition": "c", "km_per_year": 1e5}]
+    (row,) = fleet(fleet_of(tmp_path, [("c", into, "curves 160")], km)).units
+    se = band.loc[(row.weld, row.part, row.order, row.surface), "se_load"]
+    assert se > 0.0
+    assert row.damage_cv == pytest.approx(se, rel=1e-12)
