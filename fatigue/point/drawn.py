@@ -44,8 +44,7 @@ def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int,
     ------
     DataError : no such event, or a point that no event loads
     """
-    if name in ("history", "spectrum"):
-        event_numbers(inputs, event)  # a sequence has no history
+    event_numbers(inputs, event)  # a sequence is a difference, which no figure shows by itself
     cycles = cycle_frame(inputs, station, face, event)
     if not cycles["range_MPa"].max() > 0.0:
         what = "nothing changes its stress, so it has no cycles to be drawn"
