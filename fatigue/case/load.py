@@ -14,10 +14,11 @@ from fatigue.case.check_problems import counts_problems, shear_problems
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
+from fatigue.case.life_band import LifeBand
 from fatigue.case.load_problems import unit_load_problems
+from fatigue.case.order.sequence_problems import sequence_problems
+from fatigue.case.order.sequences import Sequence
 from fatigue.case.problems import curve_problems, mission_problems, model_problems, syntax_problem
-from fatigue.case.sequence_problems import sequence_problems
-from fatigue.case.sequences import Sequence
 from fatigue.case.tables import Body, Case, Counting, Event, Mission, Spectrum
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
@@ -43,6 +44,7 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
     ("mission", "event", "unit_load"): GivenLoad,
     ("body", "unit_load"): UnitLoad,
     ("mission", "event", "channel"): Channel,
+    ("life_band",): LifeBand,
     ("ride",): Ride,
     ("ride", "alarm"): Alarm,
     ("ride", "equipment_mode"): EquipmentMode,

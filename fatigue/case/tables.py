@@ -12,9 +12,10 @@ from pydantic import Field, PrivateAttr, field_validator
 from fatigue.case.channels import Channel, Ride, no_channel_of_static_loads
 from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
+from fatigue.case.life_band import LifeBand
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
+from fatigue.case.order.sequences import Sequence
 from fatigue.case.problems import absent, clash, path_problems
-from fatigue.case.sequences import Sequence
 from fatigue.case.table import NotNegative, Positive, Table, Text
 from fatigue.case.unit_loads import GivenLoad, MissionLoad, UnitLoad
 from fatigue.errors import Problem
@@ -329,6 +330,7 @@ class Case(Table):
     multiaxial: Multiaxial = Field(default=Multiaxial(), description="a [multiaxial] table")
     checks: Checks = Field(default=Checks(), description="a [checks] table")
     mission: Mission = Field(description="a [mission] table")
+    life_band: LifeBand = Field(default=LifeBand(), description="a [life_band] table")
     ride: Ride = Field(default=Ride(), description="a [ride] table")
     _path: Path = PrivateAttr(Path())
     _text: str = PrivateAttr("")

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.rainflow import Cycles
+from fatigue.life.counting.tally import lay_halves
 from fatigue.life.counting.vertex import spread
 from fatigue.life.rule import (
     CycleRule,
@@ -159,13 +160,14 @@ def credit(
     share = _on_instants(start, end, of.share, samples)
     if shift is not None:
         share, by_membrane, by_bending = (spread(laid, shift) for laid in (share, by_membrane, by_bending))
-    half = 0.5 * of.damage
+    place = np.zeros(samples)
+    lay_halves(start, end, of.damage, len(start), samples, place)
     return Credit(
         damage=float(of.damage.sum()),
         top_cycle=float(of.damage.max(initial=0.0)),
         slope=float(of.slope.sum()),
         share=share,
-        place=np.asarray(np.bincount(start, half, samples) + np.bincount(end, half, samples), np.float64),
+        place=place,
         by_membrane=by_membrane,
         by_bending=by_bending,
     )

@@ -179,8 +179,8 @@ def put_stint(residues: Residues, event: int, at: tuple[int, int], n: int, path:
 @compiled()
 def cycles_of(path: _Path, n: int, recurs: bool) -> int:
     """Find the cycles of the first n reversals of a path, as if they were samples."""
-    of_path = path.buffers
-    some = Buffers(of_path.path[: n + 1], of_path.step, of_path.reversal, of_path.start, of_path.end, of_path.weight)
+    of = path.buffers
+    some = Buffers(of.path[: n + 1], of.step, of.reversal, of.start, of.end, of.weight, of.damage)
     return find_cycles(path.stress[:n], recurs, some)
 
 

@@ -21,6 +21,7 @@ from fatigue.report.result import ShownResult, read_result
 from fatigue.report.sections import body as body_sections
 from fatigue.report.sections import method, tables
 from fatigue.report.sections.beside.checks import beside
+from fatigue.report.sections.beside.life_band import bands_of, life_band_section
 from fatigue.report.sections.beside.sensitivity import sensitivity
 from fatigue.report.sections.beside.shear import shear
 from fatigue.report.sections.checks import recomputed
@@ -101,7 +102,7 @@ def report_page(
     for problem in inputs.outdated:
         log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
-    unverified = of_toes(result)
+    unverified, bands = of_toes(result), bands_of(result)
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
     context = {
         "title": record["title"],
@@ -116,6 +117,7 @@ def report_page(
         ),
         **curve_sections(result),
         "worst_welds": marked(tables.weld_table(result.assessed, links), unverified),
+        **life_band_section(result, bands, links),
         **sensitivity(result, links),
         "worst_ten": marked(tables.point_table(result.worst_points, links, 10, "worst-ten"), unverified),
         # figures are numbered in the order of these lines, the order of the page
@@ -127,7 +129,7 @@ def report_page(
         **ride_section(ridden, links, figs),
         **shift_study(folder, result, figs),
         "pages": [
-            weld_page(result, weld, details.get(weld), why, spectra, checks, figs, links[weld])
+            weld_page(result, weld, details.get(weld), why, spectra, checks, bands, figs, links[weld])
             for weld in result.detailed
         ],
         **shear(result, links),

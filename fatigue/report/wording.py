@@ -1,4 +1,7 @@
-"""How numbers and names are written for people: four digits, grouped thousands, no infinities, nothing blank."""
+"""How numbers and names are written for people: four digits, grouped thousands, no infinities, nothing blank.
+
+Lives have three: their scatter is far above the fourth.
+"""
 
 import math
 from collections.abc import Sequence
@@ -7,12 +10,13 @@ from typing import Any
 from fatigue.shown import shortened, visible
 
 LONGEST = 1e12  # lives beyond are written as "> 1e12"
+LIFE_DIGITS = 3
 NOT_AVAILABLE = "–"
 THIN_SPACE = "\u202f"  # groups thousands and does not break
 
 
-def number(value: Any) -> str:
-    """Number with four significant digits: ``0.6256``, ``27 330 000``, ``1.360e10``, ``> 1e12``.
+def number(value: Any, digits: int = 4) -> str:
+    """Number with four significant digits, or as many as said: ``0.6256``, ``27 330 000``, ``1.360e10``, ``> 1e12``.
 
     What is missing or not a number is written as a dash.
     """
@@ -24,15 +28,15 @@ def number(value: Any) -> str:
         return "> 1e12" if x > 0.0 else "< −1e12"
     if size == 0.0:
         return "0"
-    x = float(f"{x:.3e}")  # rounded first, so that 9999.6 is grouped as 10 000
+    x = float(f"{x:.{digits - 1}e}")  # rounded first, so that 9999.6 is grouped as 10 000
     size = abs(x)
     if size < 1e-3 or size >= 1e9:
-        mantissa, exponent = f"{x:.3e}".split("e")
+        mantissa, exponent = f"{x:.{digits - 1}e}".split("e")
         return f"{mantissa}e{int(exponent)}".replace("-", "−")
     if size >= 1e4:
         return whole(round(x))
-    digits = max(0, 3 - math.floor(math.log10(size)))
-    return f"{x:.{digits}f}".replace("-", "−")
+    decimals = max(0, digits - 1 - math.floor(math.log10(size)))
+    return f"{x:.{decimals}f}".replace("-", "−")
 
 
 def whole(value: int) -> str:
@@ -45,11 +49,37 @@ def km(value: Any) -> str:
     return f"{number(value)} km"
 
 
-def years(value: Any) -> str:
+def life(value: Any) -> str:
+    """Life in km or years with three significant digits: ``2 210 000``."""
+    return number(value, LIFE_DIGITS)
+
+
+def life_km(value: Any) -> str:
+    """Life in words: ``2 210 000 km``."""
+    return f"{life(value)} km"
+
+
+def life_in_band(value: float, low: float, high: float) -> str:
+    """Life and its band in words, in millions of km where it has some: ``2.21 (1.93 – 2.53) million km``.
+
+    A band that reaches from half to double or further leaves two digits.
+    """
+    digits = LIFE_DIGITS if high < 2.0 * low else LIFE_DIGITS - 1
+    scale, unit = (1e6, "million km") if low >= 1e6 and high < 1e10 else (1.0, "km")
+    of, begin, end = (number(x / scale, digits) for x in (value, low, high))
+    return f"{of} ({begin} – {end}) {unit}"
+
+
+def years(value: Any, digits: int = 4) -> str:
     """Time in years of service; beyond a million years the number says nothing."""
     if value is not None and float(value) > 1e6:
         return "> 1e6 years"
-    return f"{number(value)} years"
+    return f"{number(value, digits)} years"
+
+
+def life_years(value: Any) -> str:
+    """Life in years of service."""
+    return years(value, LIFE_DIGITS)
 
 
 def share(value: Any) -> str:

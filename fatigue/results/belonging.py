@@ -39,6 +39,7 @@ CSV_TABLES = (
     "cycles",
     "welds",
     "histogram",
+    "band",
     "sensitivity",
     "checks",
     "path_cycles",

@@ -4,6 +4,7 @@ from fatigue.results.dictionary.bench import BENCHED
 from fatigue.results.dictionary.checks import CHECKED
 from fatigue.results.dictionary.column import POINT as _POINT
 from fatigue.results.dictionary.column import Column
+from fatigue.results.dictionary.decided.band import BAND
 from fatigue.results.dictionary.load_spectra import LOAD_SPECTRA
 from fatigue.results.dictionary.nodes import NODES
 from fatigue.results.dictionary.resonance import FORMED
@@ -280,7 +281,7 @@ DIAGNOSED: dict[str, tuple[Column, ...]] = {
     "diagnosis": DIAGNOSIS,
     "levers": LEVERS,
 }
-OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, "sensitivity": SENSITIVITY, **CHECKED}
+OPTIONAL: dict[str, tuple[Column, ...]] = {"histogram": HISTOGRAM, "band": BAND, "sensitivity": SENSITIVITY, **CHECKED}
 """Tables of an assessment that older versions do not write, or only one that asks for them does."""
 TABLES = ASSESSED | OPTIONAL | DIAGNOSED | FORMED | LOAD_SPECTRA | BENCHED | RIDDEN | SHIFTED
 

@@ -1,5 +1,6 @@
 """What the command line prints of a result folder: the verdict, the welds and the worst points."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Integral
@@ -11,6 +12,14 @@ import pandas as pd
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path
 from fatigue.results.belonging import refuse_mixed
 from fatigue.results.beside.checks import BesideToe, read_beside_toe
+from fatigue.results.beside.life_band import (
+    REASONS,
+    SHORT_REASONS,
+    WHAT_IT_IS_NOT,
+    BandOfPoint,
+    Bands,
+    read_bands,
+)
 from fatigue.results.beside.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.dictionary.sensitivity import VARIANTS
 from fatigue.results.provenance import curves_of_status, read_provenance
@@ -21,6 +30,7 @@ from fatigue.shown import few, shortened, visible
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
 MOST_LEFT_OUT = 20  # printed one by one
+MOST_BANDS = 20  # printed: of the welds with the shortest lives
 UNCUT = ("reason",)  # columns; one long name in another would push all that follow off the screen
 
 _POINT_COLUMNS = (
@@ -31,6 +41,7 @@ _POINT_COLUMNS = (
 
 
 _WELD_COLUMNS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event")
+_LIFE_COLUMNS = ("life_km", "life_years", "life_km_dirlik", "50_percent_km", "90_percent_km")  # with three digits
 
 _ACROSS = {
     "damage_per_km_transitions": "Cycles across the events of the sequences are",
@@ -51,6 +62,7 @@ class Summary:
     unverified_curves: tuple[str, ...] = ()
     sensitivity: Sensitivity | None = None
     beside_toe: BesideToe | None = None
+    bands: Bands | None = None
 
     @property
     def fulfilled(self) -> bool:
@@ -65,15 +77,15 @@ class Summary:
             "target_km": self.target_km,
             "fulfilled": self.fulfilled,
             "unverified_curves": list(self.unverified_curves),
-            "welds": self.welds.to_dict("records"),
+            "welds": self._with_bands(self.welds, "worst_"),
             "not_assessed": self.not_assessed.to_dict("records"),
-            "points": self.points.to_dict("records"),
+            "points": self._with_bands(self.points),
             **({} if self.beside_toe is None else self.beside_toe.as_record()),
             "sensitivity": None if self.sensitivity is None else self.sensitivity.as_record(),
         }
 
     def as_text(self) -> str:
-        """Text for people: units in every heading, four digits, no infinities."""
+        """Text for people: units in every heading, four digits, three of lives, no infinities."""
         missed = int((~self.welds["fulfilled"]).sum())
         verdict = (
             "every weld meets its target" if not missed else f"{missed} of {len(self.welds)} welds miss their target"
@@ -91,6 +103,7 @@ class Summary:
                     [*_WELD_COLUMNS, *(["curve_status"] if self.unverified_curves else [])],
                 ),
                 *([f"and {others} welds with a longer life, see welds.parquet"] if others else []),
+                *self._in_bands(),
                 *self._at_summed_corners(),
                 *self._left_out(),
                 *([] if self.beside_toe is None else self.beside_toe.as_lines(_cell)),
@@ -149,6 +162,38 @@ class Summary:
             lines += [f"{words}: {', '.join(names)}"] if names else []
         return lines
 
+    def _with_bands(self, rows: pd.DataFrame, prefix: str = "") -> list[dict[Any, Any]]:
+        """Records of welds or points, with the band of the life of each; null where it has none."""
+        records: list[dict[Any, Any]] = rows.to_dict("records")
+        if self.bands is None:
+            return records
+        found = self.bands.of_points(rows, prefix)
+        return [
+            row | {"band": None if band is None else band.as_record()} for row, band in zip(records, found, strict=True)
+        ]
+
+    def _in_bands(self) -> list[str]:
+        """How sure the lives of the welds are, and what that does not say."""
+        if self.bands is None or self.welds.empty:
+            return []
+        shown = self.welds.head(MOST_BANDS)
+        found = self.bands.of_points(shown, "worst_")
+        table = {"weld": shown["weld"].tolist(), "life_km": shown["life_km"].tolist()}
+        table["90_percent_band_of_load_km"] = [_band(band) for band in found]
+        for name, column in (("50_percent_km", "life_km_p50"), ("90_percent_km", "life_km_p90")):
+            table[name] = [math.nan if band is None else band.lives_km[column] for band in found]
+        columns = list(table) if any(band is not None and band.has_lives for band in found) else list(table)[:3]
+        reasons = dict.fromkeys(band.reason for band in found if band is not None and band.reason)
+        others = len(self.welds) - len(shown)
+        return [
+            "",
+            "How sure the lives are: another record, and the share of welds that reach a life by record and S-N curve",
+            _text_table(pd.DataFrame(table), columns),
+            *([f"and {others} others, see band.parquet"] if others else []),
+            *(f"{SHORT_REASONS[reason]}: {REASONS[reason]}" for reason in reasons),
+            WHAT_IT_IS_NOT,
+        ]
+
     def _across_events(self) -> list[str]:
         """Say what cycles across events are of the damage of the points, or may be."""
         for name, what in _ACROSS.items():
@@ -195,7 +240,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         raise CaseError(Problem("argument", "top", f"{top!r} is no number of points", "Give a whole number from 1 on"))
     folder, only = given_path(folder, "folder"), given_names(only, "only")
     record = read_provenance(folder)
-    refuse_mixed(folder, record, ("nodes", "welds", "sensitivity", "checks"))
+    refuse_mixed(folder, record, ("nodes", "welds", "sensitivity", "checks", "band"))
     every = read_welds(folder)
     welds, left_out = assessed(every), not_assessed(every)
     unknown = sorted(set(only) - set(welds["weld"]))
@@ -207,6 +252,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         raise DataError(Problem("unknown_weld", str(folder), f"there is no weld '{unknown[0]}'", f"Choose of {names}"))
     across = ("damage_per_km", *_ACROSS) if _joins_events(record) else ()
     sensitivity = read_sensitivity(folder, welds)
+    points = read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas()
     if only:
         sensitivity = None if sensitivity is None else sensitivity.of_welds(only)
         welds, left_out = welds[welds["weld"].isin(only)], left_out[:0]
@@ -217,10 +263,11 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         target_km=record["mission"]["target_km"],
         welds=welds,
         not_assessed=left_out,
-        points=read_rows(folder, "nodes", worst_toes(folder, top, only), [*_POINT_COLUMNS, *across]).to_pandas(),
+        points=points,
         unverified_curves=tuple(curves_of_status(record, "unverified")),
         sensitivity=sensitivity,
         beside_toe=beside_toe,
+        bands=read_bands(folder, sorted({*welds["weld"], *points["weld"]})),
     )
 
 
@@ -269,6 +316,16 @@ def _joins_events(record: dict[str, Any]) -> bool:
     return bool(mission.get("sequences")) or any(e.get("stints_per_1000_km") is not None for e in mission["events"])
 
 
+def _band(found: BandOfPoint | None) -> str:
+    """Band of a life by the load in a cell, or why there is none."""
+    if found is None:
+        return "-"
+    said = SHORT_REASONS.get(found.reason, "")
+    if not found.has_band:
+        return said
+    return f"{said} {_life(found.low_km)} to {_life(found.high_km)}".strip()
+
+
 def _range(low: float, high: float) -> str:
     """Two percentages, or one where they look the same."""
     return f"{low:.3g} %" if f"{low:.3g}" == f"{high:.3g}" else f"{low:.3g} to {high:.3g} %"
@@ -279,7 +336,7 @@ def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
         list(columns),
         *(
             [
-                _cell(value) if name in UNCUT else shortened(_cell(value))
+                _cell(value) if name in UNCUT else shortened(_life(value) if name in _LIFE_COLUMNS else _cell(value))
                 for name, value in zip(columns, row, strict=True)
             ]
             for row in frame[list(columns)].itertuples(index=False)
@@ -291,6 +348,12 @@ def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
         "  ".join(c.rjust(w) if n else c.ljust(w) for c, w, n in zip(row, widths, numeric, strict=True)).rstrip()
         for row in cells
     )
+
+
+def _life(value: Any) -> str:
+    """A life in a cell: three digits, the fourth is far below its scatter."""
+    rounds = isinstance(value, float) and value <= LONGEST_LIFE_KM
+    return _cell(float(f"{value:.3g}") if rounds else value)
 
 
 def _cell(value: Any) -> str:

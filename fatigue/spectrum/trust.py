@@ -140,6 +140,34 @@ class Judgement:
     segments: int
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class RecordScatter:
+    """How much the damage of a record scatters, and whether its variance changes over time; every array is (n,).
+
+    Attributes
+    ----------
+    time : the variance over time
+    lower, upper : modulation index below which the stress is steadier than chance, above which it is not stationary
+    variance_cov, damage_cov : coefficients of variation from one record of this length to the next; NaN: unknown
+    """
+
+    time: Stationarity
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    variance_cov: NDArray[np.float64]
+    damage_cov: NDArray[np.float64]
+
+    @property
+    def record_too_short(self) -> NDArray[np.bool_]:
+        """Whether the damage scatters by more than ``CONFIDENT`` from record to record, or that is unknown."""
+        return ~(self.damage_cov <= CONFIDENT)
+
+    @property
+    def is_modulated(self) -> NDArray[np.bool_]:
+        """Whether the modulation index is above what chance allows."""
+        return self.time.modulation_index > self.upper
+
+
 def trust_matrices(history: ModalHistory, spectra: Spectra) -> TrustMatrices:
     """Matrices for the judgement of an event, from its kept record and the segment spectra of it."""
     moments, variances = moments_and_variances(spectra)
@@ -188,17 +216,14 @@ def judge(
         quadratic_forms(modal_stress, M[None])[0] for M in (record.covariance, record.slow, record.lines)
     )
     line_share = np.clip(quotient(lines, total), 0.0, 1.0)
-    time = _stationarity(modal_stress, matrices.periods)
-    lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
-    variance_cov = np.sqrt(quotient(1.0, matrices.duration * time.bandwidth_hz))
-    steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
-    damage_cov = 0.5 * slope * variance_cov * steadier
+    scatter = record_scatter(modal_stress, matrices, slope)
+    time, damage_cov = scatter.time, scatter.damage_cov
     low, high = _ratio_band(slope)
     unknown = np.full(len(modal_stress), np.nan)
     chance = np.exp(1.645 * RATIO_SCATTER * np.where(np.isnan(damage_cov), 2 * CONFIDENT, damage_cov))
     judgement = Judgement(
         verdict=np.zeros(len(modal_stress), dtype=np.int8),
-        record_too_short=~(damage_cov <= CONFIDENT),
+        record_too_short=scatter.record_too_short,
         dirlik_ratio=dirlik_ratio,
         tb_ratio=tb_ratio,
         ratio_low=low / chance,
@@ -217,15 +242,15 @@ def judge(
             HALF_OF_DAMAGE,
         ),
         modulation_index=time.modulation_index,
-        modulation_low=lower,
-        modulation_high=upper,
+        modulation_low=scatter.lower,
+        modulation_high=scatter.upper,
         modulation_factor=modulation_factor(time, slope),
         line_share=line_share,
         line_factor=tone_damage_factor(line_share, slope),
         kurtosis=kurtosis,
         expected_kurtosis=3 * (1 + time.relative_variance.var(axis=0)) / (1 + time.expected_cov**2),
         # A Gaussian record's kurtosis has the variance 24/T times the integral of rho^4, at most 8 / (T B_s).
-        kurtosis_tolerance=np.maximum(KURTOSIS_OFF, 2.6 * np.sqrt(8.0) * variance_cov),
+        kurtosis_tolerance=np.maximum(KURTOSIS_OFF, 2.6 * np.sqrt(8.0) * scatter.variance_cov),
         bandwidth_hz=time.bandwidth_hz,
         relative_bandwidth=quotient(time.bandwidth_hz, shape.zero_crossings),
         damage_cov=damage_cov,
@@ -236,6 +261,21 @@ def judge(
     )
     judgement.verdict[:] = _verdict(judgement)
     return judgement
+
+
+def record_scatter(
+    modal_stress: NDArray[np.float64], matrices: TrustMatrices, slope: NDArray[np.float64] | float
+) -> RecordScatter:
+    """How a record scatters at all points, from its spectrum and its variance over time; (n, m) as of ``judge``.
+
+    ``slope`` is k where the damage is done, of all points or (n,) of each. The variance over T scatters by
+    ``1 / sqrt(T B)``, the damage k / 2 times as much.
+    """
+    time = _stationarity(modal_stress, matrices.periods)
+    lower, upper = np.minimum(STEADY, time.lower), np.maximum(MODULATED, time.upper)
+    variance_cov = np.sqrt(quotient(1.0, matrices.duration * time.bandwidth_hz))
+    steadier = np.where(time.modulation_index < lower, time.modulation_index, 1.0)
+    return RecordScatter(time, lower, upper, variance_cov, np.asarray(0.5 * slope * variance_cov * steadier))
 
 
 def missed_limit(slope: float) -> float:

@@ -13,7 +13,7 @@ from fatigue.assess import assess
 from fatigue.cli import cli
 from fatigue.report.files.export import write_xlsx
 from fatigue.report.page import report_page
-from fatigue.report.wording import number
+from fatigue.report.wording import life, number
 from fatigue.results import TABLES, read_table
 from tests.checks_case import write_checks_case
 from tests.older_result import without_hashes
@@ -108,7 +108,7 @@ def test_endurance_and_miner_life_stand_side_by_side(checked, checked_page):
     head, *rows = checked_page.tables["endurance"]
     assert {row[head.index("weld")] for row in rows} == {"A", "B"}
     for row in rows:
-        assert row[head.index("Miner life [km]")] == number(welds.loc[row[0], "life_km"])
+        assert row[head.index("Miner life [km]")] == life(welds.loc[row[0], "life_km"])
 
 
 def test_the_register_has_the_worst_check(checked_page):
@@ -162,7 +162,7 @@ def test_sensitivity_and_checks_are_sheets_of_the_workbook(checked, tmp_path, mo
     """With head, unit and numbers of the table; one that is too long says where its rows are."""
     pytest.importorskip("xlsxwriter")
     book = write_xlsx(checked, tmp_path)
-    for number_, name in ((3, "sensitivity"), (4, "checks")):
+    for number_, name in ((3, "band"), (4, "sensitivity"), (5, "checks")):
         _, cells = sheet(book, number_)
         table = read_table(checked, name).to_pandas()
         rows = {int(re.sub("[A-Z]", "", address)) for address in cells}
@@ -175,12 +175,12 @@ def test_sensitivity_and_checks_are_sheets_of_the_workbook(checked, tmp_path, mo
                 assert [f for f in found if not isinstance(f, str)] == pytest.approx(
                     [f for f, of in zip(finite, found, strict=True) if not isinstance(of, str)], nan_ok=True
                 )
-    meanings = sheet(book, 5)[1].values()
+    meanings = sheet(book, 6)[1].values()
     assert {"sensitivity", "checks", "utilisation_stress", "basis"} <= set(meanings)
 
     checks = len(read_table(checked, "checks"))
     monkeypatch.setattr("fatigue.report.files.export._MOST_ROWS", checks - 1)
     assert len(read_table(checked, "nodes")) < checks
-    assert list(sheet(write_xlsx(checked, tmp_path), 4)[1].values()) == [
+    assert list(sheet(write_xlsx(checked, tmp_path), 5)[1].values()) == [
         f"{checks} rows do not fit into a sheet: use checks.parquet or CSV"
     ]

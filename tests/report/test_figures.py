@@ -1,5 +1,7 @@
 """The figures as functions of tables: what they draw is what the tables say."""
 
+from itertools import pairwise
+
 import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
@@ -7,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.life.curves import catalogue, damage_law
+from fatigue.errors import DataError
+from fatigue.life.curves import DamageLaw, catalogue, damage_law
 from fatigue.life.rule import cycle_damage
 from fatigue.report import figures
 from fatigue.report.figures.cycles import cumulative
@@ -15,6 +18,7 @@ from fatigue.report.figures.lines import _end_zones, _unrolled
 from fatigue.report.figures.records import _thinned
 from fatigue.report.figures.style import life_axis, life_scale
 from fatigue.report.stress import Envelope, Excerpt, StressSpectrum
+from fatigue.spectrum.methods import dirlik_damage_rate
 
 
 @pytest.fixture(scope="module")
@@ -183,6 +187,65 @@ def test_history_marks_both_reversals():
     marks = [trace for trace in fig.data if trace.name == "reversals of the cycle"]
     assert [len(trace.x) for trace in marks] == [1, 1]
     assert sum(shape.type == "rect" for shape in fig.layout.shapes) == 2
+
+
+def test_cycles_close_by_have_a_panel_each():
+    """One excerpt, or two side by side where the reversals are far apart; no panel overlaps the next."""
+    time = np.linspace(0.0, 1.0, 11)
+    excerpts = [Excerpt((t,), time + t, np.sin(time + t), {1: np.cos(time)}) for t in (0.0, 5.0)]
+    near = Excerpt((0.2, 0.4), time, np.sin(time), {1: np.cos(time)})
+    fig = figures.cycles_close_by([excerpts, [near]], ["first: 2 MPa", "second: 1 MPa"], {1: "mode 1"})
+    domains = [fig.layout[name].domain for name in ("xaxis", "xaxis2", "xaxis3")]
+    assert domains[0][0] == 0.0
+    assert domains[-1][1] == pytest.approx(1.0)
+    assert all(a[1] < b[0] for a, b in pairwise(domains))
+    assert [note.text for note in fig.layout.annotations] == ["first: 2 MPa", "second: 1 MPa"]
+    marks = [trace for trace in fig.data if trace.name == "reversals of the cycle"]
+    assert [len(trace.x) for trace in marks] == [1, 1, 2]
+    assert sum(bool(trace.showlegend) for trace in fig.data) == 3
+
+
+def test_a_point_is_marked_on_its_line(result_folder):
+    """At its arc length and life, and by an upright line through all panels."""
+    nodes = pd.read_parquet(result_folder / "nodes.parquet")
+    points = nodes[nodes["weld"] == nodes["weld"].iloc[0]]
+    row = points[points["surface"] == "bottom"].iloc[1]
+    fig = figures.along_weld(points, 1e7, marked=(row["part"], row["order"], "bottom"))
+    (mark,) = [trace for trace in fig.data if trace.name == "this point, bottom face"]
+    assert mark.x[0] == row["arc_length_mm"]
+    assert mark.y[0] == min(row["life_km"], 1e12)
+    assert any(shape.type == "line" and shape.x0 == shape.x1 == row["arc_length_mm"] for shape in fig.layout.shapes)
+
+
+def test_damage_by_method_is_a_share_of_what_was_counted():
+    """Bars add up to the last group; an event without a spectrum is left out."""
+    columns = ("damage_per_pass", "damage_same_ratio_per_pass", "damage_dirlik_per_pass", "damage_tb_per_pass")
+    rows = [("fast", 1e-6, 2e-6, 1e-6, 3e-6), ("slow", 3e-6, 2e-6, 5e-6, 1e-6), ("load", 9e-6, np.nan, np.nan, np.nan)]
+    table, passes_per_km = pd.DataFrame(rows, columns=["event", *columns]), {"fast": 2.0, "slow": 1.0, "load": 1.0}
+    with pytest.raises(DataError, match="passes_per_km: there is none for event 'load'"):
+        figures.damage_by_method(table, {"fast": 2.0, "slow": 1.0})
+    fig = figures.damage_by_method(table, passes_per_km)
+    bars = {trace.name: trace.y for trace in fig.data}
+    assert list(fig.data[0].x) == ["fast", "slow", "together"]
+    assert bars["rainflow"].tolist() == pytest.approx([0.4, 0.6, 1.0])
+    assert bars["Dirlik"].tolist() == pytest.approx([0.4, 1.0, 1.4])
+    assert list(figures.damage_by_method(table, passes_per_km, most=1).data[0].x) == ["slow"]
+
+
+@pytest.mark.parametrize("bandwidth", [(9.0, 11.0), (2.0, 40.0)])
+def test_ranges_that_a_spectrum_expects(bandwidth):
+    """They are as many as Dirlik's damage has on a slope: the k-th moment of the ranges that are drawn."""
+    low, high = bandwidth
+    moments = np.array([30 * (high**n - low**n) / n for n in (1, 2, 3, 5)])
+    cycles = pd.DataFrame({"range_MPa": [12.0 * np.sqrt(moments[0])], "count": [1.0]})
+    fig = figures.ranges_by_method(cycles, moments, 1e4)
+    line = next(trace for trace in fig.data if trace.name == "Dirlik")
+    ranges, reached = np.asarray(line.y, dtype=float), np.asarray(line.x, dtype=float)
+    power_sum = np.trapezoid(3.0 * ranges**2 * reached, ranges)  # sum n S^3 = integral of 3 S^2 N(> S)
+    law = DamageLaw(np.array([3.0]), np.array([0.0]), np.array([]), 0.0)
+    assert power_sum == pytest.approx(1e4 * dirlik_damage_rate(moments[:, None], law)[0], rel=1e-3)
+    narrow = next(trace for trace in fig.data if trace.name == "narrow band")
+    assert max(narrow.x) == pytest.approx(1e4 * np.sqrt(moments[2] / moments[0]), rel=1e-6)
 
 
 def test_of_many_points_those_that_disagree_are_drawn():

@@ -10,7 +10,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.report.page import report_page, write_report
-from fatigue.report.wording import number
+from fatigue.report.wording import life, number
 from tests.report.reading import Page, values
 from tests.report.tiny_result import TARGET_KM, Recipe, write_result
 
@@ -40,11 +40,11 @@ def test_the_first_words_are_the_verdict(page):
 
 
 def test_worst_welds_equal_the_register(page, result_folder):
-    """Every number of the table of welds is that of welds.parquet, worst weld first, four digits."""
+    """Every number of the table of welds is that of welds.parquet, worst weld first, four digits, of lives three."""
     welds = pd.read_parquet(result_folder / "welds.parquet").sort_values("utilisation", ascending=False)
     rows = page.tables["worst-welds"][1:]
     for row, (_, weld) in zip(rows, welds.iterrows(), strict=True):
-        expected = [number(weld[c]) for c in ("life_km", "life_years", "utilisation", "load_factor")]
+        expected = [*map(life, weld[["life_km", "life_years"]]), *map(number, weld[["utilisation", "load_factor"]])]
         assert row[0] == weld["weld"]
         assert row[2:6] == expected
         assert row[6] == str(weld["worst_node"])
@@ -58,7 +58,7 @@ def test_worst_points_equal_the_table_of_nodes(page, result_folder):
     assert len(rows) == 10
     for row, (_, point) in zip(rows, worst.iterrows(), strict=True):
         assert row[1:4] == [point["weld"], str(point["node"]), point["surface"]]
-        assert row[5:7] == [number(point["life_km"]), number(point["life_years"])]
+        assert row[5:7] == [life(point["life_km"]), life(point["life_years"])]
 
 
 def test_life_along_the_weld_equals_the_table(page, result_folder):

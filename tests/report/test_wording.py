@@ -3,7 +3,21 @@
 import pandas as pd
 import pytest
 
-from fatigue.report.wording import in_figure, km, listed, number, share, short, size, whole, years
+from fatigue.report.wording import (
+    in_figure,
+    km,
+    life,
+    life_in_band,
+    life_km,
+    life_years,
+    listed,
+    number,
+    share,
+    short,
+    size,
+    whole,
+    years,
+)
 
 
 @pytest.mark.parametrize(
@@ -38,6 +52,33 @@ def test_lives_carry_their_unit():
     assert km(float("inf")) == "> 1e12 km"
     assert years(4.41771) == "4.418 years"
     assert years(float("inf")) == "> 1e6 years"
+
+
+@pytest.mark.parametrize(
+    ("value", "written"),
+    [(4.41771, "4.42"), (607.7, "608"), (999.6, "1000"), (27332429.06, "27 300 000"), (1.3597e10, "1.36e10")],
+)
+def test_lives_have_three_digits(value, written):
+    """The fourth is far below their scatter."""
+    assert life(value) == written.replace(" ", "\u202f")
+    assert life_km(value) == f"{life(value)} km"
+
+
+def test_lives_in_years_and_beyond_all():
+    """As other times, with three digits; what is missing is a dash."""
+    assert life_years(4.41771) == "4.42 years"
+    assert life_years(float("inf")) == "> 1e6 years"
+    assert (life(float("nan")), life_km(float("inf"))) == ("–", "> 1e12 km")
+
+
+def test_a_life_and_its_band():
+    """Millions of km from one million on; a band as wide as double leaves two digits."""
+    assert life_in_band(2.168e6, 1.921e6, 2.447e6) == "2.17 (1.92 – 2.45) million km"
+    assert life_in_band(2.2e6, 1.4e6, 3.5e6) == "2.2 (1.4 – 3.5) million km"
+    assert life_in_band(231_300.0, 200_400.0, 260_100.0) == "231 000 (200 000 – 260 000) km".replace(
+        " 000", "\u202f000"
+    )
+    assert life_in_band(1.33e10, 1.03e10, 1.73e10) == "1.33e10 (1.03e10 – 1.73e10) km"
 
 
 def test_shares_counts_and_sizes():

@@ -37,7 +37,7 @@ def test_everything_written_of_a_result_belongs_to_it(folder):
     assert carried(folder / "nodes.csv") is None
     assert set(listed(folder)) == {
         "report.html", "weld_lines.vtp", "nodes.xlsx", "nodes.csv", "damage.csv", "cycles.csv", "welds.csv",
-        "histogram.csv", "sensitivity.csv", "path_cycles.csv",
+        "histogram.csv", "band.csv", "sensitivity.csv", "path_cycles.csv",
     }  # fmt: skip
     assert not strangers(folder, record)
     assert all(is_derived(folder, name, record) for name in listed(folder))

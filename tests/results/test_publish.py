@@ -49,7 +49,7 @@ def killed_after(steps, monkeypatch):
     return left
 
 
-@pytest.mark.parametrize("steps", range(25))
+@pytest.mark.parametrize("steps", range(28))
 def test_killed_while_it_is_put_in_place(two_results, tmp_path, monkeypatch, steps):
     """At whatever file: the next command finds the old result whole or the new one whole, and nothing between."""
     old, new = two_results
@@ -71,7 +71,7 @@ def test_killed_while_it_is_put_in_place(two_results, tmp_path, monkeypatch, ste
     assert (folder / "nodes.csv").exists() == (steps == 0)
     assert (folder / "notes.txt").read_text() == "mine"
     assert not (folder / JOURNAL).exists()
-    if steps == 24:
+    if steps == 27:
         assert left[0] > 0  # the whole way was killed at every step
 
 

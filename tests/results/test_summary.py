@@ -53,6 +53,6 @@ def test_many_welds_that_are_not_assessed_are_told_by_their_reasons(small_result
     lines = [line.split(maxsplit=2) for line in text.splitlines()]
     assert ["500", "fold_0", "a fold at node 0"] in lines
     assert ["1", "seam", "ground flush"] in lines
-    assert len(text.splitlines()) < 20
+    assert len(text.splitlines()) < 30
     few = replace(found, not_assessed=left_out[245:255].reset_index(drop=True)).as_text()
     assert all(f"fold_{k}" in few for k in (245, 253))

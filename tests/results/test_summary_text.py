@@ -51,15 +51,15 @@ def summary(fulfilled=(False, True), points=2, left_out=LEFT_OUT):
 
 
 def test_the_text_to_the_letter():
-    """Numbers on the right, texts on the left, four digits, a dash for nothing, no infinity, no line within a cell."""
+    """Numbers right, texts left, four digits, lives three, a dash for nothing, no infinity, no line within a cell."""
     assert summary().as_text() == "\n".join(
         [
             "a title: 1 of 2 welds miss their target of 1.2e+07 km",
             "the rules",
             "",
-            "weld    life_km  life_years  utilisation  load_factor   node  face    governing_event",
-            "A     1.235e+05        0.25          8.1       0.5556      7  top     fast",
-            "B        > 1e12           -            0       > 1e12  12345  bottom  -",
+            "weld   life_km  life_years  utilisation  load_factor   node  face    governing_event",
+            "A     1.23e+05        0.25          8.1       0.5556      7  top     fast",
+            "B       > 1e12           -            0       > 1e12  12345  bottom  -",
             "",
             "Not assessed: 2 welds",
             "weld         reason",
@@ -67,9 +67,9 @@ def test_the_text_to_the_letter():
             "longer name  two lines",
             "",
             "The 2 worst points",
-            "weld  node  face  arc_length_mm    life_km  utilisation  life_km_dirlik  dirlik_ratio  governing_event",
-            "A        7  top              10  1.235e+05          8.1          > 1e12             -  fast",
-            "A        7  top              10  1.235e+05          8.1          > 1e12             -  fast",
+            "weld  node  face  arc_length_mm   life_km  utilisation  life_km_dirlik  dirlik_ratio  governing_event",
+            "A        7  top              10  1.23e+05          8.1          > 1e12             -  fast",
+            "A        7  top              10  1.23e+05          8.1          > 1e12             -  fast",
         ]
     )
 

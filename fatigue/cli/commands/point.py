@@ -22,6 +22,7 @@ from fatigue.cli.progress import narrated
     type=click.Choice(["top", "bottom"]),
     help="Face of the plate.  [default: the one that decides, of two toes the more utilised]",
 )
+@click.option("--event", help="Event whose record is shown.  [default: the one that damages most]")
 @click.option(
     "-o", "--output", metavar="FILE", type=click.Path(path_type=Path), help="Page (.html) or picture (.png) to write."
 )
@@ -39,6 +40,7 @@ def point(
     node: int | None,
     part: int | None,
     surface: str | None,
+    event: str | None,
     output: Path | None,
     force: bool,
     case_file: Path | None,
@@ -70,6 +72,7 @@ def point(
             node=node,
             part=part,
             surface=surface,
+            event=event,
             output=output,
             case_file=case_file,
             threads=threads,

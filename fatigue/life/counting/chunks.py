@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
 from fatigue.life.counting.factors import Trials, no_trials, tally_trials
-from fatigue.life.counting.moments import add_moments
+from fatigue.life.counting.moments import add_moments, mean_and_kurtosis_of
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.residue import BlockResidue, residue_places
 from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles, close_open
@@ -35,6 +35,8 @@ from fatigue.life.counting.tally import (
     Surface,
     block_count,
     compiled_rule,
+    lay_halves,
+    no_pieces,
     nothing_counted,
     own_of,
     plain,
@@ -45,6 +47,7 @@ from fatigue.life.counting.vertex import at_shift, shift_of
 from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
 Three: TypeAlias = tuple[float, float, float]  # a sample between its neighbours
 
 POINTS = 128  # counted at a time
@@ -60,7 +63,7 @@ class _State(NamedTuple):
     the reversals ``m``, ``b`` (n, 2, r) have not closed a cycle. ``earlier`` (n, 2) is the sample before the last one;
     ``alone`` (n, 2) says whether the first plateau is the first sample alone, ``after`` (n, 2, 2) what follows it then.
     ``moments`` (n, 2, 5) are number, mean, and sums of the 2nd, 3rd and 4th power of the deviations from it, of the
-    samples so far.
+    samples so far. ``at`` and ``plateau_at`` are the samples of what waits, and of the first plateau.
     """
 
     first: Floats
@@ -70,14 +73,19 @@ class _State(NamedTuple):
     waiting: NDArray[np.int64]
     m: Floats
     b: Floats
+    at: Indices
     moments: Floats
     earlier: Floats
     alone: NDArray[np.int64]
     after: Floats
+    plateau_at: Indices
 
 
 class _Block(NamedTuple):
-    """What is its own of each point, and what is counted: totals (n, 2) and histogram (n, 2, b, 2); or trials."""
+    """What is its own of each point, and what is counted: totals (n, 2) and histogram (n, 2, b, 2); or trials.
+
+    ``pieces`` (n, 2, p): damage in equal pieces of the record.
+    """
 
     size: Floats
     same_ratio: Floats
@@ -86,18 +94,20 @@ class _Block(NamedTuple):
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
+    pieces: Floats
 
 
 class _Room(NamedTuple):
     """Work space of one row: stress of a chunk, and membrane, bending and structural stress of its reversals.
 
-    ``kept`` (2, r) are membrane and bending stress of the residue, in the end.
+    ``at`` are the samples of the reversals, ``kept`` (2, r) are membrane and bending stress of the residue, in the end.
     """
 
     stress: Floats
     m: Floats
     b: Floats
     s: Floats
+    at: Indices
     kept: Floats
     buffers: Buffers
 
@@ -105,9 +115,12 @@ class _Room(NamedTuple):
 class _Stage(NamedTuple):
     """Samples of a chunk, whether the record ends with it and whether it recurs, and the steps between its columns.
 
+    ``first`` is the sample of its first column, the one before the chunk; ``record`` is how many the record has.
     ``keeps``: whether the residue is wanted; ``vertex``: reversals are read at their vertices.
     """
 
+    first: int
+    record: int
     samples: int
     ends: bool
     recurs: bool
@@ -117,16 +130,20 @@ class _Stage(NamedTuple):
 
 
 def count_chunks(
-    stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK, *, ranges: bool = False
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, chunk: int = CHUNK, *, pieces: Floats | None = None
 ) -> BlockCount:
-    """Count a block as ``count`` does, ``chunk`` samples at a time; ``ranges``: see ``nothing_counted``.
+    """Count a block as ``count`` does, ``chunk`` samples at a time.
+
+    With ``pieces`` (n, 2, p), to which the damage in p equal pieces of the record is added, there are bins of all
+    ranges: see ``nothing_counted``.
 
     Raises
     ------
     NumericalError : a stress is not finite
     """
-    counted = nothing_counted(len(stress), rule.law, ranges=ranges)
-    _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk)
+    counted = nothing_counted(len(stress), rule.law, ranges=pieces is not None)
+    laid = no_pieces(len(stress)) if pieces is None else pieces
+    _count_points(stress, record, rule, (*counted, no_trials(len(stress)), laid), chunk)
     return block_count(*counted, rule, stress.level)
 
 
@@ -135,32 +152,34 @@ def count_chunks_and_residue(
 ) -> tuple[BlockCount, BlockResidue]:
     """Count a block as ``count_chunks`` does, and keep the residue of every point."""
     counted = nothing_counted(len(stress), rule.law)
-    residues = _count_points(stress, record, rule, (*counted, no_trials(len(stress))), chunk, keeps=True)
+    of = (*counted, no_trials(len(stress)), no_pieces(len(stress)))
+    residues = _count_points(stress, record, rule, of, chunk, keeps=True)
     return block_count(*counted, rule, stress.level), BlockResidue.joined(residues)
 
 
 def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
     """Add the damage of one pass of a block under factors on its stress to the trials."""
-    _count_points(stress, record, rule, (*nothing_counted(len(stress), rule.law), tried), chunk)
+    of = (*nothing_counted(len(stress), rule.law), tried, no_pieces(len(stress)))
+    _count_points(stress, record, rule, of, chunk)
 
 
 def _count_points(
     stress: BlockStress,
     record: CountedRecord,
     rule: CycleRule,
-    counted: tuple[NDArray[np.void], Floats, Trials],
+    counted: tuple[NDArray[np.void], Floats, Trials, Floats],
     chunk: int,
     *,
     keeps: bool = False,
 ) -> list[BlockResidue]:
     """Count a block some points at a time; returns their residues where they are to be kept."""
-    totals, histogram, trials = counted
+    totals, histogram, trials, pieces = counted
     shear_factor, offset = own_of(stress)
     residues = []
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
         own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factor[some], offset[some]
-        block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)))
+        block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)), pieces[some])
         parts = plain(stress.membrane)[some], plain(stress.bending)[some]
         state = _count(*parts, record, block, compiled_rule(rule), chunk, keeps=keeps)
         if keeps:
@@ -197,22 +216,18 @@ def _count(
         if ends and record.recurs:
             stress[:, samples + 1] = state.first.T.ravel()
         steps = samples + int(ends and record.recurs)
-        stage = _Stage(samples, ends, record.recurs, steps, keeps, record.vertex)
+        stage = _Stage(first - 1, t, samples, ends, record.recurs, steps, keeps, record.vertex)
         at = count_chunk(stress, stage, 0, state, block, rule, room)
         while at < 2 * points:  # more reversals wait than there is room for
             left, room_before = int(state.waiting.ravel()[at]), room
             state = _grown(state, 2 * left)
             room = _room_for(width + 1, 2 * left)
-            for rows, kept in ((state.m, room_before.m), (state.b, room_before.b)):
+            for rows, kept in ((state.m, room_before.m), (state.b, room_before.b), (state.at, room_before.at)):
                 rows.reshape(2 * points, -1)[at, :left] = kept[:left]
             at = count_chunk(stress, stage, at + 1, state, block, rule, room)
         state.earlier[:] = stress[:, samples - 1].reshape(2, points).T
         stress[:, 0] = stress[:, samples]
-    moments = state.moments
-    _, mean, second, _, fourth = np.moveaxis(moments, 2, 0)
-    flat = second * second == 0.0
-    block.totals["mean"] = mean if t else math.nan
-    block.totals["kurtosis"] = np.where(flat, math.nan, fourth * t / np.where(flat, 1.0, second * second))
+    block.totals["mean"], block.totals["kurtosis"] = mean_and_kurtosis_of(state.moments, t)
     block.totals["r_largest"][block.totals["max_range"] == 0.0] = math.nan
     return state
 
@@ -220,63 +235,54 @@ def _count(
 def _fresh_state(points: int) -> _State:
     """Nothing counted yet."""
     one, pair, rows = (points, 2), (points, 2, 2), (points, 2, WAITING)
-    steps = (np.zeros(one, np.int64) for _ in range(3))
-    first_step, step, waiting = steps
-    return _State(
-        np.zeros(one),
-        first_step,
-        step,
-        np.zeros(pair),
-        waiting,
-        np.zeros(rows),
-        np.zeros(rows),
-        np.zeros((*one, 5)),
-        earlier=np.zeros(one),
-        alone=np.zeros(one, np.int64),
-        after=np.zeros(pair),
-    )
+    first_step, step, waiting, alone = (np.zeros(one, np.int64) for _ in range(4))
+    first, earlier, plateau, after = np.zeros(one), np.zeros(one), np.zeros(pair), np.zeros(pair)
+    begin = first, first_step, step, plateau, waiting
+    m, b, at = np.zeros(rows), np.zeros(rows), np.zeros(rows, np.intp)
+    return _State(*begin, m, b, at, np.zeros((*one, 5)), earlier, alone, after, np.zeros(one, np.intp))
 
 
 def _grown(state: _State, room: int) -> _State:
     """Make room for more reversals that wait."""
     more = ((0, 0), (0, 0), (0, room - state.m.shape[2]))
-    return state._replace(m=np.pad(state.m, more), b=np.pad(state.b, more))
+    return state._replace(m=np.pad(state.m, more), b=np.pad(state.b, more), at=np.pad(state.at, more))
 
 
 def _room_for(steps: int, waiting: int) -> _Room:
     """Work space for the reversals of so many steps behind those that wait: once, and once more to turn them."""
     reversals = steps + waiting + 2
     m, b, s = (np.empty(2 * reversals + 1) for _ in range(3))
-    return _Room(np.empty(steps + 1), m, b, s, np.empty((2, reversals + 2)), buffers_for(reversals))
+    at = np.empty(2 * reversals + 1, np.intp)
+    return _Room(np.empty(steps + 1), m, b, s, at, np.empty((2, reversals + 2)), buffers_for(reversals))
 
 
 @compiled()
-def append(m: float, b: float, side: float, n: int, room: _Room) -> int:
-    """Append a reversal and return how many there are."""
-    room.m[n], room.b[n], room.s[n] = m, b, m + side * b
+def append(m: float, b: float, at: int, side: float, n: int, room: _Room) -> int:
+    """Append a reversal at a sample and return how many there are."""
+    room.m[n], room.b[n], room.s[n], room.at[n] = m, b, m + side * b, at
     return n + 1
 
 
 @compiled()
-def append_vertex(m: Three, b: Three, side: float, n: int, room: _Room) -> int:
+def append_vertex(m: Three, b: Three, at: int, side: float, n: int, room: _Room) -> int:
     """Append a reversal between its neighbours, read at its vertex, and return how many there are."""
     s = (m[0] + side * b[0], m[1] + side * b[1], m[2] + side * b[2])
     p = shift_of(s[0], s[1], s[2])
     if p == 0.0:
-        return append(m[1], b[1], side, n, room)
-    return append(at_shift(m[0], m[1], m[2], p), at_shift(b[0], b[1], b[2], p), side, n, room)
+        return append(m[1], b[1], at, side, n, room)
+    return append(at_shift(m[0], m[1], m[2], p), at_shift(b[0], b[1], b[2], p), at, side, n, room)
 
 
 @compiled()
 def append_reversals(
-    m: Floats, b: Floats, earlier: Floats, vertex: bool, side: float, steps: int, step: int, n: int, room: _Room
+    m: Floats, b: Floats, earlier: Floats, stage: _Stage, side: float, step: int, n: int, room: _Room
 ) -> tuple[int, int]:
     """Append the reversals among the first columns of a row, the last samples of their plateaus.
 
     ``earlier`` (2,) is the sample before the first column, ``step`` the direction before. Returns how many reversals
     there are, and the direction behind them.
     """
-    s, signs, at = room.stress, room.buffers.step, room.buffers.reversal
+    s, signs, at, steps = room.stress, room.buffers.step, room.buffers.reversal, stage.steps
     for i in range(steps):
         signs[i] = int(s[i + 1] > s[i]) - int(s[i + 1] < s[i])
     reversals = 0
@@ -286,11 +292,12 @@ def append_reversals(
         step = signs[i] if signs[i] != 0 else step
     for k in range(reversals):
         i = at[k]
-        if vertex:
+        if stage.vertex:
             m_before, b_before = (m[i - 1], b[i - 1]) if i > 0 else (earlier[0], earlier[1])
-            n = append_vertex((m_before, m[i], m[i + 1]), (b_before, b[i], b[i + 1]), side, n, room)
+            both = (m_before, m[i], m[i + 1]), (b_before, b[i], b[i + 1])
+            n = append_vertex(both[0], both[1], stage.first + i, side, n, room)
         else:
-            n = append(m[i], b[i], side, n, room)
+            n = append(m[i], b[i], stage.first + i, side, n, room)
     return n, step
 
 
@@ -305,6 +312,10 @@ def turn_to_largest(n: int, room: _Room) -> None:
             values[n + i] = values[(first + i) % n]
         for i in range(n + 1):
             values[i] = values[n + i]
+    for i in range(n + 1):
+        room.at[n + i] = room.at[(first + i) % n]
+    for i in range(n + 1):
+        room.at[i] = room.at[n + i]
 
 
 @compiled()
@@ -324,7 +335,7 @@ def gather_reversals(m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, s
     row, side, s = at[0], 1.0 - 2.0 * at[1], room.stress
     n = 0
     for i in range(state.waiting[at]):
-        n = append(state.m[at][i], state.b[at][i], side, n, room)
+        n = append(state.m[at][i], state.b[at][i], state.at[at][i], side, n, room)
     step = state.step[at]
     if step == 0:
         i = 0
@@ -335,22 +346,23 @@ def gather_reversals(m: Floats, b: Floats, at: tuple[int, int], stage: _Stage, s
             return 0
         state.first_step[at] = step
         state.plateau[at][0], state.plateau[at][1] = m[i - 1], b[i - 1]
+        state.plateau_at[at] = stage.first + i - 1
         state.after[at][0], state.after[at][1] = m[i], b[i]
         before = state.moments[at][0] - stage.samples  # of this chunk; its column 1 is the next sample
         state.alone[at] = int(before + i == 2)
         if not stage.recurs:  # a single pass turns at its first sample
-            n = append(state.first[row, 0], state.first[row, 1], side, n, room)
-    n, step = append_reversals(m, b, state.earlier[row], stage.vertex, side, stage.steps, step, n, room)
+            n = append(state.first[row, 0], state.first[row, 1], 0, side, n, room)
+    n, step = append_reversals(m, b, state.earlier[row], stage, side, step, n, room)
     state.step[at] = step
     if stage.ends and not stage.recurs:
-        n = append(m[stage.samples], b[stage.samples], side, n, room)
+        n = append(m[stage.samples], b[stage.samples], stage.record - 1, side, n, room)
     elif stage.ends and step != state.first_step[at]:  # a block that recurs turns where its first plateau ends
         first, after = state.plateau[at], state.after[at]
         if stage.vertex and state.alone[at]:
             last = stage.samples
-            n = append_vertex((m[last], first[0], after[0]), (b[last], first[1], after[1]), side, n, room)
+            n = append_vertex((m[last], first[0], after[0]), (b[last], first[1], after[1]), 0, side, n, room)
         else:
-            n = append(first[0], first[1], side, n, room)
+            n = append(first[0], first[1], state.plateau_at[at], side, n, room)
     return n
 
 
@@ -375,6 +387,16 @@ def keep_residue(m: Floats, b: Floats, at: tuple[int, int], n: int, stage: _Stag
     for k in range(length):
         kept_m[k], kept_b[k] = kept_m[place[k]], kept_b[place[k]]
     return length
+
+
+@compiled()
+def lay_pieces(room: _Room, cycles: int, stage: _Stage, pieces: Floats) -> None:
+    """Add the damage of the cycles to the pieces of the record in which they turn, where that is wanted."""
+    if pieces.size > 0:
+        start, end = room.buffers.start, room.buffers.end
+        for c in range(cycles):
+            start[c], end[c] = room.at[start[c]], room.at[end[c]]
+        lay_halves(start, end, room.buffers.damage, cycles, stage.record, pieces)
 
 
 @compiled()
@@ -408,15 +430,18 @@ def count_chunk(
             tally_trials(point, at_first, step, block.trials.damage[row, surface], rule, room.buffers, cycles)
         else:
             tally(point, block.totals[row, surface], block.histogram[row, surface], rule, room.buffers, cycles)
+        lay_pieces(room, cycles, stage, block.pieces[row, surface])
 
         state.waiting[row, surface] = left
         for k in range(left):
             if stage.ends:
                 room.m[k], room.b[k] = room.kept[0, k], room.kept[1, k]
             else:
-                room.m[k], room.b[k] = room.m[room.buffers.reversal[k]], room.b[room.buffers.reversal[k]]
+                kept = room.buffers.reversal[k]
+                room.m[k], room.b[k], room.at[k] = room.m[kept], room.b[kept], room.at[kept]
         if left > state.m.shape[2]:
             return number
         for k in range(left):
             state.m[row, surface, k], state.b[row, surface, k] = room.m[k], room.b[k]
+            state.at[row, surface, k] = room.at[k]
     return int(2 * points)

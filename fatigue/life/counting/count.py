@@ -52,8 +52,23 @@ def count_histograms(stress: BlockStress, record: CountedRecord, rule: CycleRule
     ------
     NumericalError : a stress is not finite
     """
-    counted = (count_chunks if _is_long(record) else count_rows)(stress, record, rule, ranges=True)
-    return counted.histogram.reshape(len(stress), 2, 2, HISTOGRAM_BINS, 2)[:, :, ::-1]
+    return count_histograms_and_pieces(stress, record, rule, 0)[0]
+
+
+def count_histograms_and_pieces(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, pieces: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Histograms as of ``count_histograms``, and the damage (n, 2, ``pieces``) in equal pieces of the record.
+
+    The piece of a sample i of N is ``floor(pieces i / N)``; half of the damage of a cycle goes to each of its instants.
+
+    Raises
+    ------
+    NumericalError : a stress is not finite
+    """
+    laid = np.zeros((len(stress), 2, pieces))
+    counted = (count_chunks if _is_long(record) else count_rows)(stress, record, rule, pieces=laid)
+    return counted.histogram.reshape(len(stress), 2, 2, HISTOGRAM_BINS, 2)[:, :, ::-1], laid
 
 
 def count_at_factors(

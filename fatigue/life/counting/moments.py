@@ -90,3 +90,11 @@ def add_moments(s: Floats, moments: Floats) -> None:
         + 6.0 * d**2 * (n_a**2 * second_b + n_b**2 * second_a) / n**2
         + 4.0 * d * (n_a * third_b - n_b * third_a) / n
     )
+
+
+def mean_and_kurtosis_of(moments: Floats, samples: int) -> tuple[Floats, Floats]:
+    """Mean and kurtosis by the moments (..., 5) of so many samples; NaN without any, kurtosis also of constant ones."""
+    _, mean, second, _, fourth = np.moveaxis(moments, -1, 0)
+    flat = second * second == 0.0
+    kurtosis = np.where(flat, math.nan, fourth * samples / np.where(flat, 1.0, second * second))
+    return (mean if samples else np.full_like(mean, math.nan)), kurtosis

@@ -15,7 +15,7 @@ Indices = NDArray[np.intp]
 
 
 class Buffers(NamedTuple):
-    """Work space for one signal."""
+    """Work space for one signal; ``damage`` is that of each cycle, where it is tallied."""
 
     path: Floats
     step: NDArray[np.int8]
@@ -23,13 +23,14 @@ class Buffers(NamedTuple):
     start: Indices
     end: Indices
     weight: Floats
+    damage: Floats
 
 
 def buffers_for(samples: int) -> Buffers:
     """Room for the reversals of a signal whose first sample is repeated at its end."""
     reversal, start, end = (np.empty(samples + 2, np.intp) for _ in range(3))
-    path, weight = np.empty(samples + 1), np.empty(samples + 1)
-    return Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight)
+    path, weight, damage = (np.empty(samples + 1) for _ in range(3))
+    return Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight, damage)
 
 
 @compiled()

@@ -24,6 +24,8 @@ from fatigue.life.counting.tally import (
     Surface,
     block_count,
     compiled_rule,
+    lay_halves,
+    no_pieces,
     nothing_counted,
     own_of,
     plain,
@@ -40,7 +42,10 @@ SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before 
 
 
 class _Histories(NamedTuple):
-    """Stresses of a block and, per point and surface, what is counted: see ``nothing_counted``; or damage of trials."""
+    """Stresses of a block and, per point and surface, what is counted: see ``nothing_counted``; or damage of trials.
+
+    ``pieces`` (n, 2, p): damage in each of p equal pieces of the record, p 0 where it is not wanted.
+    """
 
     membrane: Floats
     bending: Floats
@@ -51,12 +56,23 @@ class _Histories(NamedTuple):
     totals: NDArray[np.void]
     histogram: Floats
     trials: Trials
+    pieces: Floats
 
 
-def count_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, *, ranges: bool = False) -> BlockCount:
-    """Count a block as ``count`` does: the histories of a few points at a time; ``ranges``: see ``nothing_counted``."""
-    histories, how = _histories(stress, record), (record.recurs, record.vertex)
-    return _joined([_count_some(some, both, how, rule, ranges=ranges) for some, both in histories])
+def count_rows(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, *, pieces: Floats | None = None
+) -> BlockCount:
+    """Count a block as ``count`` does: the histories of a few points at a time.
+
+    With ``pieces`` (n, 2, p), to which the damage in p equal pieces of the record is added, there are bins of all
+    ranges: see ``nothing_counted``.
+    """
+    counts, begin, how = [], 0, (record.recurs, record.vertex)
+    for some, both in _histories(stress, record):
+        of_some = None if pieces is None else pieces[begin : begin + len(some)]
+        counts.append(_count_some(some, both, how, rule, of_some))
+        begin += len(some)
+    return _joined(counts)
 
 
 def count_rows_and_residue(
@@ -80,7 +96,7 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         totals, histogram = nothing_counted(len(membrane), rule.law)
         of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
         trials = Trials(*(part[at] for part in tried))
-        block = _Histories(*of_points, totals, histogram, trials)
+        block = _Histories(*of_points, totals, histogram, trials, no_pieces(len(membrane)))
         _count(block, record.recurs, record.vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
 
 
@@ -121,18 +137,19 @@ def _count_some(
     histories: tuple[Floats, Floats],
     how: tuple[bool, bool],
     rule: CycleRule,
-    *,
-    ranges: bool = False,
+    pieces: Floats | None = None,
 ) -> BlockCount:
     """Count some points, of which membrane and bending stress over time are given.
 
-    ``how``: whether the record recurs, and whether reversals are read at their vertices.
+    ``how``: whether the record recurs, and whether reversals are read at their vertices. ``pieces``: as
+    of ``count_rows``.
     """
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
-    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=ranges)
+    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=pieces is not None)
     of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
-    block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)))
+    laid = no_pieces(len(membrane)) if pieces is None else pieces
+    block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)), laid)
     _count(block, *how, compiled_rule(rule), buffers_for(membrane.shape[1]))
     return block_count(totals, histogram, rule, some.level)
 
@@ -169,3 +186,5 @@ def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, bu
                 continue
             total["r_largest"] = math.nan
             tally(point, total, histogram, rule, buffers, cycles)
+            if block.pieces.shape[2] > 0:
+                lay_halves(buffers.start, buffers.end, buffers.damage, cycles, s.size, block.pieces[row, surface])

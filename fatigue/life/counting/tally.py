@@ -17,6 +17,7 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 _SCALARS = tuple(field.name for field in fields(BlockCount) if field.name != "histogram")
 
@@ -69,6 +70,11 @@ def own_of(stress: BlockStress) -> tuple[Floats, Floats]:
     """Shear factor, 1 where none is wanted, and offset [MPa] of each point and surface, (n, 2) each."""
     factor = np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor
     return plain(factor), plain(stress.level)
+
+
+def no_pieces(points: int) -> Floats:
+    """Damage of a block in no piece of time: not wanted."""
+    return np.zeros((points, 2, 0))
 
 
 def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule, offset: Floats) -> BlockCount:
@@ -164,6 +170,7 @@ def tally(
         f_M = mean_stress_factor(minimum, maximum, rule.yield_MPa)
         dS = x / f_M if rule.mean_stress else x
         damage = cycle_damage(dS, rule)
+        buffers.damage[c] = n * damage
         total["damage"] += n * damage
         total["damage_mean_stress"] += n * (damage if f_M == 1.0 else cycle_damage(x / f_M, rule))
         total["cycles"] += n
@@ -180,3 +187,15 @@ def tally(
                 add_to_bin(n, S, k, histogram[HISTOGRAM_BINS:])
     if histogram.shape[0] == 0:  # d(a S) = d(a) S**k of a straight law
         total["damage_same_ratio"] = cycle_damage(same_scale, rule) * total["power_sum"]
+
+
+@compiled()
+def lay_halves(start: Indices, end: Indices, damage: Floats, cycles: int, samples: int, laid: Floats) -> None:
+    """Add half of the damage of each cycle to the bin of either instant, of the equal bins of a record of ``samples``.
+
+    So the bins add up to the damage, that of cycles from one to another and across the end of the record included.
+    """
+    for c in range(cycles):
+        half = 0.5 * damage[c]
+        laid[start[c] * laid.size // samples] += half
+        laid[end[c] * laid.size // samples] += half

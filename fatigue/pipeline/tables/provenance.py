@@ -7,8 +7,11 @@ from typing import Any
 
 from fatigue.case import Case, stress_categories
 from fatigue.errors import Problem
+from fatigue.life.band.load import BLOCK, CONFIDENCE, PIECES
+from fatigue.life.band.quantiles import SURVIVALS
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import ABOVE
+from fatigue.pipeline.life_band.scatter import MINOR
 from fatigue.pipeline.mission.gravity import HeldGravity
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import Work
@@ -83,6 +86,7 @@ def provenance_record(
             "screening": _screening_record(work, stations),
             "cycles_kept_from_utilisation": work.kept_from,
             "histogram": _HISTOGRAM_RULES[work.histogram],
+            "life_band": _band_record(case, work),
             "multiaxial": _shear_record(case, work, shear or {}),
             "stress_category": asdict(stress_categories(case.checks.stress_category)),
             "spectrum": {
@@ -112,6 +116,21 @@ def provenance_record(
         "gravity": [one.as_record() for one in gravity],
         "conversion": body.conversion,
         "warnings": [asdict(problem) for problem in warnings],
+    }
+
+
+def _band_record(case: Case, work: Work) -> dict[str, Any] | None:
+    """What the bands of lives rest on; None where there are none."""
+    if work.histogram == "none":
+        return None
+    return {
+        "load": f"half of each cycle's damage at either instant, {PIECES} pieces of the record, circular blocks of "
+        f"{BLOCK} in closed form; events independent, degrees of freedom by Welch and Satterthwaite",
+        "confidence_of_load": CONFIDENCE,
+        "survivals": dict(SURVIVALS),
+        "events_without_scatter_below_share": MINOR,
+        **case.life_band.model_dump(),
+        "miner_median": case.life_band.miner_median or "the allowed damage sum",
     }
 
 

@@ -8,12 +8,14 @@ from fatigue.pipeline.checks.group import has_checks
 from fatigue.pipeline.checks.rows import CheckRows, joined
 from fatigue.pipeline.checks.verdict import verdicts
 from fatigue.pipeline.count.worst import WorstPoint, histogram_points, worst_points
+from fatigue.pipeline.life_band.points import band_points
+from fatigue.pipeline.life_band.rows import BandRows
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.run.workers import Group
 from fatigue.pipeline.tables.checks import check_table_rows
 from fatigue.pipeline.tables.cycle_rows import KeptPoint, kept_point
 from fatigue.pipeline.tables.cycles import cycle_writer
-from fatigue.pipeline.tables.histogram import histogram_writer
+from fatigue.pipeline.tables.histogram import BinnedPoint, histogram_writer
 from fatigue.pipeline.tables.path_cycles import kept_paths, path_writer
 from fatigue.pipeline.tables.register import excluded_rows, weld_rows
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, stress_rows
@@ -44,19 +46,24 @@ def write_tables(
     """
     body = work.groups.body
     wants_histograms, wants_checks = work.histogram != "none", has_checks(body.case)
-    optional = {"histogram": wants_histograms, "checks": wants_checks, "path_cycles": work.shear is not None}
+    optional = {
+        "histogram": wants_histograms,
+        "band": wants_histograms,
+        "checks": wants_checks,
+        "path_cycles": work.shear is not None,
+    }
     wanted = [*ASSESSED, "sensitivity", *(table for table, is_wanted in optional.items() if is_wanted)]
     with result_tables(folder, key, wanted) as tables, closing(assessed):
         cycles = cycle_writer(tables["cycles"], work.loads, work.plan)
-        histograms = histogram_writer(tables["histogram"], work.loads, work.plan, threads) if wants_histograms else None
+        bands = BandRows(tables["band"], work.loads, work.plan, body.case.life_band) if wants_histograms else None
+        histograms = bands and histogram_writer(tables["histogram"], bands, work.loads, work.plan, threads)
         paths = path_writer(tables["path_cycles"], work.loads, work.shear.beta) if work.shear else None
         done.checks.add(apart, body.case.checks.counts)
         for group in assessed:
             worst = write_group(tables, group, work, apart)
             cycles.add(points_kept_of(worst, group, work))
             if histograms:
-                binned = histogram_points(group.model.stations, group.result, worst, everything=work.histogram == "all")
-                histograms.add([kept_point(group.model, point) for point in binned])
+                histograms.add(points_binned_of(worst, group, work))
             if paths:
                 paths.add(kept_paths(group, everything=work.counts_all_paths))
             done.add(group, work, worst)
@@ -65,6 +72,8 @@ def write_tables(
         cycles.flush()
         if histograms:
             histograms.flush()
+        if bands:
+            bands.flush()
         if paths:
             paths.flush()
         if wants_checks:
@@ -94,6 +103,15 @@ def write_group(
     tables["welds"].write(weld_rows(model, plan, result, worst, of_checks))
     tables["sensitivity"].write(sensitivity_rows(model, result, worst, work.sampling))
     return worst
+
+
+def points_binned_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[BinnedPoint]:
+    """The points of a group whose histograms and bands are kept."""
+    model, result = group.model, group.result
+    binned = histogram_points(model.stations, result, worst, everything=work.histogram == "all")
+    with_lines = model.case.life_band.reference_length_mm is not None
+    bands = band_points(model, result, binned, work.plan, with_lines=with_lines)
+    return [BinnedPoint(kept_point(model, point), band) for point, band in zip(binned, bands, strict=True)]
 
 
 def points_kept_of(worst: Sequence[WorstPoint], group: Group, work: Work) -> list[KeptPoint]:

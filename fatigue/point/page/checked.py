@@ -50,6 +50,11 @@ def _checks(found: Gathered) -> Iterator[Recomputed]:
     parts = found.why.attribution
     modes = float(parts.loc[parts["kind"].isin(["mode", "unit_load"]), "damage_per_km"].sum())
     yield Recomputed("damage, shared out to modes and unit loads", _difference(modes, damage))
+    now, before = (None if of is None else of.of(*found.key) for of in (found.bands_counted, found.bands_stored))
+    if now is not None and before is not None and not found.is_screened:
+        pairs_of_ends = ((now.low_km, before.low_km), (now.high_km, before.high_km))
+        ends = max(0.0 if np.isnan(a) and np.isnan(b) else _difference(a, b) for a, b in pairs_of_ends)
+        yield Recomputed("band.parquet, both ends of the band of load", ends)
     if found.diagnosis is not None and len(found.diagnosis.attribution):
         before = found.diagnosis.attribution
         off = (

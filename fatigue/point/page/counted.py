@@ -1,6 +1,7 @@
 """A station counted again as the assessment counts it, all of its events, whatever bound once stood for counting."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,23 +14,44 @@ from fatigue.pipeline.count.block import Block
 from fatigue.pipeline.count.group import weld_names
 from fatigue.pipeline.count.result import GroupResult, arrays_of
 from fatigue.pipeline.count.worst import WorstPoint
+from fatigue.pipeline.life_band.points import band_points
+from fatigue.pipeline.life_band.rows import BandRows
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.pipeline.solve.stations import modal_stress
 from fatigue.pipeline.tables.cycle_rows import kept_point
 from fatigue.pipeline.tables.cycles import cycle_writer
+from fatigue.pipeline.tables.histogram import BinnedPoint, histogram_writer
 from fatigue.pipeline.tables.rows import damage_rows, node_rows, shear_columns
 from fatigue.results import table_writer
 
-CYCLES = "cycles"
+CYCLES, BAND, HISTOGRAM = "cycles", "band", "histogram"
 
 
-def rows_of_station(
-    model: Model, station: int, loads: Sequence[EventLoad], plan: Plan
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Rows of a station in ``nodes.parquet`` and in ``damage.parquet``, top before bottom, with nothing screened.
+@dataclass(frozen=True, slots=True, eq=False)
+class CountedStation:
+    """A station counted again.
 
-    What shear adds is not among them. ``station`` is its index among those of the ``model``.
+    Attributes
+    ----------
+    model, station : the welds around it, and its index among their stations
+    result : of all of these, with the numbers of this one and 0 in the others
+    nodes, damage : its rows of ``nodes.parquet``, without what shear adds, and of ``damage.parquet``, top before bottom
+    """
+
+    model: Model
+    station: int
+    result: GroupResult
+    nodes: pd.DataFrame
+    damage: pd.DataFrame
+
+    def point(self, face: int) -> WorstPoint:
+        """A face of it, as tables name points."""
+        return WorstPoint(int(self.model.stations.weld[self.station]), self.station, face)
+
+
+def count_station(model: Model, station: int, loads: Sequence[EventLoad], plan: Plan) -> CountedStation:
+    """Count a station under all events, with nothing screened; ``station`` is its index among those of the model.
 
     Raises
     ------
@@ -46,18 +68,35 @@ def rows_of_station(
         result.put(settled, rows[settled.rows])
     status = [one.curve.status for one in model.curve_of_weld]
     every = _frame(node_rows(stations, result, plan, status)).drop(columns=list(shear_columns(result, 0)))
-    nodes = every.iloc[2 * station : 2 * station + 2]
+    nodes = every.iloc[2 * station : 2 * station + 2].reset_index(drop=True)
     damage = _frame(damage_rows(stations, result, plan, slice(station, station + 1)))
-    return nodes.reset_index(drop=True), damage
+    return CountedStation(model, station, result, nodes, damage)
 
 
-def write_cycles(folder: Path, model: Model, station: int, face: int, loads: Sequence[EventLoad], plan: Plan) -> None:
+def write_cycles(folder: Path, counted: CountedStation, face: int, loads: Sequence[EventLoad], plan: Plan) -> None:
     """Write every cycle of a point as a table ``cycles`` into a folder, some at a time."""
-    point = kept_point(model, WorstPoint(int(model.stations.weld[station]), station, face))
     with table_writer(folder, CYCLES) as table:
         writer = cycle_writer(table, loads, plan)
-        writer.add([point])
+        writer.add([kept_point(counted.model, counted.point(face))])
         writer.flush()
+
+
+def write_band(
+    folder: Path, counted: CountedStation, face: int, assessed: pd.Series, loads: Sequence[EventLoad], plan: Plan
+) -> None:
+    """Write the band of the life of a point as a table ``band`` into a folder, and the histogram behind it.
+
+    ``assessed`` is the row of its life and damage: where shear decides about these there is no band.
+    """
+    model, point = counted.model, counted.point(face)
+    (of_normal,) = band_points(model, counted.result, [point], plan, with_lines=False)
+    of_point = replace(of_normal, life_km=float(assessed["life_km"]), damage_per_km=float(assessed["damage_per_km"]))
+    with table_writer(folder, HISTOGRAM) as table, table_writer(folder, BAND) as band:
+        bands = BandRows(band, loads, plan, model.body.case.life_band)
+        writer = histogram_writer(table, bands, loads, plan, 1)
+        writer.add([BinnedPoint(kept_point(model, point), of_point)])
+        writer.flush()
+        bands.flush()
 
 
 def _frame(rows: dict[str, Any]) -> pd.DataFrame:

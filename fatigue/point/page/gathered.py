@@ -14,7 +14,7 @@ from fatigue.life.rule import cycle_damage
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.point.found import FACES, Station
-from fatigue.point.page.counted import CYCLES, rows_of_station, write_cycles
+from fatigue.point.page.counted import CYCLES, count_station, write_band, write_cycles
 from fatigue.point.page.shared_out import AS_USUAL, Diagnosed, diagnosed, share_out, tables_of
 from fatigue.point.reopened import Reopened, solved_station
 from fatigue.report.inputs import FoundInputs
@@ -25,6 +25,7 @@ from fatigue.report.sections.point.worst_cycles import most_damaging
 from fatigue.report.sections.why import Why
 from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import read_rows, read_table, read_welds, row_count, rows_of_welds
+from fatigue.results.beside.life_band import Bands, read_bands
 from fatigue.spectrum.moments import point_moments
 from fatigue.why.evidence import Evidence
 from fatigue.why.points import Points, points_of
@@ -47,10 +48,12 @@ class Gathered:
     counted : the same columns counted again, without those about shear
     weld : row of its weld in the register
     line : rows of all points of its weld
+    bands_counted, bands_stored : band of its life counted now, and those of its weld in the result; None: none there
     damage, damage_stored : its rows of ``damage.parquet`` counted again, and as they are in the result
     cycles : its cycles, with the columns of ``cycles.parquet``; of very many those that are alike are one row
     cycle_rows : how many cycles and half cycles there are
-    event : whose record is shown: the one that damages most, of an undamaged point that with the largest range
+    event : whose record is shown: by default the one that damages most, of an undamaged point that with the largest
+        range
     evidence, why : whose damage it is, in numbers and as the tables of a diagnosis
     diagnosis : what the diagnosis in the folder has of it; None where there is none
     detail : what the records say of it
@@ -65,6 +68,8 @@ class Gathered:
     counted: pd.Series
     weld: pd.Series
     line: pd.DataFrame
+    bands_counted: Bands | None
+    bands_stored: Bands | None
     damage: pd.DataFrame
     damage_stored: pd.DataFrame
     cycles: pd.DataFrame
@@ -87,6 +92,17 @@ class Gathered:
         return self.station.screened[self.face]
 
     @property
+    def bands(self) -> Bands | None:
+        """Bands that hold that of its life: those of the result, with the survival of its line, else that of now."""
+        has_it = self.bands_stored is not None and self.bands_stored.of(*self.key) is not None
+        return self.bands_stored if has_it and not self.is_screened else self.bands_counted
+
+    @property
+    def key(self) -> tuple[str, int, int, str]:
+        """Weld, part, order and surface."""
+        return self.station.weld, self.station.part, self.station.order, self.surface
+
+    @property
     def row(self) -> pd.Series:
         """Its row in the table of nodes, with counted numbers where the result has bounds."""
         if not self.is_screened:
@@ -95,9 +111,17 @@ class Gathered:
 
 
 def gather(
-    inputs: Reopened, found: FoundInputs, station: Station, face: int, loads: Sequence[EventLoad], plan: Plan
+    inputs: Reopened,
+    found: FoundInputs,
+    station: Station,
+    face: int,
+    loads: Sequence[EventLoad],
+    plan: Plan,
+    shown: str | None = None,
 ) -> Gathered:
     """Solve the welds around a point, count it again under all ``loads``, and share its damage out.
+
+    ``shown`` is the event whose record is shown, None: the one that damages most.
 
     Raises
     ------
@@ -107,30 +131,34 @@ def gather(
     folder, record = inputs.folder, inputs.record
     model, at = solved_station(inputs, station)
     points = points_of(model, np.array([at]), np.array([face]), ON_DEMAND)
-    nodes, damage = (rows[rows["surface"] == FACES[face]] for rows in rows_of_station(model, at, loads, plan))
-    damage = damage.reset_index(drop=True)
+    again = count_station(model, at, loads, plan)
+    damage = again.damage[again.damage["surface"] == FACES[face]].reset_index(drop=True)
+    stored = read_rows(folder, "nodes", np.array([station.rows[face]])).to_pandas().iloc[0]
+    counted = again.nodes.iloc[face]
 
     scratch = inputs.scratch / "point"
     scratch.mkdir()
-    write_cycles(scratch, model, at, face, loads, plan)
+    write_cycles(scratch, again, face, loads, plan)
+    write_band(scratch, again, face, counted if station.screened[face] else stored, loads, plan)
     weld = read_welds(folder).set_index("weld", drop=False).loc[station.weld]
     cycles = _cycles(scratch, record, station, face, str(weld["curve"]))
-    event = _event_of(damage, record)
+    event = _event_of(damage, record) if shown is None else shown
 
     key = (station.part, station.order, FACES[face])
     known = diagnosed(folder, record, station.weld, key)
     of_events = [damage.iloc[number : number + 1].reset_index(drop=True) for number in range(len(loads))]
     how = AS_USUAL if known is None else known.settings
     evidence = share_out(inputs.body, points, loads, plan, of_events, how)
-    stored = read_rows(folder, "nodes", np.array([station.rows[face]])).to_pandas().iloc[0]
     return Gathered(
         record=record,
         station=station,
         face=face,
         stored=stored,
-        counted=nodes.iloc[0],
+        counted=counted,
         weld=weld,
         line=read_rows(folder, "nodes", rows_of_welds(folder, "nodes", [station.weld])[station.weld]).to_pandas(),
+        bands_counted=read_bands(scratch, [station.weld]),
+        bands_stored=read_bands(folder, [station.weld]),
         damage=damage,
         damage_stored=_stored_damage(folder, station.rows[face], len(plan.names)),
         cycles=cycles,
@@ -157,6 +185,11 @@ def _cycles(scratch: Path, record: Record, station: Station, face: int, curve: s
     damage = partial(cycle_damage, law=law)
     point = ShownPoint(station.part, station.order, FACES[face], float(law.slopes[0]), damage, passes_per_km)
     return merged_cycles(scratch, {station.weld: point}, list(passes_per_km))[station.weld].rows
+
+
+def listed(cycles: pd.DataFrame) -> pd.DataFrame:
+    """Cycles with their instants, those with the largest ranges first; merged ones have none."""
+    return cycles[cycles["start_s"].notna()].sort_values("range_MPa", ascending=False, kind="stable")
 
 
 def _event_of(damage: pd.DataFrame, record: Record) -> str:
@@ -198,7 +231,7 @@ def _detail(
         stations={name: stress[of_weld] for name, stress in components.items()},
         shear=stations.treated.in_plane_shear[at] + side * stations.treated.twist_shear[at] if by_model else None,
         governing_event=event,
-        cycles=most_damaging(cycles[cycles["start_s"].notna()], event, CLOSE_BY),
+        cycles=most_damaging(listed(cycles), event, CLOSE_BY),
     )
     details, _ = point_details({"": point}, found, record)
     return details[""]

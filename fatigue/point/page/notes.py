@@ -8,7 +8,7 @@ import pandas as pd
 from fatigue.point.page.checked import is_decided_by_shear
 from fatigue.point.page.gathered import Gathered
 from fatigue.report.merged_cycles import MOST_ROWS
-from fatigue.report.wording import km, number, share, short, whole
+from fatigue.report.wording import life_km, number, share, short, whole
 
 
 def notes_of(found: Gathered) -> tuple[str, ...]:
@@ -32,13 +32,7 @@ def _notes(found: Gathered) -> Iterator[str]:
             f"The case has shear decide (method {method}): life and utilisation are the worse of both, cycles and "
             f"shares are of the normal stress alone, whose utilisation is {number(of_normal)}"
         )
-    if row["damage_per_km"] == 0.0:
-        yield "Nothing damages this point; the record shown is that of the event with the largest range"
-    elif not _is_event(found, row["governing_event"]):
-        yield (
-            f"Cycles across events govern here ({row['governing_event']}), which have no record of their own: shown is "
-            f"{short(found.event)}, the event that damages most"
-        )
+    yield from _shown(found)
     if row["summed_corner"]:
         yield "At a corner whose nodal forces are one sum of both legs: the stress is of neither leg, and unbounded"
     elif row["at_corner"]:
@@ -73,7 +67,7 @@ def _screened(found: Gathered) -> str:
     times = "" if damage == 0.0 else f", {number(bound / damage)} times as much"
     return (
         f"The result did not count this point: a bound ({found.stored['screened']}) settled it, with a damage of at "
-        f"most {number(bound)} per km and a life of at least {km(found.stored['life_km'])}. Counted now: "
+        f"most {number(bound)} per km and a life of at least {life_km(found.stored['life_km'])}. Counted now: "
         f"{number(damage)} per km{', the bound is ' + times[2:] if times else ''}"
     )
 
@@ -88,8 +82,22 @@ def _beside_the_worst(found: Gathered, weld: pd.Series) -> Iterator[str]:
     place = f"{part}order {weld['worst_order']}, node {weld['worst_node']}, {weld['worst_surface']} face"
     times = float(found.row["life_km"]) / float(weld["life_km"])
     ratio = f"; the life here is {number(times)} times as long" if np.isfinite(times) else ""
-    yield f"The weld is worst at {place}: {km(weld['life_km'])}{ratio}"
+    yield f"The weld is worst at {place}: {life_km(weld['life_km'])}{ratio}"
 
 
-def _is_event(found: Gathered, name: object) -> bool:
-    return any(event["event"] == name for event in found.record["mission"]["events"])
+def _shown(found: Gathered) -> Iterator[str]:
+    """Whose record is shown, where it is not that of the governing event."""
+    governing = found.row["governing_event"]
+    if found.row["damage_per_km"] == 0.0:
+        yield f"Nothing damages this point; shown is the record of {short(found.event)}"
+        return
+    if governing == found.event:
+        return
+    events = [event["event"] for event in found.record["mission"]["events"]]
+    across = "" if governing in events else ": cycles across events, which have no record of their own"
+    parts = found.why.attribution
+    of_event = parts.loc[(parts["kind"] == "event") & (parts["event"] == found.event), "share"].sum()
+    yield (
+        f"Shown is the record of {short(found.event)}, {share(of_event)} of the damage; {short(str(governing))} "
+        f"governs{across}"
+    )

@@ -6,13 +6,14 @@ from typing import Any
 import numpy as np
 
 from fatigue.point.page.checked import checks_of
-from fatigue.point.page.gathered import Gathered
+from fatigue.point.page.gathered import Gathered, listed
 from fatigue.point.page.notes import notes_of
-from fatigue.point.page.tables import cycle_table, domains_table, number_table, verdict_cell, worst_cycles
+from fatigue.point.page.tables import cycle_table, domains_table, leading_events, number_table, verdict_cell
 from fatigue.report import figures, wording
 from fatigue.report.of_record import mode_names, target_of, weights_of
 from fatigue.report.page_text import page_text
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.beside.life_band import band_facts, band_sentence
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.curves import curve_words, figure_mark
 from fatigue.report.sections.embed import Figures, Shown
@@ -31,7 +32,8 @@ from fatigue.report.variants import assumptions_of, variants
 from fatigue.results.provenance import curves_of_status
 
 ROOM = "fatigue.point.page"
-EVENTS_LISTED = 40
+EVENTS_LISTED = 20
+ORDINALS = ("second", "third", "fourth")  # cycles beside the most damaging one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +70,8 @@ def facts_of(found: Gathered) -> dict[str, Any]:
         "verdict": verdict_cell(found),
         "target_km": target_of(record),
         "notes": notes_of(found),
-        "facts": [*weld_tables.facts(row, weld, curve), *shear_facts(row)],
+        "facts": [*weld_tables.facts(row, weld, curve), *band_facts(found.bands, row), *shear_facts(row)],
+        "band": band_sentence(None if found.bands is None else found.bands.of(*found.key)),
         "event": found.event,
         "undamaged": row["damage_per_km"] == 0.0,
     }
@@ -83,7 +86,7 @@ def _place(found: Gathered) -> str:
 
 def _tables(found: Gathered) -> dict[str, Any]:
     """What only the page has: its tables, and what is said of levers and trust."""
-    record, why = found.record, found.why
+    record, why, events = found.record, found.why, leading_events(found, EVENTS_LISTED)
     used = assumptions_of(record, found.weld["curve"])
     passes_per_km = weights_of(record)
     of_cycles = variants(found.row, found.cycles, passes_per_km, used)
@@ -91,13 +94,14 @@ def _tables(found: Gathered) -> dict[str, Any]:
     return {
         "cycles": cycle_table(found),
         "cycle_rows": found.cycle_rows,
+        "events_left_out": max(0, len(found.damage) - EVENTS_LISTED),
         "events": weld_tables.event_table("events", found.damage, passes_per_km, EVENTS_LISTED),
         "levers": None if why.levers.empty else weld_tables.lever_table("levers", why.levers),
         "unit_loads": bool(record.get("unit_loads")),
         "exponents": exponents(why),
         "formation": "" if why.formation is None else of_one_weld(why.formation),
-        "domains": domains_table(found),
-        "reasons": why.reasons(),
+        "domains": domains_table(found, events),
+        "reasons": [reason for reason in why.reasons() if reason[0] in events],
         "variants": weld_tables.variant_table("variants", of_cycles, life, km_per_year),
         "numbers": number_table(found),
         "assumptions": assumptions(record),
@@ -138,23 +142,13 @@ def _close_by(found: Gathered, figs: Figures) -> list[Shown]:
     others = found.detail.excerpts[1:]
     if not others:
         return []
-    of_event = worst_cycles(found)
-    ranges = _ranges_of(found, len(others) + 1)[1:]
-    titles = [f"{_ORDINALS[i]}: {wording.number(size)} MPa" for i, size in enumerate(ranges)]
     names, _ = mode_names(found.record)
-    fig = figures.cycles_close_by(others, titles, names)
+    own = listed(found.cycles[found.cycles["event"] == found.event])
+    worst = np.argsort(-(own["damage"] / own["count"]).to_numpy(), kind="stable")
+    ranges = own["range_MPa"].to_numpy()[worst[1 : len(others) + 1]]
+    titles = [f"{which}: {wording.number(size)} MPa" for which, size in zip(ORDINALS, ranges, strict=False)]
     caption = f"The next cycles of event {wording.short(found.event)}, by their damage"
-    return [figs.add("close-by", fig, caption, wide=True, of_curve=False)] if len(of_event) else []
-
-
-_ORDINALS = ("second", "third", "fourth", "fifth")
-
-
-def _ranges_of(found: Gathered, most: int) -> list[float]:
-    """Ranges of the most damaging cycles of the event that is shown [MPa]."""
-    rows = found.cycles[(found.cycles["event"] == found.event) & found.cycles["start_s"].notna()]
-    each = (rows["damage"] / rows["count"]).to_numpy()
-    return [float(size) for size in rows["range_MPa"].to_numpy()[np.argsort(-each, kind="stable")[:most]]]
+    return [figs.add("close-by", figures.cycles_close_by(others, titles, names), caption, wide=True, of_curve=False)]
 
 
 def _domains(found: Gathered, figs: Figures) -> list[Shown]:

@@ -20,7 +20,7 @@ from fatigue.point.page.gathered import Gathered, gather
 from fatigue.point.page.page import point_page
 from fatigue.point.page.picture import draw_picture
 from fatigue.point.page.summary import PointSummary, summary_of
-from fatigue.point.reopened import reopened
+from fatigue.point.reopened import event_numbers, reopened
 from fatigue.point.written import in_the_way
 from fatigue.report.files.browser import find_browser
 from fatigue.report.files.png import INSTEAD
@@ -39,6 +39,7 @@ def point(
     node: int | None = None,
     part: int | None = None,
     surface: str | None = None,
+    event: str | None = None,
     output: Path | str | None = None,
     case_file: Path | str | None = None,
     threads: int | None = None,
@@ -53,6 +54,7 @@ def point(
     weld : its name
     order, node, part : where along the weld; with neither order nor node at its worst point
     surface : ``top`` or ``bottom``; by default the face that decides: of two toes the more utilised
+    event : whose record is shown; by default the one that damages most
     output : file to write, ``.html`` or ``.png``; the latter wants a Chromium, Chrome or Edge
     case_file : the case it was made from; by default where the provenance of the result says
     threads : that prepare events, by default one per processor core; the numbers do not depend on it
@@ -80,11 +82,12 @@ def point(
     beside = folder if file is None else file.absolute().parent
     with staged(beside, ".fatigue-point-") as scratch, threadpool_limits(limits=1, user_api="blas"):
         inputs = reopened(folder, record, scratch, named)
+        event_numbers(inputs, event)  # refuses one that there is not
         plan, _ = mission_plan(inputs.body, threads)
         stage("preparing the records of the events (%d)", len(plan.passes))
         loads = event_loads(inputs.groups, plan, scratch / "histories", threads, inputs.factors)
         stage("counting the point and sharing out its damage")
-        found = gather(inputs, find_inputs(record, folder, named), station, face, loads, plan)
+        found = gather(inputs, find_inputs(record, folder, named), station, face, loads, plan, event)
         if file is not None:
             _show(found, file)
     return replace(summary_of(found), file=file)

@@ -13,10 +13,12 @@ from fatigue.point.page.notes import notes_of
 from fatigue.point.page.tables import worst_cycles
 from fatigue.report.of_record import target_of, weights_of
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.beside.life_band import band_facts
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.checks import Recomputed
 from fatigue.report.sections.curves import curve_words
 from fatigue.report.wording import km, number, share
+from fatigue.results.beside.life_band import BandOfPoint
 from fatigue.shown import shortened, visible
 from fatigue.why.findings import Finding, findings
 
@@ -39,6 +41,7 @@ class PointSummary:
     cycle_count : how many cycles and half cycles one pass of every event has
     finding : what makes the damage; None where nothing does
     verdicts : event, verdict on the frequency domain, reason
+    band : of its life; None where it has none
     checks : what was compared with the result
     target_km : mileage to be reached
     file : page or picture that was written
@@ -59,6 +62,7 @@ class PointSummary:
     cycle_count: int
     finding: Finding | None
     verdicts: tuple[tuple[str, str, str], ...]
+    band: BandOfPoint | None
     checks: tuple[Recomputed, ...]
     target_km: float
     file: Path | None = None
@@ -74,6 +78,7 @@ class PointSummary:
         said = {name: getattr(self, name) for name in names}
         return said | {
             "target_km": self.target_km,
+            "band": None if self.band is None else self.band.as_record(),
             "events": self.events.to_dict("records"),
             "cycle_count": self.cycle_count,
             "worst_cycles": self.cycles.to_dict("records"),
@@ -150,12 +155,13 @@ def summary_of(found: Gathered) -> PointSummary:
         stored=found.stored.to_dict(),
         counted=found.counted.to_dict(),
         notes=notes_of(found),
-        facts=(*facts, *shear_facts(row), ("Target", _target(row, target))),
+        facts=(*facts, *band_facts(found.bands, row), *shear_facts(row), ("Target", _target(row, target))),
         events=found.damage.assign(share=damage / total if total > 0.0 else 0.0),
         cycles=worst_cycles(found),
         cycle_count=found.cycle_rows,
         finding=said[0] if said else None,
         verdicts=tuple(found.why.reasons()),
+        band=None if found.bands is None else found.bands.of(*found.key),
         checks=tuple(checks_of(found)),
         target_km=target,
     )

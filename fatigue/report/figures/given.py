@@ -70,5 +70,13 @@ def check_one_weld(points: pd.DataFrame) -> None:
         raise _refusal("points", what, "Give the rows of one weld: nodes[nodes['weld'] == name]")
 
 
+def check_point(points: pd.DataFrame, point: tuple[int, int, str], name: str) -> None:
+    """Refuse a part, order and surface that none of some points has."""
+    part, order, surface = point
+    if not ((points["part"] == part) & (points["order"] == order) & (points["surface"] == surface)).any():
+        what = f"no point has the part, order and surface {point!r}"
+        raise _refusal(name, what, "Take them from a row of the points")
+
+
 def _refusal(name: str, what: str, remedy: str) -> DataError:
     return DataError(Problem("figure", name, what, remedy))

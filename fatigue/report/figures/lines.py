@@ -8,7 +8,14 @@ import pandas as pd
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
-from fatigue.report.figures.given import ResultTable, check_one_each, check_one_weld, check_target, frame_of
+from fatigue.report.figures.given import (
+    ResultTable,
+    check_one_each,
+    check_one_weld,
+    check_point,
+    check_target,
+    frame_of,
+)
 from fatigue.report.figures.style import (
     ACCENT,
     DASHES,
@@ -28,7 +35,7 @@ from fatigue.report.figures.style import (
     single,
     upright,
 )
-from fatigue.report.wording import number
+from fatigue.report.wording import life_km
 
 PART_GAP = 0.03  # of the whole length, between the parts of a weld split at its kinks
 LARGEST_FACTOR = 1e3  # load factors beyond are drawn there
@@ -89,6 +96,7 @@ def along_weld(
     data.append(_worst(worst, float(place[at]), float(place[at] / max(place[-1], 1.0))))
     shapes = []
     if marked is not None:
+        check_point(points, marked, "marked")
         here = int(((top["part"] == marked[0]) & (top["order"] == marked[1])).argmax())
         data.append(_marked(points, marked, float(place[here])))
         shapes.append(upright(float(place[here]), ACCENT, 1.5, "solid"))
@@ -162,7 +170,7 @@ def _worst(worst: pd.Series, place: float, along: float) -> Trace:
             "color": INK if worst["fulfilled"] else MISSED,
             "line": {"width": 2},
         },
-        "text": [f"{number(worst['life_km'])} km"],
+        "text": [life_km(worst["life_km"])],
         "textposition": f"{level} {side}",
         "hoverinfo": "skip",
         "cliponaxis": False,

@@ -26,6 +26,7 @@ from fatigue.report.figures.style import (
     upright,
 )
 from fatigue.report.wording import in_figure, number, share
+from fatigue.report.wording import life as life_words
 
 STRIP_CELLS = 120
 _OF_WELDS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "fulfilled")
@@ -43,7 +44,10 @@ def weld_lives(welds: ResultTable, target_km: float, most: int = 30) -> go.Figur
     missed = ~shown["fulfilled"].to_numpy(dtype=bool)
     rows = np.arange(len(shown))
     stems = np.column_stack([np.full(len(life), target_km), life, np.full(len(life), np.nan)]).ravel()
-    facts = [[number(v) for v in row] for row in shown[["life_years", "utilisation", "load_factor"]].to_numpy()]
+    facts = [
+        [life_words(of_point[0]), *(number(value) for value in of_point[1:])]
+        for of_point in shown[["life_years", "utilisation", "load_factor"]].to_numpy()
+    ]
     data: list[Trace] = [
         {
             "type": "scatter",
@@ -63,7 +67,7 @@ def weld_lives(welds: ResultTable, target_km: float, most: int = 30) -> go.Figur
                 "symbol": np.where(missed, "x", "circle").tolist(),
                 "color": np.where(missed, MISSED, ACCENT).tolist(),
             },
-            "text": [number(value) for value in shown["life_km"]],
+            "text": [life_words(value) for value in shown["life_km"]],
             "textposition": ["middle left" if value < target_km else "middle right" for value in life],
             "textfont": {"size": 11},
             "cliponaxis": False,

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fatigue.report.figures.given import ResultTable, check_target, frame_of
 from fatigue.report.figures.style import BODY, PAPER, Trace, axis, drawn_life, figure, life_scale, single
-from fatigue.report.wording import in_figure, number
+from fatigue.report.wording import in_figure, life_km, life_years, number
 
 LABELLED_STATIONS = 20_000  # beyond, texts at every station would outweigh the page
 MOST_ON_PAPER = 20_000
@@ -173,7 +173,7 @@ def _separated(ends: NDArray[np.float64]) -> list[NDArray[np.float32]]:
 def _labels(stations: pd.DataFrame, rows: NDArray[np.int64]) -> list[str]:
     columns = ["weld", "node", "surface", "life_km", "life_years", "utilisation", "load_factor"]
     texts = [
-        f"{in_figure(weld)}, node {node}, {face}<br>life {number(life)} km ({number(years)} years)<br>"
+        f"{in_figure(weld)}, node {node}, {face}<br>life {life_km(life)} ({life_years(years)})<br>"
         f"utilisation {number(utilisation)}, load factor {number(factor)}"
         for weld, node, face, life, years, utilisation, factor in stations[columns].itertuples(index=False)
     ]

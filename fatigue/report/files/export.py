@@ -29,7 +29,7 @@ from fatigue.results.provenance import curves_of_status
 from fatigue.results.tables import table_path
 
 _MOST_ROWS = 1_048_575  # of an Excel sheet, below its header
-_SHEETS = ("nodes", "welds", "sensitivity", "checks")  # tables of the workbook, those of them that a result has
+_SHEETS = ("nodes", "welds", "band", "sensitivity", "checks")  # tables of the workbook, those of them that a result has
 _FIXED_DATE = (1980, 1, 1)  # the same result gives the same bytes
 
 
@@ -133,7 +133,9 @@ _FORMATS = {
     "small": {"num_format": "0.000E+00"},
     "missed": {"font_color": "#B3261E", "bold": True},
 }
-_LARGE = ("life_km", "life_km_dirlik", "life_km_tb", "life_km_same_ratio", "life_km_raw_end", "life_years")
+_LARGE = {  # lives, of which whole kilometres are enough
+    column.name for table in _SHEETS for column in TABLES[table] if "life" in column.name and column.unit in ("km", "a")
+}
 
 
 def _write_sheet(sheet, groups: Iterable[pa.Table], columns: tuple[Column, ...], formats) -> None:  # type: ignore[no-untyped-def]

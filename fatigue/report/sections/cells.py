@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.report.wording import NOT_AVAILABLE, number, share, whole
+from fatigue.report.wording import life as in_words
 from fatigue.shown import shortened
 
 LONGEST_TEXT = 400  # letters of a cell: a name of thousands would be a page of its own
@@ -53,6 +54,11 @@ def num(value: Any) -> Cell:
     """Cell with a number of four digits."""
     missing = value is None or value != value  # noqa: PLR0124
     return Cell(number(value), 2 * _BEYOND if missing else float(np.clip(float(value), -_BEYOND, _BEYOND)))
+
+
+def life(value: Any) -> Cell:
+    """Cell with a life, of three digits."""
+    return Cell(in_words(value), num(value).value)
 
 
 def integer(value: Any, *, grouped: bool = False) -> Cell:

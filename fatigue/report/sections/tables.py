@@ -6,7 +6,19 @@ from typing import Any
 import pandas as pd
 
 from fatigue.report.sections.beside.checks import CHECKS
-from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, linked, num, percent, span, text, verdict
+from fatigue.report.sections.cells import (
+    Cell,
+    Heading,
+    PageTable,
+    integer,
+    life,
+    linked,
+    num,
+    percent,
+    span,
+    text,
+    verdict,
+)
 from fatigue.report.wording import number, size
 
 WELD, FACE, EVENT = (
@@ -15,7 +27,7 @@ WELD, FACE, EVENT = (
     Heading("governing event", numeric=False),
 )
 LIFE = (Heading("life", "km"), Heading("life", "years"), Heading("utilisation", "-"), Heading("load factor", "-"))
-LIFE_COLUMNS = ("life_km", "life_years", "utilisation", "load_factor")
+LIFE_COLUMNS = {"life_km": life, "life_years": life, "utilisation": num, "load_factor": num}
 
 
 def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) -> PageTable:
@@ -24,7 +36,7 @@ def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) ->
         (
             linked(row.weld, links),
             verdict(row.fulfilled),
-            *(num(getattr(row, name)) for name in LIFE_COLUMNS),
+            *(cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
             integer(row.worst_node),
             text(row.worst_surface),
             num(row.worst_arc_length_mm),
@@ -58,8 +70,8 @@ def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: s
             integer(row.node),
             text(row.surface),
             num(row.arc_length_mm),
-            *(num(getattr(row, name)) for name in LIFE_COLUMNS),
-            num(row.life_km_dirlik),
+            *(cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
+            life(row.life_km_dirlik),
             num(row.dirlik_ratio),
             num(row.max_range_MPa),
             num(row.equivalent_range_2e6_MPa),

@@ -11,6 +11,7 @@ from fatigue.report.checks import ShownChecks
 from fatigue.report.result import ShownResult
 from fatigue.report.sections import weld_tables
 from fatigue.report.sections.beside.checks import weld_checks
+from fatigue.report.sections.beside.life_band import band_facts
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.cells import PageTable
 from fatigue.report.sections.curves import all_marked, curve_words, figure_mark, of_toes
@@ -21,6 +22,7 @@ from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.point.figures import cycle_figures, record_figures, shear_figure, why_figures
 from fatigue.report.sections.why import Why, exponents
 from fatigue.report.variants import assumptions_of, variants
+from fatigue.results.beside.life_band import Bands
 
 EVENTS_LISTED = 20
 
@@ -59,6 +61,7 @@ def weld_page(
     why: Why | None,
     spectra: LoadSpectra | None,
     checks: ShownChecks,
+    bands: Bands | None,
     figs: Figures,
     id_: str,
 ) -> WeldPage:
@@ -97,7 +100,11 @@ def weld_page(
         name=weld,
         row=row.to_dict(),
         unverified=bool(unverified),
-        facts=[*weld_tables.facts(point, row, curve_words(row["curve"], result.record)), *shear_facts(point)],
+        facts=[
+            *weld_tables.facts(point, row, curve_words(row["curve"], result.record)),
+            *band_facts(bands, point),
+            *shear_facts(point),
+        ],
         checks=weld_checks(f"{id_}-checks", checks, weld),
         along=along,
         point=shown,

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text
-from fatigue.report.wording import NOT_AVAILABLE, km, listed, number, years
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, life, num, percent, text
+from fatigue.report.wording import NOT_AVAILABLE, life_km, life_years, listed, number
 
 
 def facts(point: pd.Series, row: pd.Series, curve: str) -> list[tuple[str, str]]:
@@ -24,7 +24,7 @@ def facts(point: pd.Series, row: pd.Series, curve: str) -> list[tuple[str, str]]
         ("Place", listed(flags) or "along the line"),
         ("Plate", f"{number(point['thickness_mm'])} mm"),
         ("Curve", f"{curve}, {row['survival']}"),
-        ("Life", f"{km(point['life_km'])} ({years(point['life_years'])})"),
+        ("Life", f"{life_km(point['life_km'])} ({life_years(point['life_years'])})"),
         ("Utilisation, damage", number(point["utilisation"])),
         ("Utilisation, load", number(1.0 / point["load_factor"])),
         ("Load factor to the target", number(point["load_factor"])),
@@ -42,24 +42,24 @@ def facts(point: pd.Series, row: pd.Series, curve: str) -> list[tuple[str, str]]
     ]
 
 
-def _dirlik_life(life_km: float, verdict: str) -> str:
+def _dirlik_life(km: float, verdict: str) -> str:
     """Life by Dirlik's formula, or why there is none."""
-    outside = np.isnan(life_km) and verdict == "outside_band"
-    return "none, the spectra miss too much of the stress" if outside else km(life_km)
+    outside = np.isnan(km) and verdict == "outside_band"
+    return "none, the spectra miss too much of the stress" if outside else life_km(km)
 
 
-def _raw_life(life_km: float) -> str:
+def _raw_life(km: float) -> str:
     """Life without the end treatment, which screening leaves out where it is proven to be long."""
-    return "not counted, proven to be long enough" if np.isnan(life_km) else km(life_km)
+    return "not counted, proven to be long enough" if np.isnan(km) else life_km(km)
 
 
-def variant_table(id_: str, variants: pd.DataFrame, life_km: float, km_per_year: float) -> PageTable:
+def variant_table(id_: str, variants: pd.DataFrame, assessed_km: float, km_per_year: float) -> PageTable:
     """Life with one assumption changed at a time; ``variants`` as ``fatigue.report.variants.variants`` makes them."""
     rows = []
     for assumption, choice, used, factor in variants.itertuples(index=False):
-        life = np.inf if factor == 0.0 else life_km / factor
+        changed_km = np.inf if factor == 0.0 else assessed_km / factor
         marked = Cell(f"{choice} (used)", mark="used") if used else Cell(choice)
-        rows.append((Cell(assumption), marked, num(life), num(life / km_per_year), num(factor)))
+        rows.append((Cell(assumption), marked, life(changed_km), life(changed_km / km_per_year), num(factor)))
     headings = (
         Heading("assumption", numeric=False),
         Heading("choice", numeric=False),
@@ -122,9 +122,9 @@ def lever_table(id_: str, levers: pd.DataFrame) -> PageTable:
             Cell(row.kind.replace("_", " ")),
             percent(row.share),
             num(row.life_exponent),
-            num(row.life_km_estimated),
-            num(row.life_km_counted),
-            num(row.gain_km),
+            life(row.life_km_estimated),
+            life(row.life_km_counted),
+            life(row.gain_km),
         )
         for row in levers.sort_values("rank").itertuples()
     )

@@ -43,14 +43,14 @@
     const types = { f4: Float32Array, f8: Float64Array, i4: Int32Array, u2: Uint16Array, u1: Uint8Array };
     return new types[dtype](bytes.buffer);
   };
-  const digits = (x) => {
+  const digits = (x, most = 4) => {  // as wording.number does
     if (Number.isNaN(x)) return "–";
     if (x > 1e12) return "> 1e12";
     if (x === 0) return "0";
     const size = Math.abs(x);
-    if (size < 1e-3 || size >= 1e9) return x.toExponential(3).replace("e+", "e").replaceAll("-", "−");
-    if (size >= 1e4) return String(Math.round(Number(x.toPrecision(4)))).replace(/\B(?=(\d{3})+$)/g, "\u202f");
-    return x.toPrecision(4).replaceAll("-", "−");
+    if (size < 1e-3 || size >= 1e9) return x.toExponential(most - 1).replace("e+", "e").replaceAll("-", "−");
+    if (size >= 1e4) return String(Math.round(Number(x.toPrecision(most)))).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+    return x.toPrecision(most).replaceAll("-", "−");
   };
   function probe(plot) {
     const points = read("probe-data");
@@ -105,8 +105,8 @@
         ["node", points.node[i]],
         ["face", points.bottom[i] ? "bottom" : "top"],
         ["arc length", digits(points.arc_length_mm[i]) + " mm"],
-        ["life", digits(points.life_km[i]) + " km"],
-        ["", digits(points.life_km[i] / points.km_per_year) + " years"],
+        ["life", digits(points.life_km[i], 3) + " km"],
+        ["", digits(points.life_km[i] / points.km_per_year, 3) + " years"],
         ["utilisation", digits(points.target_km / points.life_km[i])],
         ["load factor", digits(points.load_factor[i])],
         ["Dirlik / rainflow", digits(points.dirlik_ratio[i])],

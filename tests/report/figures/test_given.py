@@ -76,6 +76,10 @@ def test_the_register_may_list_welds_that_are_not_assessed(tables):
         (lambda t: figures.bands_of_welds(["a"], np.ones((2, 1)), pd.DataFrame({"low_hz": [1.0], "high_hz": [2.0]})),
          "shares: 2 values for 1 row"),
         (lambda t: figures.damage_on_track(t["nodes"]), "track: the table lacks the columns start_km"),
+        (lambda t: figures.along_weld(t["points"], TARGET, marked=(1, 99, "top")), "marked: no point has the part"),
+        (lambda t: figures.damage_by_method(t["cycles"], {}), "damage: the table lacks the columns damage_per_pass"),
+        (lambda t: figures.ranges_by_method(t["cycles"], np.ones(3), 1.0), "moments: 3 values for 4 rows"),
+        (lambda t: figures.cycles_close_by([[], []], ["first"], {}), "titles: one value for 2 rows"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_is_refused(tables, draw, words):

@@ -7,7 +7,7 @@ import pandas as pd
 
 from fatigue.report.checks import ShownChecks
 from fatigue.report.result import ShownResult
-from fatigue.report.sections.cells import Cell, Heading, PageTable, linked, num, text
+from fatigue.report.sections.cells import Cell, Heading, PageTable, life, linked, num, text
 from fatigue.report.wording import listed, number, whole
 
 CHECKS: dict[str, str] = {
@@ -95,7 +95,7 @@ def _cells(row: Mapping[str, Any]) -> tuple[Cell, ...]:
         _verdict(row),
         num(row["utilisation_stress"]),
         num(row["utilisation_damage"]),
-        num(row["life_km"]),
+        life(row["life_km"]),
         num(row["range_max_MPa"]),
         text(_place(row)),
         text(row["component"]),
@@ -141,18 +141,18 @@ def _endurance(result: ShownResult, checks: ShownChecks, links: Mapping[str, str
     rows = checks.endurance
     if rows.empty:
         return None
-    life = result.assessed.set_index("weld")[["life_km", "utilisation"]]
+    toes = result.assessed.set_index("weld")[["life_km", "utilisation"]]
     of_points = checks.rows[checks.rows["life_km"].notna() & (checks.rows["point"] != "")]
     shortest = of_points.groupby("point")["life_km"].min()
     cells = []
     for row in _records(rows):
-        miner = life.loc[row["weld"], "life_km"] if row["weld"] in life.index else shortest.get(row["point"])
+        miner = toes.loc[row["weld"], "life_km"] if row["weld"] in toes.index else shortest.get(row["point"])
         cells.append(
             (
                 linked(row["weld"], links) if row["weld"] else text(None),
                 _verdict(row),
                 num(row["utilisation_stress"]),
-                num(miner),
+                life(miner),
                 text(_place(row)),
                 text(row["component"]),
                 text(row["curve"]),

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.report.result import ShownResult
-from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, linked, num, percent, text
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, life, linked, num, percent, text
 from fatigue.report.sections.formation.read import SWINGS, ShownFormation, reason_of
 from fatigue.report.sections.formation.words import follows, place
 from fatigue.report.sections.why import Why
@@ -86,9 +86,9 @@ def _watch_table(of: ShownFormation, links: Mapping[str, str]) -> PageTable | No
             text(row["event"]),
             Cell(place(row), num(row["start_s"]).value),
             percent(row["damage_share"]),
-            num(row["life_km"]),
-            num(row["life_km_without"]),
-            num(row["cost_km"]),
+            life(row["life_km"]),
+            life(row["life_km_without"]),
+            life(row["cost_km"]),
             num(row["utilisation_cost"]),
         )
         for row in of.costly.head(MOST_WATCHED).to_dict("records")

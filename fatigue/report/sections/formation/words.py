@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from fatigue.report.sections.formation.read import ShownFormation, reason_of
-from fatigue.report.wording import km, number, short
+from fatigue.report.wording import life_km, number, short
 
 
 def of_one_weld(of: ShownFormation) -> str:
@@ -43,7 +43,7 @@ def _watched(of: ShownFormation) -> str:
     )
     if not row["cost_km"] <= 1e300:  # infinite: nothing else damages
         return f"{swing}: nothing would damage the point if it followed its load."
-    return f"{swing}: costs {km(row['cost_km'])}, {km(row['life_km_without'])} if it followed its load."
+    return f"{swing}: costs {life_km(row['cost_km'])}, {life_km(row['life_km_without'])} if it followed its load."
 
 
 def follows(of: ShownFormation) -> str:
