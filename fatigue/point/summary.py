@@ -90,11 +90,12 @@ class WrittenHistory:
         widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
         named, *numbers = widths
         events = f"{len(self.events)} event{'s' * (len(self.events) != 1)}"
-        no_toe = [face for face, toe in zip(FACES, self.station.toe, strict=True) if not toe]
+        toes = zip(FACES, self.station.toe, strict=True)
+        bare = "".join(f" (no weld toe on the {face} face)" for face, toe in toes if not toe)
         return "\n".join(
             [
                 f"{self.file}: {self.samples} samples of {events} at {INSTANTS[self.instants]}",
-                f"W{str(self.station)[1:]}{f' (no weld toe on the {no_toe[0]} face)' if no_toe else ''}; stresses in MPa",
+                f"W{str(self.station)[1:]}{bare}; stresses in MPa",
                 "",
                 *("  ".join([row[0].ljust(named), *map(str.rjust, row[1:], numbers)]) for row in rows),
                 "",

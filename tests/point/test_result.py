@@ -252,6 +252,6 @@ def test_a_result_that_was_replaced(tmp_path):
     case.events[1]["stress_factor"] = 2.0
     result_of(case.write(tmp_path / "case"), tmp_path / "result")
     for ask in (lambda: result.nodes, lambda: result.history("A", 2), lambda: result.figure("sn", "A")):
-        with pytest.raises(DataError, match="nodes.parquet"):
+        with pytest.raises(DataError, match=r"nodes\.parquet"):
             ask()
     assert fatigue.open_result(folder).events["stress_factor"].tolist() == [1.0, 2.0, 1.0]
