@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fatigue.errors import DataError
 from fatigue.life.curves import DamageLaw, catalogue, damage_law
 from fatigue.life.rule import cycle_damage
 from fatigue.report import figures
@@ -220,13 +221,15 @@ def test_damage_by_method_is_a_share_of_what_was_counted():
     """Bars add up to the last group; an event without a spectrum is left out."""
     columns = ("damage_per_pass", "damage_same_ratio_per_pass", "damage_dirlik_per_pass", "damage_tb_per_pass")
     rows = [("fast", 1e-6, 2e-6, 1e-6, 3e-6), ("slow", 3e-6, 2e-6, 5e-6, 1e-6), ("load", 9e-6, np.nan, np.nan, np.nan)]
-    fig = figures.damage_by_method(
-        pd.DataFrame(rows, columns=["event", *columns]), {"fast": 2.0, "slow": 1.0, "load": 1}
-    )
+    table, passes_per_km = pd.DataFrame(rows, columns=["event", *columns]), {"fast": 2.0, "slow": 1.0, "load": 1.0}
+    with pytest.raises(DataError, match="passes_per_km: there is none for event 'load'"):
+        figures.damage_by_method(table, {"fast": 2.0, "slow": 1.0})
+    fig = figures.damage_by_method(table, passes_per_km)
     bars = {trace.name: trace.y for trace in fig.data}
     assert list(fig.data[0].x) == ["fast", "slow", "together"]
     assert bars["rainflow"].tolist() == pytest.approx([0.4, 0.6, 1.0])
     assert bars["Dirlik"].tolist() == pytest.approx([0.4, 1.0, 1.4])
+    assert list(figures.damage_by_method(table, passes_per_km, most=1).data[0].x) == ["slow"]
 
 
 @pytest.mark.parametrize("bandwidth", [(9.0, 11.0), (2.0, 40.0)])

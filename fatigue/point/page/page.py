@@ -8,7 +8,7 @@ import numpy as np
 from fatigue.point.page.checked import checks_of
 from fatigue.point.page.gathered import Gathered, listed
 from fatigue.point.page.notes import notes_of
-from fatigue.point.page.tables import cycle_table, domains_table, number_table, verdict_cell
+from fatigue.point.page.tables import cycle_table, domains_table, leading_events, number_table, verdict_cell
 from fatigue.report import figures, wording
 from fatigue.report.of_record import mode_names, target_of, weights_of
 from fatigue.report.page_text import page_text
@@ -32,7 +32,7 @@ from fatigue.report.variants import assumptions_of, variants
 from fatigue.results.provenance import curves_of_status
 
 ROOM = "fatigue.point.page"
-EVENTS_LISTED = 40
+EVENTS_LISTED = 20
 ORDINALS = ("second", "third", "fourth")  # cycles beside the most damaging one
 
 
@@ -86,7 +86,7 @@ def _place(found: Gathered) -> str:
 
 def _tables(found: Gathered) -> dict[str, Any]:
     """What only the page has: its tables, and what is said of levers and trust."""
-    record, why = found.record, found.why
+    record, why, events = found.record, found.why, leading_events(found, EVENTS_LISTED)
     used = assumptions_of(record, found.weld["curve"])
     passes_per_km = weights_of(record)
     of_cycles = variants(found.row, found.cycles, passes_per_km, used)
@@ -94,13 +94,14 @@ def _tables(found: Gathered) -> dict[str, Any]:
     return {
         "cycles": cycle_table(found),
         "cycle_rows": found.cycle_rows,
+        "events_left_out": max(0, len(found.damage) - EVENTS_LISTED),
         "events": weld_tables.event_table("events", found.damage, passes_per_km, EVENTS_LISTED),
         "levers": None if why.levers.empty else weld_tables.lever_table("levers", why.levers),
         "unit_loads": bool(record.get("unit_loads")),
         "exponents": exponents(why),
         "formation": "" if why.formation is None else of_one_weld(why.formation),
-        "domains": domains_table(found),
-        "reasons": why.reasons(),
+        "domains": domains_table(found, events),
+        "reasons": [reason for reason in why.reasons() if reason[0] in events],
         "variants": weld_tables.variant_table("variants", of_cycles, life, km_per_year),
         "numbers": number_table(found),
         "assumptions": assumptions(record),

@@ -1,5 +1,8 @@
 """Tables of the page of a point: its most damaging cycles, both domains event by event, all numbers of its row."""
 
+from collections.abc import Collection
+
+import numpy as np
 import pandas as pd
 
 from fatigue.point.page.gathered import Gathered
@@ -63,12 +66,19 @@ def _renamed(cycles: pd.DataFrame) -> pd.DataFrame:
     return cycles.rename(columns={"count": "count_"})
 
 
-def domains_table(found: Gathered) -> PageTable:
-    """Damage of every event by rainflow and by both estimates, and whether these may be trusted."""
+def leading_events(found: Gathered, most: int) -> list[str]:
+    """The events that damage most, in the order of the mission."""
+    weights = found.damage["event"].map(weights_of(found.record)).astype(float)
+    damage = (found.damage["damage_per_pass"] * weights).to_numpy()
+    return found.damage["event"].iloc[np.sort(np.argsort(-damage, kind="stable")[:most])].tolist()
+
+
+def domains_table(found: Gathered, events: Collection[str]) -> PageTable:
+    """Damage of some events by rainflow and by both estimates, and whether these may be trusted."""
     weights = weights_of(found.record)
     judged = dict(zip(found.why.diagnosis["event"], found.why.diagnosis["verdict"], strict=True))
     rows = []
-    for row in found.damage.itertuples():
+    for row in found.damage[found.damage["event"].isin(events)].itertuples():
         often = weights[row.event]
         ratio = row.damage_dirlik_per_pass / row.damage_same_ratio_per_pass if row.damage_same_ratio_per_pass else None
         rows.append(

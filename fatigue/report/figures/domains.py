@@ -162,11 +162,11 @@ def _names(points: pd.DataFrame) -> list[str]:
     ]
 
 
-def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float]) -> go.Figure:
+def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float], most: int = 8) -> go.Figure:
     """Damage of one point by every method, event by event and in all: over the counted damage of all events together.
 
     ``damage`` has its rows of the table of damage. Events without a spectrum, and sequences, are left out: estimates
-    have nothing of them.
+    have nothing of them. ``most`` events are drawn, those that damage most; together are all of them.
     """
     damage = frame_of(damage, "damage", ("event", *METHODS.values()))
     check_known(damage["event"], passes_per_km, "passes_per_km", "event")
@@ -174,7 +174,8 @@ def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float]) ->
     weights = events["event"].map(passes_per_km).astype(float)
     per_km = events[list(METHODS.values())].astype(float).mul(weights, axis=0)
     total = float(per_km[METHODS["rainflow"]].sum())
-    names = [in_figure(event) for event in events["event"]]
+    drawn = np.sort(np.argsort(-per_km[METHODS["rainflow"]].to_numpy(), kind="stable")[:most])
+    names = [in_figure(event) for event in events["event"].iloc[drawn]]
     bars: list[Trace] = []
     for method, column in METHODS.items():
         parts = per_km[column].to_numpy() / (total or 1.0)
@@ -182,7 +183,7 @@ def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float]) ->
             {
                 "type": "bar",
                 "x": [*names, "together"] if len(names) > 1 else names,
-                "y": single([*parts, parts.sum()] if len(names) > 1 else parts),
+                "y": single([*parts[drawn], parts.sum()] if len(names) > 1 else parts),
                 "name": method,
                 "marker": {"color": METHOD_COLOURS[method]},
                 "hovertemplate": "%{x}: %{y:.1%}",
