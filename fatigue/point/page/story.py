@@ -5,9 +5,11 @@ count, a face without toe, the node that a reviewer asks for. Nothing is written
 """
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from numbers import Integral
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from threadpoolctl import threadpool_limits
 
@@ -79,8 +81,7 @@ def point(
         refuse(DataError, in_the_way(file, folder, record, named, force=force))
         if file.suffix.lower() == ".png":
             find_browser("PNG", INSTEAD)  # before the work, not after it
-    beside = folder if file is None else file.absolute().parent
-    with staged(beside, ".fatigue-point-") as scratch, threadpool_limits(limits=1, user_api="blas"):
+    with _scratch(file) as scratch, threadpool_limits(limits=1, user_api="blas"):
         inputs = reopened(folder, record, scratch, named)
         event_numbers(inputs, event)  # refuses one that there is not
         plan, _ = mission_plan(inputs.body, threads)
@@ -91,6 +92,17 @@ def point(
         if file is not None:
             _show(found, file)
     return replace(summary_of(found), file=file)
+
+
+@contextmanager
+def _scratch(file: Path | None) -> Iterator[Path]:
+    """A folder for what is too large for memory: where the page goes, else that of the system."""
+    if file is not None:
+        with staged(file.absolute().parent, ".fatigue-point-") as beside:
+            yield beside
+        return
+    with TemporaryDirectory(prefix="fatigue-", ignore_cleanup_errors=True) as away:
+        yield Path(away)
 
 
 def _show(found: Gathered, file: Path) -> None:

@@ -222,10 +222,11 @@ def test_records_on_disk_give_the_same_point(results, monkeypatch):
 def test_the_result_stays_as_it_is(results):
     """Nothing is written into its folder, and nothing is left beside the page."""
     folder = results("plain")
-    before = {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
+    before = {path.name: path.stat().st_mtime_ns for path in [folder, *folder.iterdir()]}
     page = folder.parent / "out" / "page.html"
+    point(folder, "A")
     point(folder, "A", output=page)
-    assert {path.name: path.stat().st_mtime_ns for path in folder.iterdir()} == before
+    assert {path.name: path.stat().st_mtime_ns for path in [folder, *folder.iterdir()]} == before
     assert [path.name for path in page.parent.iterdir()] == ["page.html"]
 
 
