@@ -28,18 +28,26 @@ def main(case_file: str, folder: Path) -> None:
     assert_type(fatigue.__version__, str)
     assert_type(write_report(str(folder), case_file), Path)
     print(fatigue.check_case(case_file), fatigue.recount(str(folder), case_file=case_file), diagnose(str(folder)))
+    result: fatigue.Result = fatigue.open_result(str(folder), case_file=case_file)
+    assert_type(result, fatigue.Result)
+    result.history("W", 3, event="tangent", instants="file").to_csv("history.csv")
+    result.cycles("W", node=17, surface="top").describe()
+    result.figure("sn", "W").show()
+    assert_type(result.fulfilled, bool)
     figures.weld_lives(fatigue.read_table(folder, "welds"), 1e7)
     try:
         fatigue.rainflow([0.0], "never")  # wrong
         fatigue.read_table(3, "nodes")  # wrong
         fatigue.nothing()  # wrong
+        result.figure("picture")  # wrong
+        result.history("W", "3")  # wrong
     except FatigueError as error:
         print(error)
 '''
 
 
 def test_a_script_of_a_user_is_checked_strictly(tmp_path):
-    """Its three mistakes are found, and nothing else."""
+    """Its five mistakes are found, and nothing else."""
     path = tmp_path / "script.py"
     path.write_text(SCRIPT)
     done = subprocess.run(

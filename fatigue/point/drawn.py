@@ -5,20 +5,23 @@ from typing import Literal, get_args
 import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
+from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.pipeline.mission.event_load import EventLoad
+from fatigue.pipeline.mission.events import upper_hz
 from fatigue.point.cycles import counted_point, cycle_frame
 from fatigue.point.found import FACES, Station
-from fatigue.point.reopened import Reopened, counted_load, event_numbers, forget
+from fatigue.point.reopened import Reopened, counted_load, event_numbers, forget, sampled_load
 from fatigue.report import figures, stress
 from fatigue.report.of_record import mode_names, target_of, weights_of
+from fatigue.report.sections.point.figures import MODES_DRAWN, MODES_MARKED, SPECTRA_DRAWN
 from fatigue.report.sections.point.worst_cycles import most_damaging
 from fatigue.report.variants import assumptions_of, how_often, laws_of
 from fatigue.results import assessed
 
-PointFigure = Literal["history", "rainflow", "exceedance", "sn"]
-FigureName = Literal["lives", "weld", "history", "rainflow", "exceedance", "sn"]
+PointFigure = Literal["history", "spectrum", "rainflow", "exceedance", "sn"]
+FigureName = Literal["lives", "weld", "history", "spectrum", "rainflow", "exceedance", "sn"]
 
 FIGURES: tuple[str, ...] = get_args(FigureName)
 DS_UNIT = "MPa mm<sup>−0.222</sup>"
@@ -41,8 +44,7 @@ def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int,
     ------
     DataError : no such event, or a point that no event loads
     """
-    if name == "history":
-        event_numbers(inputs, event)  # a sequence has no history
+    event_numbers(inputs, event)  # a sequence is a difference, which no figure shows by itself
     cycles = cycle_frame(inputs, station, face, event)
     if not cycles["range_MPa"].max() > 0.0:
         what = "nothing changes its stress, so it has no cycles to be drawn"
@@ -50,6 +52,8 @@ def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int,
     passes_per_km = weights_of(inputs.record)
     if name == "history":
         return _history(inputs, station, face, cycles)
+    if name == "spectrum":
+        return _spectrum(inputs, station, face, cycles)
     if name == "exceedance":
         return figures.exceedance(cycles, {name: passes_per_km[name] for name in cycles["event"].unique()})
     per_km = how_often(cycles, passes_per_km)
@@ -63,25 +67,69 @@ def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int,
 
 def _history(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> go.Figure:
     """Stress of a face over the event with the most damage among some cycles, its most damaging one close by."""
-    of_events = cycles[cycles["event"].isin(inputs.events)]
-    damage = how_often(of_events, weights_of(inputs.record)) * (of_events["damage"] / of_events["count"])
-    event = str(damage.groupby(of_events["event"], sort=False).sum().idxmax())
-    point = counted_point(inputs, station, face)
-    modal_stress = point.membrane + (1.0 if face == 0 else -1.0) * point.bending
-    (number,) = event_numbers(inputs, event)
-    load = counted_load(inputs, number)
+    event, modal_stress = _leading_event(inputs, cycles), _modal_stress(inputs, station, face)
+    load = counted_load(inputs, inputs.events.index(event))
     record = _record(load)
-    shares = stress.variance_shares(record, modal_stress)
-    leading = np.argsort(-np.abs(shares), kind="stable")[: stress.DOMINANT_MODES].tolist()
+    leading = _leading_modes(stress.variance_shares(record, modal_stress), stress.DOMINANT_MODES)
     envelope = stress.envelope(record, modal_stress)
-    ((start, end),) = most_damaging(of_events, event, 1)
+    ((start, end),) = most_damaging(cycles, event, 1)
     close_by = stress.excerpts(record, modal_stress, start, end, leading)
     forget(load)
     names, _ = mode_names(inputs.record)
     return figures.stress_history(envelope, close_by, names, figures.event_colours(inputs.events)[event])
 
 
+def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> go.Figure:
+    """Stress spectra of a face in the events of some cycles, with the modes that lead in the one with the most damage.
+
+    Raises
+    ------
+    DataError : no record is as long as a segment
+    """
+    leading, modal_stress = _leading_event(inputs, cycles), _modal_stress(inputs, station, face)
+    others = [event for event in inputs.events if event != leading and event in set(cycles["event"])]
+    names, natural = mode_names(inputs.record)
+    spectra: list[stress.StressSpectrum] = []
+    marked: dict[str, tuple[float, float]] = {}
+    case = inputs.body.case
+    for event in (leading, *others[: SPECTRA_DRAWN - 1]):
+        number = inputs.events.index(event)
+        load = sampled_load(inputs, number)
+        record, highest_hz = _record(load), upper_hz(inputs.body, load.counted)
+        found = stress.spectrum(record, modal_stress, case.spectrum.segment_s, highest_hz)
+        if found is not None and case.mission.event[number].history is not None:
+            spectra.append(found)
+        if event == leading:
+            shares, numbers = stress.variance_shares(record, modal_stress), list(names)
+            modes = [(numbers[k], float(shares[k])) for k in _leading_modes(shares, MODES_DRAWN)]
+            normal = [(mode, share) for mode, share in modes if mode in natural][:MODES_MARKED]
+            marked = {f"mode {mode}, {natural[mode]:.4g} Hz": (natural[mode], share) for mode, share in normal}
+        forget(load)
+    if not spectra:
+        what, remedy = "no record is as long as a segment of a spectrum", "Shorten segment_s, or record longer"
+        raise DataError(Problem("no_cycles", f"{station}, {FACES[face]} face", what, remedy))
+    return figures.stress_spectrum(spectra, figures.event_colours(inputs.events), marked, leading)
+
+
+def _leading_event(inputs: Reopened, cycles: pd.DataFrame) -> str:
+    """The event, no sequence, that has the most of the damage of some cycles, each counted as often as it occurs."""
+    of_events = cycles[cycles["event"].isin(inputs.events)]
+    damage = how_often(of_events, weights_of(inputs.record)) * (of_events["damage"] / of_events["count"])
+    return str(damage.groupby(of_events["event"], sort=False).sum().idxmax())
+
+
+def _leading_modes(shares: NDArray[np.float64], most: int) -> list[int]:
+    """Rows of the coordinates with the largest shares of the variance, the largest first."""
+    return [int(row) for row in np.argsort(-np.abs(shares), kind="stable")[:most]]
+
+
+def _modal_stress(inputs: Reopened, station: Station, face: int) -> NDArray[np.float64]:
+    """Structural stress of a face per unit of each coordinate (c,) [MPa]."""
+    point = counted_point(inputs, station, face)
+    return np.asarray(point.membrane + (1.0 if face == 0 else -1.0) * point.bending)
+
+
 def _record(load: EventLoad) -> stress.EventRecord:
-    """An event as it was counted, in the form that figures of histories are made from."""
+    """An event in the form that figures of its record are made from."""
     factor = load.stress_factor
     return stress.EventRecord(load.counted, factor, load.mean, factor**2 * load.covariance, load.offset)

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.errors import CaseError, DataError, Problem, refuse
+from fatigue.pipeline.count.worst import EQUAL
 from fatigue.results import read_codes, read_rows, read_table, read_welds, rows_of_welds
 from fatigue.shown import few, shortened, visible
 
@@ -53,7 +54,7 @@ class Station:
         """The face that decides, 0 the top and 1 the bottom: that with a weld toe, of two the more utilised."""
         if self.toe[0] != self.toe[1]:
             return int(self.toe[1])
-        return int(self.utilisation[1] > self.utilisation[0])
+        return int(self.utilisation[0] < EQUAL * self.utilisation[1])  # of equal ones the top, as the assessment
 
     def face(self, surface: str | None = None) -> int:
         """Number of a face, 0 of ``top`` and 1 of ``bottom``; None: of the one that decides.
@@ -200,14 +201,10 @@ def _welds_with(folder: Path, node: int, but: str) -> list[str]:
 
 
 def _several(stations: pd.DataFrame) -> Problem:
-    """Refusal of a place that several stations of a weld have."""
-    where = f"weld {_quoted(str(stations['weld'].iloc[0]))}"
-    orders, parts = (stations[name].unique().tolist() for name in ("order", "part"))
-    if len(orders) > 1:
-        what = f"the node {stations['node'].iloc[0]} is at the orders {few(orders, MOST_NAMED)}"
-        return Problem("several_points", where, what, f"Give the order: {few(orders, MOST_NAMED)}")
-    what = f"the parts {few(parts, MOST_NAMED)} share the order {orders[0]}, at a corner where the line is split"
-    return Problem("several_points", where, what, f"Give the part: {few(parts, MOST_NAMED)}")
+    """Refusal of a place that several parts of a weld share: a node is on a line once, and a corner ends two parts."""
+    parts, order = few(stations["part"].tolist(), MOST_NAMED), stations["order"].iloc[0]
+    what = f"the parts {parts} share the order {order}, at a corner where the line is split"
+    return Problem("several_points", f"weld {_quoted(str(stations['weld'].iloc[0]))}", what, f"Give the part: {parts}")
 
 
 def _quoted(name: str) -> str:

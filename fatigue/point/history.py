@@ -98,7 +98,8 @@ class EventHistory:
             counted = (_at_vertices(padded) if self.at_vertices else own[0] + SIDES * own[1]) + level
             some = slice(-first % self.every, None, self.every)
             time = self.load.counted.start + step * at[some].astype(np.float64)
-            yield Piece(time, (own + constant)[:, some], counted[:, some])
+            if time.size:
+                yield Piece(time, (own + constant)[:, some], counted[:, some])
             first += own.shape[1]
 
 

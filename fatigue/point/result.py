@@ -20,7 +20,7 @@ from fatigue.errors import CaseError, DataError, Problem, given_names, given_pat
 from fatigue.pipeline.run.inputs import Stamp, stamps_of
 from fatigue.point.cycles import cycle_frame
 from fatigue.point.drawn import FIGURES, FigureName, draw_lives, draw_point, draw_weld
-from fatigue.point.found import Station, find_station, refuse_unknown_weld
+from fatigue.point.found import Station, find_station, meant, refuse_unknown_weld
 from fatigue.point.history import (
     Instants,
     event_histories,
@@ -43,6 +43,7 @@ from fatigue.results import (
     rows_of_welds,
     worst_toes,
 )
+from fatigue.results.dictionary.decided.history import HISTORIES
 from fatigue.results.tables import unknown_columns
 from fatigue.shown import visible
 
@@ -143,6 +144,20 @@ class Result:
         refuse(DataError, unknown_columns(self.folder / f"{name}.parquet", wanted, own))
         return read_rows(self.folder, name, rows, wanted).to_pandas()[wanted]
 
+    def columns(self, name: str) -> pd.DataFrame:
+        """Columns of one of the ``tables``, or of ``history``: ``column``, ``unit``, ``meaning``.
+
+        Raises
+        ------
+        DataError : no such table
+        """
+        known = TABLES | HISTORIES
+        if name not in known:
+            what = f"there is no table {name!r} of a result"
+            raise DataError(Problem("no_table", str(self.folder), what, meant(str(name), list(known))))
+        rows = [(column.name, column.unit, column.meaning) for column in known[name]]
+        return pd.DataFrame(rows, columns=["column", "unit", "meaning"])
+
     def worst(self, top: int = SHOWN, *, weld: str | None = None) -> pd.DataFrame:
         """Rows of ``nodes`` of the points with the shortest lives: counted, with a weld toe; of all welds or of one.
 
@@ -241,7 +256,8 @@ class Result:
         Parameters
         ----------
         name : ``lives`` of all welds; ``weld``: life, load factor and stress along it; of a point its ``history`` with
-            the most damaging cycle close by, its ``rainflow`` matrices, ``exceedance`` of ranges, ``sn`` curve
+            the most damaging cycle close by, its ``spectrum``, ``rainflow`` matrices, ``exceedance`` of ranges and
+            ``sn`` curve with the spectrum of ranges
         weld : by default the worst one
         order, part, node, surface : the point, by default the worst of the weld
         event : of a point; by default all of them, of a history the one with the most damage

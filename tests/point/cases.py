@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from fatigue.assess import assess
-from tests.small_case import SmallCase, small_case
+from tests.small_case import STEP, SmallCase, small_case
 from tests.test_assess import element_form, write_element_form
 from tests.test_sequences import LOOP, empty_and_laden
 from tests.unit_load_case import as_unit_load, write_with_loads
@@ -41,6 +41,19 @@ def loaded(folder: Path, **counting: object) -> Path:
     text += '[[mission.event]]\nname = "stand"\nper_1000_km = 3.0\n'
     text += '[[mission.event.unit_load]]\nname = "push"\nunit = "kN"\nvalues = [0.0, 40.0, -25.0, 0.0]\n'
     path.write_text(text)
+    return path
+
+
+def finer(folder: Path, **counting: object) -> Path:
+    """Mode 7 as a unit load with a file of its own in the random event, four times as fine as the record."""
+    case = plain(2.0, **counting)
+    forces = as_unit_load(case, 7, "push")
+    case.histories["noise"] = case.histories["noise"].drop(columns="u_push")
+    path = write_with_loads(case, folder, forces)
+    t = np.arange(4 * 400 + 1) * STEP / 4
+    pd.DataFrame({"time_s": t, "u_push": 20.0 * np.sin(2 * np.pi * 17.0 * t)}).to_csv(folder / "push.csv", index=False)
+    given = '[[mission.event.unit_load]]\nname = "push"\nunit = "kN"\nhistory = "push.csv"\n'
+    path.write_text(_behind(path.read_text(), "noise", given))
     return path
 
 
@@ -95,6 +108,7 @@ CASES = {
     "vertex, half, upsampled": lambda folder: plain(reversals="vertex", residue="half", upsample=2).write(folder),
     "unit loads": loaded,
     "unit loads at vertices": lambda folder: loaded(folder, reversals="vertex", upsample=2),
+    "finer load": finer,
     "corner": cornered,
     "loop": in_a_loop,
 }

@@ -110,6 +110,33 @@ def test_samples_of_the_file_are_every_fourth_of_what_was_counted(results):
         np.testing.assert_allclose(fine[::4], coarse, rtol=0, atol=1e-9)
 
 
+def test_samples_of_the_file_where_a_load_is_finer(results):
+    """The record was refined for the load; the samples of the file are every fourth, the load read at them."""
+    folder = results("finer load")
+    every, few = (history_of(folder, order=3, event="noise", instants=instants) for instants in ("counted", "file"))
+    record = read_provenance(folder)
+    assert [event["refined"] for event in record["mission"]["events"]][1] == 4
+    q = pd.read_csv(folder.parent / "case" / "noise.csv").query("time_s > 0.9975")
+    np.testing.assert_allclose(few["time_s"], q["time_s"], rtol=0, atol=1e-9)
+    assert len(every) == 4 * len(few)
+    np.testing.assert_allclose(every["membrane_MPa"][::4], few["membrane_MPa"], rtol=0, atol=1e-12)
+    stress = pd.read_parquet(folder / "structural_stress.parquet").query("weld == 'A' and order == 3")
+    push = 20.0 * np.sin(2 * np.pi * 17.0 * q["time_s"].to_numpy())
+    rows = stress.set_index("mode")["membrane_MPa"]
+    by_hand = rows.loc[1] * q["q_1"] + rows.loc[2] * q["q_2"] + rows[rows.index.isna()].item() * push
+    np.testing.assert_allclose(few["membrane_MPa"], 1.3 * by_hand, rtol=0, atol=1e-9)
+
+
+def test_a_last_piece_without_a_sample_of_the_file(results, monkeypatch):
+    """Pieces may be shorter than the samples of the file are apart; none of them is empty, and none is lost."""
+    folder = results("finer load")
+    whole = history_of(folder, event="noise", instants="file")
+    monkeypatch.setattr(story, "PIECE", 1)
+    monkeypatch.setattr("fatigue.life.records.history.CACHED_NUMBERS", 1)
+    monkeypatch.setattr("fatigue.life.records.history.SHORTEST_CHUNK", 3)
+    pd.testing.assert_frame_equal(history_of(folder, event="noise", instants="file"), whole, rtol=1e-12, atol=1e-12)
+
+
 def test_vertices_stand_beside_the_samples(results):
     """What was counted differs from the samples at reversals only, and reaches beyond them by an eighth of a step."""
     folder = results("vertex")

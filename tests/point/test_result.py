@@ -4,9 +4,11 @@ import gc
 import os
 import shutil
 
+import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
 import pytest
+from scipy.signal import welch
 
 import fatigue
 from fatigue.errors import CaseError, DataError
@@ -14,6 +16,7 @@ from fatigue.point import result as module
 from fatigue.point.drawn import FIGURES
 from tests.older_result import without_hashes
 from tests.point.cases import plain, result_of
+from tests.small_case import STEP
 
 
 @pytest.fixture(scope="module")
@@ -72,6 +75,17 @@ def test_tables_are_those_of_the_folder(opened, small_result):
     assert set(opened.worst(3, weld="B")["weld"]) == {"B"}
 
 
+def test_what_a_column_means(opened):
+    """Of every table that a result may have, and of a history."""
+    nodes = opened.columns("nodes").set_index("column")
+    assert list(nodes.index) == list(opened.nodes.columns)
+    assert tuple(nodes.loc["life_km"]) == ("km", nodes.loc["life_km", "meaning"])
+    history = opened.columns("history")["column"].tolist()
+    assert history[: len(opened.history("A", 3).columns)] == list(opened.history("A", 3).columns)
+    with pytest.raises(DataError, match=r"there is no table 'node' of a result\. Name 'nodes'"):
+        opened.columns("node")
+
+
 def test_one_point(opened, small_result):
     """By order, by node, at a face; by default the worst of the weld."""
     nodes = pd.read_parquet(small_result / "nodes.parquet")
@@ -111,6 +125,20 @@ def test_figures_of_one_event(opened):
     assert times == pytest.approx([11.98, 11.98], abs=0.03)
     drawn = {trace.name for trace in opened.figure("exceedance", "A", event="noise").data}
     assert drawn == {"mission", "noise"}
+
+
+def test_a_spectrum_is_that_of_the_history(opened):
+    """As scipy has it; modes are marked, events are named; a record shorter than a segment has none."""
+    drawn = opened.figure("spectrum", "A", 3, surface="top")
+    noise = next(trace for trace in drawn.data if trace.name == "noise")
+    stress = opened.history("A", 3, event="noise")["structural_top_MPa"].to_numpy()
+    frequency, density = welch(stress, 1.0 / STEP, nperseg=round(1.0 / STEP))
+    shown = len(noise.x) + 1
+    np.testing.assert_allclose(noise.x, frequency[1:shown], rtol=1e-6)
+    np.testing.assert_allclose(noise.y, density[1:shown], rtol=1e-4)
+    assert any("mode 1, 5 Hz" in note.text for note in drawn.layout.annotations)
+    with pytest.raises(DataError, match=r"no record is as long as a segment of a spectrum\. Shorten segment_s"):
+        opened.figure("spectrum", "A", event="load and unload")
 
 
 @pytest.mark.parametrize(
@@ -201,7 +229,7 @@ def test_a_point_that_nothing_moves(tmp_path):
     case = plain(2.0)
     case.nodal_forces.loc[case.nodal_forces["weld"] == "B", ["fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"]] = 0
     result = fatigue.open_result(result_of(case.write(tmp_path / "case"), tmp_path / "result"))
-    for name in ("history", "rainflow", "exceedance", "sn"):
+    for name in ("history", "spectrum", "rainflow", "exceedance", "sn"):
         with pytest.raises(DataError, match="nothing changes its stress, so it has no cycles to be drawn"):
             result.figure(name, "B")
     assert result.history("B")["structural_top_MPa"].abs().max() == 0.0
